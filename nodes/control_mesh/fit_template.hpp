@@ -1,0 +1,20 @@
+/// Template + body + landmarks -> control mesh (P1 §3.3, P2 §3).
+#pragma once
+
+#include "control_mesh/template.hpp"
+#include "geometry/body_measures.hpp"
+#include "geometry/control_mesh.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::control_mesh {
+
+/// Field defaults are the parameters' defaults.
+struct Options {
+  int control_triangles = 120;  ///< at least; the template is subdivided (x4) until it has that many
+};
+
+/// \throw Refusal missing_part:<landmark>, not_a_body, bad_option
+geometry::ControlMesh fit_template(const Template& pattern, const geometry::TriangleMesh& body,
+                                   const geometry::BodyMeasures& measures, const Options& options);
+
+}  // namespace tensegric_fit::control_mesh

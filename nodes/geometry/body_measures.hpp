@@ -1,0 +1,52 @@
+/// What is known about a body: landmarks, heights, girths.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+namespace tensegric_fit::geometry {
+
+/// A point on the body, in the scan's frame, metres. Confidence 0 to 1; `reason` says why when it is below 0.5.
+/// Names: bust_point_L, bust_point_R, underbust_L, underbust_R, shoulder_L, shoulder_R, neck_front, neck_back,
+/// neck_side_L, neck_side_R, axilla_L, axilla_R, crotch, navel, buttock_L, buttock_R.
+struct Landmark {
+  std::string name;
+  Eigen::Vector3d position;
+  double confidence;
+  std::string reason;
+};
+
+/// A height above the soles or a girth, metres. Heights: bust, underbust, waist, hip, crotch, neck, stature.
+/// Girths: bust, underbust, waist, hip, neck, and where found upper_arm_L/R, thigh_L/R.
+struct Measure {
+  std::string name;
+  double metres;
+  double confidence;
+  std::string reason;
+};
+
+/// The tape of a girth as drawn: a closed loop in the scan's frame.
+struct GirthLoop {
+  std::string name;
+  std::vector<Eigen::Vector3d> points;
+};
+
+/// Names after ISO 8559-1; definitions in the README of the landmarks.
+struct BodyMeasures {
+  /// Takes the scan's frame to the body's (REP 103: x forward, y to her left, z up, origin on the floor between the feet).
+  Eigen::Isometry3d body_from_scan = Eigen::Isometry3d::Identity();
+  std::vector<Landmark> landmarks;
+  std::vector<Measure> heights;
+  std::vector<Measure> girths;
+  std::vector<GirthLoop> loops;
+
+  /// Null where the landmark was not found.
+  const Landmark* find_landmark(const std::string& name) const;
+  /// Position in the scan's frame. \throw Refusal missing_part:<name>
+  const Eigen::Vector3d& landmark(const std::string& name) const;
+  /// Height above the soles. \throw Refusal missing_part:<name>
+  double height(const std::string& name) const;
+};
+
+}  // namespace tensegric_fit::geometry

@@ -1,0 +1,59 @@
+/// The control mesh: what the tensegric model stands on and t-FFD is driven by (P1 §3.3, Fig. 4).
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::geometry {
+
+/// A constraining line (P1 §3.5): the outer nodes that it runs over, in order.
+struct ControlLine {
+  std::string name;
+  std::vector<int> nodes;
+};
+
+/// A part of the control mesh whose volume is kept by itself (P2 §2.3).
+struct ControlRegion {
+  std::string name;
+  std::vector<int> triangles;
+};
+
+/// Outer nodes lie on the skin, inner node i lies below outer node i (P2 §2.1, "the supposed thickness of a soft tissue").
+/// All per-node arrays have one entry an outer node. Metres, the scan's frame; triangles counter-clockwise from outside.
+struct ControlMesh {
+  std::vector<Eigen::Vector3d> outer;
+  std::vector<Eigen::Vector3d> inner;
+  std::vector<Eigen::Vector3i> triangles;
+  std::vector<char> outer_fixed;
+  std::vector<char> inner_fixed;
+  std::vector<std::string> names;  ///< empty where a node has no name
+  std::vector<ControlRegion> regions;
+  std::vector<ControlLine> lines;
+
+  /// Index of the outer node of that name, or -1.
+  int node(const std::string& name) const;
+};
+
+/// \throw Refusal bad_mesh: sizes that do not fit each other, indices out of range, no region, a non-manifold edge.
+void check_control_mesh(const ControlMesh& control);
+
+/// The region's own triangles.
+std::vector<Eigen::Vector3i> region_triangles(const ControlMesh& control, const ControlRegion& region);
+
+/// The fixed apex of the region's tetrahedra: the centre of gravity of its outer nodes at rest (P1 §3.4).
+Eigen::Vector3d region_apex(const ControlMesh& control, const ControlRegion& region);
+
+/// Volume of the region with its outer nodes at `outer`, m^3, from the apex at rest.
+double region_volume(const ControlMesh& control, const ControlRegion& region, const std::vector<Eigen::Vector3d>& outer);
+
+/// Nodes along the shortest way over the mesh's edges that visits `stops` in order; ties go to the lower index.
+/// \throw Refusal unknown_line: two stops are in parts of the mesh that no edge joins.
+std::vector<int> route_over_edges(const ControlMesh& control, const std::vector<int>& stops);
+
+/// Length of an open line over the nodes at `positions`.
+double line_length(const std::vector<int>& nodes, const std::vector<Eigen::Vector3d>& positions);
+
+}  // namespace tensegric_fit::geometry

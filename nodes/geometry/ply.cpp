@@ -1,0 +1,96 @@
+#include "geometry/ply.hpp"
+
+#include <pcl/PolygonMesh.h>
+#include <pcl/console/print.h>
+#include <pcl/io/ply_io.h>
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "geometry/point_cloud.hpp"
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::geometry {
+namespace {
+
+// PCL allocates what a header promises; a header that promises more than the file can hold is broken.
+void check_header(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Refusal(refusal::kBrokenFile, path + ": cannot be read");
+  std::string line;
+  if (!std::getline(file, line) || line.compare(0, 3, "ply") != 0)
+    throw Refusal(refusal::kBrokenFile, path + ": is not a PLY file");
+  const auto size = std::filesystem::file_size(path);
+  constexpr int kHeaderLines = 1000;
+  for (int i = 0; i < kHeaderLines && std::getline(file, line); ++i) {
+    if (line.compare(0, 10, "end_header") == 0) return;
+    std::istringstream words(line);
+    std::string element, name;
+    unsigned long long count = 0;
+    if (words >> element >> name >> count && element == "element" && count > size)
+      throw Refusal(refusal::kBrokenFile, path + ": is shorter than its header says");
+  }
+  throw Refusal(refusal::kBrokenFile, path + ": has no whole PLY header");
+}
+
+}  // namespace
+
+void read_ply(const std::string& path, pcl::PolygonMesh& mesh) {
+  check_header(path);
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // what it would print is in the refusal
+  int result = -1;
+  try {
+    result = pcl::PLYReader().read(path, mesh);
+  } catch (const std::exception&) {
+  }
+  if (result < 0) throw Refusal(refusal::kBrokenFile, path + ": is truncated or is not a PLY file");
+}
+
+TriangleMesh read_ply_mesh(const std::string& path) {
+  pcl::PolygonMesh file;
+  read_ply(path, file);
+  TriangleMesh mesh;
+  mesh.vertices = points_of(file.cloud).points;
+  for (const pcl::Vertices& polygon : file.polygons) {
+    const auto& v = polygon.vertices;
+    for (std::size_t k = 2; k < v.size(); ++k)
+      mesh.triangles.emplace_back(static_cast<int>(v[0]), static_cast<int>(v[k - 1]), static_cast<int>(v[k]));
+  }
+  if (mesh.vertices.empty() || mesh.triangles.empty())
+    throw Refusal(refusal::kBadMesh, path + ": holds no triangles");
+  check_mesh(mesh);
+  return mesh;
+}
+
+void write_ply_mesh(const std::string& path, const TriangleMesh& mesh,
+                    const std::vector<std::array<std::uint8_t, 3>>& colours) {
+  const bool coloured = colours.size() == mesh.vertices.size() && !colours.empty();
+  const std::string unfinished = path + ".part";
+  {
+    std::ofstream file(unfinished, std::ios::binary | std::ios::trunc);
+    file << "ply\nformat binary_little_endian 1.0\ncomment tensegric_fit, metres\nelement vertex "
+         << mesh.vertices.size() << "\nproperty float x\nproperty float y\nproperty float z\n";
+    if (coloured) file << "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    file << "element face " << mesh.triangles.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      const Eigen::Vector3f p = mesh.vertices[v].cast<float>();
+      file.write(reinterpret_cast<const char*>(p.data()), 3 * sizeof(float));
+      if (coloured) file.write(reinterpret_cast<const char*>(colours[v].data()), 3);
+    }
+    for (const Eigen::Vector3i& t : mesh.triangles) {
+      file.put(3);
+      file.write(reinterpret_cast<const char*>(t.data()), 3 * sizeof(int));
+    }
+    file.flush();
+    if (!file) {
+      std::remove(unfinished.c_str());
+      throw std::runtime_error(path + ": cannot be written");
+    }
+  }
+  std::filesystem::rename(unfinished, path);
+}
+
+}  // namespace tensegric_fit::geometry

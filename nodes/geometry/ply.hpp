@@ -1,0 +1,30 @@
+/// PLY files of meshes: the only mesh format that the product reads and writes.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace pcl {
+struct PolygonMesh;
+}
+
+namespace tensegric_fit::geometry {
+
+/// Reads a PLY of points or of a mesh as it stands: ASCII or binary of either byte order.
+/// \throw Refusal broken_file: not there, truncated, not PLY
+void read_ply(const std::string& path, pcl::PolygonMesh& mesh);
+
+/// Reads a mesh; faces with more than three corners are fanned. \throw Refusal broken_file, wrong_fields, bad_mesh
+TriangleMesh read_ply_mesh(const std::string& path);
+
+/// Writes binary little-endian, float32 coordinates; `colours` is empty or has one RGB triple a vertex.
+/// The file appears whole or not at all. \throw std::runtime_error where it cannot be written
+void write_ply_mesh(const std::string& path, const TriangleMesh& mesh,
+                    const std::vector<std::array<std::uint8_t, 3>>& colours = {});
+
+}  // namespace tensegric_fit::geometry

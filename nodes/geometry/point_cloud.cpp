@@ -1,0 +1,83 @@
+#include "geometry/point_cloud.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::geometry {
+namespace {
+
+using Field = pcl::PCLPointField;
+
+template <typename T>
+double value_at(const std::uint8_t* from, bool swap) {
+  std::uint8_t bytes[sizeof(T)];
+  std::memcpy(bytes, from, sizeof(T));
+  if (swap) std::reverse(bytes, bytes + sizeof(T));
+  T value;
+  std::memcpy(&value, bytes, sizeof(T));
+  return static_cast<double>(value);
+}
+
+std::size_t size_of(const Field& field) { return field.datatype == Field::FLOAT64 ? 8 : 4; }
+
+const Field* find_field(const pcl::PCLPointCloud2& cloud, const std::string& name) {
+  const auto found = std::find_if(cloud.fields.begin(), cloud.fields.end(), [&](const Field& field) {
+    return field.name == name && (field.datatype == Field::FLOAT32 || field.datatype == Field::FLOAT64);
+  });
+  return found == cloud.fields.end() ? nullptr : &*found;
+}
+
+std::optional<std::array<const Field*, 3>> find_fields(const pcl::PCLPointCloud2& cloud,
+                                                       const std::array<const char*, 3>& names) {
+  std::array<const Field*, 3> fields;
+  for (int i = 0; i < 3; ++i) {
+    fields[i] = find_field(cloud, names[i]);
+    if (fields[i] == nullptr) return std::nullopt;
+    if (fields[i]->offset + size_of(*fields[i]) > cloud.point_step)
+      throw Refusal(refusal::kWrongFields, "field '" + fields[i]->name + "' lies outside the point step");
+  }
+  return fields;
+}
+
+std::vector<Eigen::Vector3d> triples(const pcl::PCLPointCloud2& cloud, const std::array<const Field*, 3>& fields) {
+  const bool host_is_big = pcl::PCLPointCloud2().is_bigendian != 0;
+  const bool swap = (cloud.is_bigendian != 0) != host_is_big;
+  std::vector<Eigen::Vector3d> result;
+  result.reserve(static_cast<std::size_t>(cloud.width) * cloud.height);
+  for (std::size_t row = 0; row < cloud.height; ++row) {
+    for (std::size_t column = 0; column < cloud.width; ++column) {
+      const std::uint8_t* point = cloud.data.data() + row * cloud.row_step + column * cloud.point_step;
+      Eigen::Vector3d value;
+      for (int i = 0; i < 3; ++i) {
+        const std::uint8_t* from = point + fields[i]->offset;
+        value[i] = fields[i]->datatype == Field::FLOAT64 ? value_at<double>(from, swap) : value_at<float>(from, swap);
+      }
+      result.push_back(value);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+PointCloud points_of(const pcl::PCLPointCloud2& cloud) {
+  const auto xyz = find_fields(cloud, {"x", "y", "z"});
+  if (!xyz) throw Refusal(refusal::kWrongFields, "the cloud has no fields x, y, z of type float32 or float64");
+  if (cloud.width != 0 && cloud.height != 0) {
+    const std::size_t row = static_cast<std::size_t>(cloud.width) * cloud.point_step;
+    const std::size_t needed = static_cast<std::size_t>(cloud.height - 1) * cloud.row_step + row;
+    if ((cloud.height > 1 && cloud.row_step < row) || cloud.data.size() < needed)
+      throw Refusal(refusal::kBrokenFile, "the cloud's data are shorter than its width, height and steps say");
+  }
+  auto normals = find_fields(cloud, {"normal_x", "normal_y", "normal_z"});
+  if (!normals) normals = find_fields(cloud, {"nx", "ny", "nz"});
+  PointCloud result;
+  result.points = triples(cloud, *xyz);
+  if (normals) result.normals = triples(cloud, *normals);
+  return result;
+}
+
+}  // namespace tensegric_fit::geometry

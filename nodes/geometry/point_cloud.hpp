@@ -1,0 +1,22 @@
+/// Points of a scan, as every stage sees them.
+#pragma once
+
+#include <pcl/PCLPointCloud2.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace tensegric_fit::geometry {
+
+/// Points in metres, in the scan's frame. `normals` is empty or has one unit vector a point.
+struct PointCloud {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> normals;
+};
+
+/// The x, y, z (and normal_x, normal_y, normal_z or nx, ny, nz where all three are there) of a cloud, float32 or float64, in
+/// either byte order, whatever other fields, padding or organisation it has. Nothing is dropped: NaN stay NaN.
+/// \throw Refusal wrong_fields: no x, y, z of a floating type; broken_file: the data are shorter than the layout says
+PointCloud points_of(const pcl::PCLPointCloud2& cloud);
+
+}  // namespace tensegric_fit::geometry

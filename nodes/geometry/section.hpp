@@ -1,0 +1,34 @@
+/// Plane sections of a mesh and the tape measure.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::geometry {
+
+/// A polyline where a plane cuts a mesh. Closed ones do not repeat their first point.
+/// `triangles[i]` is the triangle that holds the segment from points[i] to the next point.
+struct SectionLoop {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<int> triangles;
+  bool closed;
+};
+
+/// All loops of the plane through `origin` with unit normal `normal`, in a fixed order. A vertex that lies on the plane
+/// counts as above it, so the section is always a set of simple polylines. Closed loops run counter-clockwise seen from
+/// the tip of `normal` round material that is inside.
+std::vector<SectionLoop> plane_section(const TriangleMesh& mesh, const Eigen::Vector3d& origin,
+                                       const Eigen::Vector3d& normal);
+
+/// Length of a polyline, with the closing segment if closed. Metres.
+double length_of(const std::vector<Eigen::Vector3d>& points, bool closed);
+
+/// Convex hull in a plane, counter-clockwise, without collinear points.
+std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points);
+
+/// Convex hull of points near a plane, as a loop in 3D: a tape pulled round them. \pre normal is a unit vector
+std::vector<Eigen::Vector3d> tape(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& normal);
+
+}  // namespace tensegric_fit::geometry

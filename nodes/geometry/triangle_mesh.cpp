@@ -1,0 +1,167 @@
+#include "geometry/triangle_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <tuple>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::geometry {
+namespace {
+
+struct HalfEdge {
+  int low, high;
+  bool forward;  // runs from low to high
+  int triangle;
+};
+
+std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh) {
+  std::vector<HalfEdge> halves;
+  halves.reserve(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+      halves.push_back({std::min(a, b), std::max(a, b), a < b, static_cast<int>(t)});
+    }
+  }
+  std::sort(halves.begin(), halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
+    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+  });
+  return halves;
+}
+
+}  // namespace
+
+void check_mesh(const TriangleMesh& mesh) {
+  for (const Eigen::Vector3d& v : mesh.vertices)
+    if (!v.allFinite()) throw Refusal(refusal::kNonFinite, "the mesh has a vertex that is not finite");
+  const int count = static_cast<int>(mesh.vertices.size());
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    if (t.minCoeff() < 0 || t.maxCoeff() >= count)
+      throw Refusal(refusal::kBadMesh, "a triangle names a vertex that the mesh does not have");
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+      throw Refusal(refusal::kBadMesh, "a triangle has two equal corners");
+  }
+}
+
+std::vector<Eigen::Vector3d> vertex_normals(const std::vector<Eigen::Vector3d>& vertices,
+                                            const std::vector<Eigen::Vector3i>& triangles) {
+  std::vector<Eigen::Vector3d> normals(vertices.size(), Eigen::Vector3d::Zero());
+  for (const Eigen::Vector3i& t : triangles) {
+    const Eigen::Vector3d n = area_vector(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
+    for (int k = 0; k < 3; ++k) normals[t[k]] += n;
+  }
+  for (Eigen::Vector3d& n : normals) {
+    const double length = n.norm();
+    if (length > 0) n /= length;
+  }
+  return normals;
+}
+
+double cone_volume(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Eigen::Vector3i>& triangles,
+                   const Eigen::Vector3d& apex) {
+  double six_volumes = 0;
+  for (const Eigen::Vector3i& t : triangles)
+    six_volumes += (vertices[t[0]] - apex).dot((vertices[t[1]] - apex).cross(vertices[t[2]] - apex));
+  return six_volumes / 6;
+}
+
+std::vector<Edge> edges_of(const TriangleMesh& mesh) {
+  const std::vector<HalfEdge> halves = sorted_half_edges(mesh);
+  std::vector<Edge> edges;
+  edges.reserve(halves.size() / 2 + 1);
+  for (std::size_t i = 0; i < halves.size();) {
+    const HalfEdge& h = halves[i];
+    std::size_t end = i + 1;
+    while (end < halves.size() && halves[end].low == h.low && halves[end].high == h.high) ++end;
+    if (end - i > 2) throw Refusal(refusal::kBadMesh, "an edge of the mesh has more than two triangles");
+    if (end - i == 2 && h.forward == halves[i + 1].forward)
+      throw Refusal(refusal::kBadMesh, "two neighbouring triangles of the mesh are oriented against each other");
+    Edge edge{h.low, h.high, -1, -1};
+    for (std::size_t j = i; j < end; ++j) (halves[j].forward ? edge.left : edge.right) = halves[j].triangle;
+    if (edge.left < 0) std::swap(edge.left, edge.right);  // a boundary edge that its triangle runs from high to low
+    edges.push_back(edge);
+    i = end;
+  }
+  return edges;
+}
+
+bool is_closed(const TriangleMesh& mesh) {
+  const std::vector<HalfEdge> halves = sorted_half_edges(mesh);
+  if (halves.empty() || halves.size() % 2 != 0) return false;
+  for (std::size_t i = 0; i < halves.size(); i += 2) {
+    const HalfEdge &a = halves[i], &b = halves[i + 1];
+    if (a.low != b.low || a.high != b.high || a.forward == b.forward) return false;
+    if (i + 2 < halves.size() && halves[i + 2].low == a.low && halves[i + 2].high == a.high) return false;
+  }
+  return true;
+}
+
+std::vector<std::vector<int>> neighbours_of(std::size_t vertex_count, const std::vector<Eigen::Vector3i>& triangles) {
+  std::vector<std::vector<int>> neighbours(vertex_count);
+  for (const Eigen::Vector3i& t : triangles) {
+    for (int k = 0; k < 3; ++k) {
+      neighbours[t[k]].push_back(t[(k + 1) % 3]);
+      neighbours[t[k]].push_back(t[(k + 2) % 3]);
+    }
+  }
+  for (std::vector<int>& list : neighbours) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return neighbours;
+}
+
+std::vector<int> components_of(const TriangleMesh& mesh) {
+  std::vector<int> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&parent](int v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    for (int k = 1; k < 3; ++k) {
+      const int a = root(t[0]), b = root(t[k]);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::vector<int> number(mesh.vertices.size(), -1), component(mesh.triangles.size());
+  int count = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const int r = root(mesh.triangles[t][0]);
+    if (number[r] < 0) number[r] = count++;
+    component[t] = number[r];
+  }
+  return component;
+}
+
+TriangleMesh submesh(const TriangleMesh& mesh, const std::vector<char>& keep) {
+  std::vector<int> index(mesh.vertices.size(), -1);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (keep[t])
+      for (int k = 0; k < 3; ++k) index[mesh.triangles[t][k]] = 0;
+  TriangleMesh result;
+  for (std::size_t v = 0; v < index.size(); ++v) {
+    if (index[v] < 0) continue;
+    index[v] = static_cast<int>(result.vertices.size());
+    result.vertices.push_back(mesh.vertices[v]);
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Eigen::Vector3i& old = mesh.triangles[t];
+    if (keep[t]) result.triangles.emplace_back(index[old[0]], index[old[1]], index[old[2]]);
+  }
+  return result;
+}
+
+std::array<Eigen::Vector3d, 2> bounding_box(const std::vector<Eigen::Vector3d>& points) {
+  std::array<Eigen::Vector3d, 2> box{points.front(), points.front()};
+  for (const Eigen::Vector3d& p : points) {
+    box[0] = box[0].cwiseMin(p);
+    box[1] = box[1].cwiseMax(p);
+  }
+  return box;
+}
+
+}  // namespace tensegric_fit::geometry

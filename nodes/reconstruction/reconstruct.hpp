@@ -1,0 +1,35 @@
+/// Points of a scan -> closed body mesh (DESIGN §6).
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "geometry/point_cloud.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::reconstruction {
+
+/// Field defaults are the parameters' defaults.
+struct Options {
+  int body_triangles = 62000;  ///< triangles of the body mesh, the size in the papers
+  int poisson_depth = 8;       ///< octree depth of the screened Poisson reconstruction
+};
+
+/// A hole of the scan that was closed.
+struct Hole {
+  Eigen::Vector3d centre;  ///< scan frame, metres
+  double area;             ///< of the filling, m^2
+};
+
+struct BodyMesh {
+  geometry::TriangleMesh mesh;  ///< closed, manifold, outward, scan frame
+  std::vector<char> filled;     ///< per vertex: 1 where no point of the scan supports it
+  std::vector<Hole> holes;      ///< largest first
+  std::size_t points_used = 0;  ///< points of the body, after floor, frame and outliers
+};
+
+/// \throw Refusal empty_cloud, non_finite, too_few_points, wrong_unit, not_a_body, bad_option ...
+BodyMesh reconstruct(const geometry::PointCloud& scan, const Options& options);
+
+}  // namespace tensegric_fit::reconstruction

@@ -1,0 +1,37 @@
+/// Garments: constraining lines with neutral lengths and tension laws (P1 §3.5, P2 §4; DESIGN §3 and §4).
+#pragma once
+
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tensegric_fit::tensegric {
+
+/// How the one tension T along a line follows from its length L and neutral length l. A line never pushes.
+struct TensionLaw {
+  enum class Kind { rigid, stiffness, table };
+  Kind kind = Kind::rigid;                      ///< rigid: L <= l exactly
+  double stiffness = 0;                         ///< T = stiffness * max(0, L/l - 1), pseudo force
+  std::vector<std::pair<double, double>> table; ///< (L/l, T), both ascending, linear in between
+};
+
+struct GarmentLine {
+  std::string name;
+  double ratio = 1;  ///< neutral length / length at rest
+  TensionLaw law;
+  double tension_limit = std::numeric_limits<double>::infinity();  ///< pseudo force
+  std::vector<std::string> through;  ///< names of control nodes; empty: the control mesh's own line of this name
+  bool taut = false;                 ///< straight from stop to stop; else over the control mesh's edges
+};
+
+struct Garment {
+  std::string name;
+  std::vector<std::string> regions;
+  std::vector<GarmentLine> lines;
+};
+
+/// \throw Refusal bad_garment naming file and key
+Garment load_garment(const std::string& path);
+
+}  // namespace tensegric_fit::tensegric

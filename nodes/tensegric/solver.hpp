@@ -1,0 +1,72 @@
+/// One interface to the three solvers (P1 §3.1, P2 §5, DESIGN §4).
+#pragma once
+
+#include <Eigen/Core>
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tensegric/garment.hpp"
+#include "tensegric/model.hpp"
+
+namespace tensegric_fit::tensegric {
+
+enum class SolverName { equilibrium, adaptive, relaxation };
+enum class Status { converged, infeasible, capped, oscillating, diverged };
+
+std::string to_string(SolverName name);
+std::string to_string(Status status);
+/// \throw Refusal bad_option naming the word and the choices
+SolverName solver_from(const std::string& word);
+
+struct LineResult {
+  std::string name;
+  double initial = 0, neutral = 0, final = 0;  ///< lengths, m
+  double request = 1;                          ///< neutral / initial
+  double tension = 0;                          ///< pseudo force
+};
+
+struct RegionResult {
+  std::string name;
+  double volume_before = 0, volume_after = 0;  ///< of the control region, m^3
+};
+
+/// One row of P2 Fig. 11. `residual` is relative to the mean tensile force at rest.
+struct Iterate {
+  int iteration = 0;
+  std::vector<double> line_ratios;          ///< length / length at rest, one a line of the garment
+  std::vector<double> volume_errors;        ///< (V - V0) / V0, one a region
+  std::vector<Eigen::Vector3d> tracked;     ///< the control nodes in SolverOptions::track
+  double residual = 0;
+};
+
+/// Field defaults are the parameters' defaults.
+struct SolverOptions {
+  SolverName solver = SolverName::equilibrium;
+  int max_iterations = 0;                              ///< 0: the solver's own cap
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();   ///< pseudo force on each outer node, scan frame
+  std::vector<int> track;                              ///< outer nodes whose way is written into the history
+};
+
+struct Solution {
+  std::vector<Eigen::Vector3d> outer, inner;  ///< deformed, scan frame, one an outer node
+  std::vector<LineResult> lines;
+  std::vector<RegionResult> regions;
+  Status status = Status::capped;
+  int iterations = 0;
+  double residual = 0;
+  std::vector<Iterate> history;
+  std::string note;  ///< a sentence for people where the status or the shape needs one
+};
+
+/// Called after each iteration with the state as it stands; return false to cancel (status capped).
+using Progress = std::function<bool(const Iterate&, const std::vector<Eigen::Vector3d>& outer)>;
+
+/// Deforms the model under the garment's lines at constant region volumes. `start` is null (from rest) or an earlier
+/// solution of the same model (warm start). Never returns a non-finite position.
+/// \throw Refusal unknown_line, bad_garment, bad_option
+Solution solve(const Model& model, const Garment& garment, const SolverOptions& options,
+               const Solution* start = nullptr, const Progress& progress = {});
+
+}  // namespace tensegric_fit::tensegric
