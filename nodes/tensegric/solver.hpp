@@ -25,6 +25,7 @@ struct LineResult {
   double initial = 0, neutral = 0, final = 0;  ///< lengths, m
   double request = 1;                          ///< neutral / initial
   double tension = 0;                          ///< pseudo force
+  std::vector<int> nodes;                      ///< outer nodes that it runs over, in order
 };
 
 struct RegionResult {
