@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Installs, builds and runs the demo: virtual-booth scan -> whole chain -> pictures and report; rviz where there is a display.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+"$root/launch/build.sh" -DCATKIN_ENABLE_TESTING=OFF
+programs=$root/build/devel/lib/tensegric_fit
+demo=$root/build/demo
+
+"$programs/virtual_booth" --seed 1 --out "$demo/booth"
+"$programs/fit" --scan "$demo/booth/scan.ply" --garment B1 --ratio chest=0.90 --out "$demo/fit"
+echo "report:   $demo/fit/report.json"
+echo "pictures: $demo/fit/front.png, side.png, distortion.png"
+
+if [ -n "${DISPLAY:-}" ] && [ -t 1 ]; then
+  echo "rviz: close its window or press Ctrl-C to end"
+  set +u
+  # shellcheck disable=SC1091
+  source "$root/build/devel/setup.bash"
+  roslaunch tensegric_fit demo.launch bag:="$demo/booth/scan.bag"
+fi

@@ -1,0 +1,75 @@
+/// The whole chain in one process: the same core calls as the nodes make, in the same order.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "control_mesh/fit_template.hpp"
+#include "geometry/body_measures.hpp"
+#include "geometry/point_cloud.hpp"
+#include "landmarks/find_landmarks.hpp"
+#include "reconstruction/reconstruct.hpp"
+#include "tensegric/garment.hpp"
+#include "tensegric/model.hpp"
+#include "tensegric/solver.hpp"
+#include "tffd/binding.hpp"
+
+namespace tensegric_fit::fit {
+
+/// Options of all stages.
+struct Settings {
+  reconstruction::Options reconstruction;
+  landmarks::Options landmarks;
+  control_mesh::Options control_mesh;
+  tensegric::ModelOptions model;
+  tensegric::SolverOptions solver;
+  tffd::Options tffd;
+};
+
+/// What a stage took, milliseconds of wall clock.
+struct StageTimes {
+  double reconstruction = 0, landmarks = 0, control_mesh = 0, tensegric = 0, tffd = 0;
+};
+
+/// A body as far as it is known without a garment.
+struct Body {
+  reconstruction::BodyMesh mesh;
+  geometry::BodyMeasures measures;
+};
+
+/// A body made ready for a region: everything that a change of garment does not touch.
+struct Fitting {
+  geometry::ControlMesh control;
+  tensegric::Model model;
+  tffd::Binding binding;
+};
+
+/// A garment worn.
+struct Fit {
+  tensegric::Solution solution;
+  std::vector<Eigen::Vector3d> deformed;    ///< one a body vertex, scan frame
+  std::vector<double> distortion;           ///< area after / before, one a body vertex (P1 Fig. 8)
+  std::vector<double> body_volumes_before;  ///< one a region, m^3, under the region's triangles
+  std::vector<double> body_volumes_after;
+};
+
+/// 1 and 2: scan -> mesh -> landmarks and girths.
+Body measure_scan(const geometry::PointCloud& scan, const Settings& settings, StageTimes& times);
+
+/// A mesh taken as it is, nothing measured. \throw Refusal bad_mesh, non_finite
+Body take_mesh(geometry::TriangleMesh mesh);
+
+/// The same, measured.
+Body measure_mesh(geometry::TriangleMesh mesh, const Settings& settings, StageTimes& times);
+
+/// 3: landmarks -> control mesh -> model, and the binding of the body's vertices.
+Fitting prepare(const Body& body, const control_mesh::Template& pattern, const Settings& settings, StageTimes& times);
+
+/// The same for a control mesh that is given (P1 §3.2).
+Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings& settings, StageTimes& times);
+
+/// 4 and 5: tensegric deformation -> t-FFD of the body -> distortion. `start`: an earlier fit on the same fitting, or null.
+Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& garment, const Settings& settings,
+         StageTimes& times, const tensegric::Solution* start = nullptr);
+
+}  // namespace tensegric_fit::fit

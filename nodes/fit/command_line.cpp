@@ -1,0 +1,115 @@
+#include "fit/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::fit {
+namespace {
+
+double number_from(const std::string& text, const std::string& option) {
+  std::size_t used = 0;
+  double value = 0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+  }
+  if (used == 0 || used != text.size()) throw CLI::ValidationError(option, "'" + text + "' is not a number");
+  return value;
+}
+
+RatioRequest ratio_from(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const RatioRequest request{equals == std::string::npos ? "" : text.substr(0, equals),
+                             number_from(equals == std::string::npos ? text : text.substr(equals + 1), "--ratio")};
+  if (equals == 0) throw CLI::ValidationError("--ratio", "'" + text + "' names no line");
+  if (!(request.ratio > 0 && request.ratio <= 2))
+    throw CLI::ValidationError("--ratio", "'" + text + "' is outside (0, 2]");
+  return request;
+}
+
+tensegric::TensionLaw band_from(const std::string& text) {
+  tensegric::TensionLaw law;
+  if (text == "rigid") return law;
+  law.kind = tensegric::TensionLaw::Kind::stiffness;
+  law.stiffness = number_from(text, "--band");
+  if (!(law.stiffness > 0 && std::isfinite(law.stiffness)))
+    throw CLI::ValidationError("--band", "'" + text + "' is neither 'rigid' nor a stiffness above 0");
+  return law;
+}
+
+Eigen::Vector3d vector_from(const std::string& text, const std::string& option) {
+  Eigen::Vector3d v;
+  std::size_t start = 0;
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t comma = i < 2 ? text.find(',', start) : text.size();
+    if (comma == std::string::npos) throw CLI::ValidationError(option, "'" + text + "' is not x,y,z");
+    v[i] = number_from(text.substr(start, comma - start), option);
+    start = comma + 1;
+  }
+  if (!v.allFinite()) throw CLI::ValidationError(option, "'" + text + "' is not finite");
+  return v;
+}
+
+}  // namespace
+
+std::optional<int> parse(int argc, char** argv, CommandLine& line) {
+  CLI::App app("From a booth scan to the body that a garment would make of it. Exit: 0 done, 2 usage, 3 input refused.");
+  std::vector<std::string> ratios;
+  std::string band, gravity, solver = to_string(line.settings.solver.solver);
+
+  auto* scan = app.add_option("--scan", line.scan, "Scan: FILE.ply, .pcd or .bag, metres");
+  auto* mesh = app.add_option("--mesh", line.mesh, "Body mesh BODY.ply, taken as it is instead of a scan");
+  auto* garment = app.add_option("--garment", line.garment, "Shipped garment (B1 ...) or FILE.yaml; none: measure only");
+  app.add_option("--ratio", ratios, "Neutral length / length at rest: R for every line, or LINE=R; may be repeated")
+      ->needs(garment);
+  app.add_option("--band", band, "rigid, or the stiffness of every line")->needs(garment);
+  app.add_option("--solver", solver, "Solver", true)->check(CLI::IsMember({"equilibrium", "adaptive", "relaxation"}));
+  app.add_option("--control-triangles", line.settings.control_mesh.control_triangles, "Control triangles, at least", true)
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--body-triangles", line.settings.reconstruction.body_triangles, "Triangles of the body mesh", true)
+      ->check(CLI::Range(2000, 1000000))
+      ->excludes(mesh);
+  app.add_option("--out", line.out, "Folder for the results", true);
+  auto* control = app.add_option("--control", line.control, "Control mesh CONTROL.ply for any shape")->needs(mesh);
+  auto* fixed = app.add_option("--fixed", line.fixed, "Fixed nodes of the shape's control mesh, NODES.yaml")->needs(mesh);
+  app.add_option("--gravity", gravity, "Pseudo force x,y,z on every outer node");
+  app.add_flag("--quiet", line.quiet, "No progress");
+  scan->excludes(mesh);
+  control->needs(fixed);
+  fixed->excludes(garment);
+
+  try {
+    app.parse(argc, argv);
+    if (line.scan.empty() && line.mesh.empty()) throw CLI::RequiredError("--scan or --mesh");
+    for (const std::string& text : ratios) line.ratios.push_back(ratio_from(text));
+    if (!band.empty()) line.band = band_from(band);
+    if (!gravity.empty()) line.settings.solver.gravity = vector_from(gravity, "--gravity");
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  line.settings.solver.solver = tensegric::solver_from(solver);
+  return std::nullopt;
+}
+
+tensegric::Garment adjusted(tensegric::Garment garment, const CommandLine& line) {
+  for (const RatioRequest& request : line.ratios) {
+    bool found = request.line.empty();
+    for (tensegric::GarmentLine& l : garment.lines) {
+      if (!request.line.empty() && l.name != request.line) continue;
+      l.ratio = request.ratio;
+      found = true;
+    }
+    if (!found)
+      throw geometry::Refusal(geometry::refusal::kUnknownLine,
+                              fmt::format("garment {} has no line '{}'", garment.name, request.line));
+  }
+  if (line.band)
+    for (tensegric::GarmentLine& l : garment.lines) l.law = *line.band;
+  return garment;
+}
+
+}  // namespace tensegric_fit::fit

@@ -1,0 +1,37 @@
+/// The command line of `fit` (DESIGN §3).
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fit/chain.hpp"
+
+namespace tensegric_fit::fit {
+
+/// A neutral-length ratio for one line, or for every line where `line` is empty.
+struct RatioRequest {
+  std::string line;
+  double ratio;
+};
+
+struct CommandLine {
+  std::string scan, mesh, garment, control, fixed, out = "fit_out";
+  std::vector<RatioRequest> ratios;
+  std::optional<tensegric::TensionLaw> band;
+  bool quiet = false;
+  Settings settings;
+
+  /// A shape bent by gravity instead of a body with a garment (P1 Fig. 3).
+  bool is_shape() const { return !fixed.empty(); }
+};
+
+/// Exit code where the program has nothing more to do (0 help, 2 usage), else none and `line` is filled.
+std::optional<int> parse(int argc, char** argv, CommandLine& line);
+
+/// The garment with the ratios and the band of the command line. \throw Refusal unknown_line
+tensegric::Garment adjusted(tensegric::Garment garment, const CommandLine& line);
+
+}  // namespace tensegric_fit::fit

@@ -1,0 +1,154 @@
+#include "fit/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace tensegric_fit::fit {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Json json_of(const Eigen::Isometry3d& pose) {
+  Json rows = Json::array();
+  for (int r = 0; r < 4; ++r) {
+    Json row = Json::array();
+    for (int c = 0; c < 4; ++c) row.push_back(pose.matrix()(r, c));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json stages_of(const StageTimes& times) {
+  const auto ms = [](double value) { return Json{{"ms", value}}; };
+  return {{"reconstruction", ms(times.reconstruction)},
+          {"landmarks", ms(times.landmarks)},
+          {"control_mesh", ms(times.control_mesh)},
+          {"tensegric", ms(times.tensegric)},
+          {"tffd", ms(times.tffd)}};
+}
+
+void add_measures(const geometry::BodyMeasures& measures, Json& report) {
+  report["landmarks"] = report["heights"] = report["girths"] = report["confidence"] = Json::object();
+  for (const auto& l : measures.landmarks) {
+    Json entry{{"position", json_of(l.position)}, {"confidence", l.confidence}};
+    if (!l.reason.empty()) entry["reason"] = l.reason;
+    report["landmarks"][l.name] = std::move(entry);
+  }
+  const auto add = [&report](const char* kind, const std::vector<geometry::Measure>& list) {
+    for (const auto& m : list) {
+      report[kind][m.name] = m.metres;
+      Json entry{{"confidence", m.confidence}};
+      if (!m.reason.empty()) entry["reason"] = m.reason;
+      report["confidence"][kind][m.name] = std::move(entry);
+    }
+  };
+  add("heights", measures.heights);
+  add("girths", measures.girths);
+}
+
+void add_fit(const Fitting& fitting, const Fit& fit, const Settings& settings, const StageTimes& times, Json& report) {
+  const tensegric::Solution& solution = fit.solution;
+  report["control"] = {{"nodes", fitting.control.outer.size()},
+                       {"triangles", fitting.control.triangles.size()},
+                       {"struts", fitting.model.struts()},
+                       {"tensile_parts", fitting.model.tensile_parts()},
+                       {"free_nodes", fitting.model.free_nodes()}};
+  report["solver"] = {{"name", to_string(settings.solver.solver)}, {"status", to_string(solution.status)},
+                      {"iterations", solution.iterations},         {"residual", solution.residual},
+                      {"ms", times.tensegric},                     {"note", solution.note}};
+  report["lines"] = Json::array();
+  for (const auto& line : solution.lines) {
+    report["lines"].push_back({{"name", line.name},
+                               {"initial", line.initial},
+                               {"neutral", line.neutral},
+                               {"final", line.final},
+                               {"request", line.request},
+                               {"ratio", line.final / line.initial},
+                               {"tension", line.tension}});
+  }
+  report["regions"] = Json::array();
+  for (std::size_t r = 0; r < solution.regions.size(); ++r) {
+    const auto& region = solution.regions[r];
+    report["regions"].push_back({{"name", region.name},
+                                 {"control_volume", {region.volume_before, region.volume_after}},
+                                 {"body_volume", {fit.body_volumes_before[r], fit.body_volumes_after[r]}}});
+  }
+  const auto [low, high] = std::minmax_element(fit.distortion.begin(), fit.distortion.end());
+  Json tight = Json::array();
+  for (std::size_t v = 0; v < fit.distortion.size(); ++v)
+    if (fit.distortion[v] < kOverConstricted) tight.push_back(v);
+  report["distortion"] = {{"min", *low}, {"max", *high}, {"over_constricted", std::move(tight)}};
+}
+
+}  // namespace
+
+Json report_of(const Source& source, const Body& body, const Fitting* fitting, const Fit* fit, const Settings& settings,
+               const StageTimes& times) {
+  Json report;
+  report["scan"] = {{"file", source.file},
+                    {"points", source.points},
+                    {"points_used", body.mesh.points_used},
+                    {"body_from_scan", json_of(body.measures.body_from_scan)}};
+  report["status"] = "ok";
+  report["reason"] = nullptr;
+  report["stages"] = stages_of(times);
+  report["body"] = {{"vertices", body.mesh.mesh.vertices.size()},
+                    {"triangles", body.mesh.mesh.triangles.size()},
+                    {"closed", geometry::is_closed(body.mesh.mesh)}};
+  report["body"]["holes"] = Json::array();
+  for (const auto& hole : body.mesh.holes)
+    report["body"]["holes"].push_back({{"centre", json_of(hole.centre)}, {"area", hole.area}});
+  add_measures(body.measures, report);
+  if (fit != nullptr) add_fit(*fitting, *fit, settings, times, report);
+  return report;
+}
+
+Json report_of(const Source& source, const geometry::Refusal& refusal) {
+  return {{"scan", {{"file", source.file}, {"points", source.points}}},
+          {"status", "refused"},
+          {"reason", {{"code", refusal.code()}, {"message", refusal.what()}}}};
+}
+
+std::string history_csv(const Body& body, const Fitting& fitting, const tensegric::Solution& solution) {
+  std::string text = "iteration";
+  for (const auto& line : solution.lines) text += ",ratio_" + line.name;
+  for (const auto& region : solution.regions) text += ",volume_error_" + region.name;
+  for (int node : tracked_nodes(fitting.control)) text += ",height_" + fitting.control.names[node];
+  text += ",residual\n";
+  for (const auto& row : solution.history) {
+    text += std::to_string(row.iteration);
+    for (double ratio : row.line_ratios) text += fmt::format(",{:.12g}", ratio);
+    for (double error : row.volume_errors) text += fmt::format(",{:.6g}", error);
+    for (const auto& point : row.tracked) text += fmt::format(",{:.9g}", (body.measures.body_from_scan * point).z());
+    text += fmt::format(",{:.6g}\n", row.residual);
+  }
+  return text;
+}
+
+std::vector<int> tracked_nodes(const geometry::ControlMesh& control) {
+  std::vector<int> nodes;
+  for (const char* name : {"bust_point_L", "bust_point_R"})
+    if (control.node(name) >= 0) nodes.push_back(control.node(name));
+  return nodes;
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  const std::string unfinished = path + ".part";
+  std::ofstream file(unfinished, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (!file) {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    throw std::runtime_error(path + ": cannot be written");
+  }
+  std::filesystem::rename(unfinished, path);
+}
+
+}  // namespace tensegric_fit::fit

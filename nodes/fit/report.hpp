@@ -1,0 +1,38 @@
+/// report.json and history.csv (DESIGN §3).
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "fit/chain.hpp"
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::fit {
+
+/// Where the body came from.
+struct Source {
+  std::string file;
+  std::size_t points = 0;
+};
+
+/// Body vertices whose area shrinks below this share are called over-constricted (P1 Fig. 8).
+inline constexpr double kOverConstricted = 0.8;
+
+/// The report of a run that went through; `fitting` and `fit` are null where only measured.
+nlohmann::ordered_json report_of(const Source& source, const Body& body, const Fitting* fitting, const Fit* fit,
+                                 const Settings& settings, const StageTimes& times);
+
+/// The report of a refused run.
+nlohmann::ordered_json report_of(const Source& source, const geometry::Refusal& refusal);
+
+/// P2 Fig. 11: iteration, line ratios, volume errors, nipple heights above the soles, residual.
+std::string history_csv(const Body& body, const Fitting& fitting, const tensegric::Solution& solution);
+
+/// Outer nodes whose way the history shows: the bust points, where the control mesh has them.
+std::vector<int> tracked_nodes(const geometry::ControlMesh& control);
+
+/// Writes a whole file or none. \throw std::runtime_error where it cannot be written
+void write_text(const std::string& path, const std::string& text);
+
+}  // namespace tensegric_fit::fit

@@ -1,0 +1,144 @@
+#include "fit/run.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "booth/scan_file.hpp"
+#include "control_mesh/shape_control.hpp"
+#include "fit/files.hpp"
+#include "fit/report.hpp"
+#include "geometry/ply.hpp"
+#include "inspect/fit_pictures.hpp"
+
+namespace tensegric_fit::fit {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kResults[] = {"report.json", "body.ply",  "control.ply", "control_deformed.ply", "deformed.ply",
+                                    "history.csv", "front.png", "side.png",    "distortion.png"};
+
+class Run {
+ public:
+  explicit Run(const CommandLine& line) : line_(line), settings_(line.settings) {}
+
+  // The chain as it reads in DESIGN §1. Refusals leave as exceptions.
+  void operator()() {
+    const bool measured_only = line_.garment.empty() && !line_.is_shape();
+    load_body();
+    write_mesh("body.ply", body_.mesh.mesh);
+    if (measured_only) {
+      save_picture("front.png", inspect::front_picture(body_.mesh.mesh, body_.measures));
+      save_picture("side.png", inspect::side_picture(body_.mesh.mesh, body_.measures));
+      write_report(nullptr, nullptr);
+      return;
+    }
+    const tensegric::Garment garment = load_garment();
+    const Fitting fitting = prepare_fitting(garment);
+    settings_.solver.track = tracked_nodes(fitting.control);
+    say("tensegric deformation");
+    const Fit fit = wear(body_, fitting, garment, settings_, times_);
+    write_fit(fitting, fit);
+  }
+
+  const Source& source() const { return source_; }
+
+ private:
+  void say(const std::string& what) const {
+    if (!line_.quiet && isatty(STDERR_FILENO) != 0) fmt::print(stderr, "{} ...\n", what);
+  }
+
+  std::string path(const std::string& name) const { return (fs::path(line_.out) / name).string(); }
+
+  void write_mesh(const std::string& name, const geometry::TriangleMesh& mesh) const {
+    geometry::write_ply_mesh(path(name), mesh);
+  }
+
+  void save_picture(const std::string& name, const cv::Mat& picture) const {
+    if (!cv::imwrite(path(name), picture)) throw std::runtime_error(path(name) + ": cannot be written");
+  }
+
+  void load_body() {
+    if (!line_.mesh.empty()) {
+      source_.file = line_.mesh;
+      say("reading the mesh");
+      geometry::TriangleMesh mesh = geometry::read_ply_mesh(line_.mesh);
+      source_.points = mesh.vertices.size();
+      body_ = line_.is_shape() ? take_mesh(std::move(mesh)) : measure_mesh(std::move(mesh), settings_, times_);
+      return;
+    }
+    source_.file = line_.scan;
+    say("reading the scan");
+    const geometry::PointCloud scan = geometry::points_of(booth::read_scan(line_.scan));
+    source_.points = scan.points.size();
+    say("reconstruction, landmarks");
+    body_ = measure_scan(scan, settings_, times_);
+  }
+
+  tensegric::Garment load_garment() const {
+    if (line_.garment.empty()) return {};
+    return adjusted(tensegric::load_garment(garment_file(line_.garment)), line_);
+  }
+
+  Fitting prepare_fitting(const tensegric::Garment& garment) {
+    say("control mesh");
+    if (line_.is_shape()) {
+      const auto fixing = control_mesh::load_shape_fixing(line_.fixed);
+      const geometry::TriangleMesh control = geometry::read_ply_mesh(line_.control);
+      return prepare(body_, control_mesh::control_from_shape(control, fixing), settings_, times_);
+    }
+    if (garment.regions.size() != 1)
+      throw geometry::Refusal(geometry::refusal::kBadGarment, "garment " + garment.name + " must name one region");
+    const auto pattern = control_mesh::load_template(template_file(garment.regions.front()));
+    return prepare(body_, pattern, settings_, times_);
+  }
+
+  void write_fit(const Fitting& fitting, const Fit& fit) {
+    say("pictures, report");
+    write_mesh("control.ply", {fitting.control.outer, fitting.control.triangles});
+    write_mesh("control_deformed.ply", {fit.solution.outer, fitting.control.triangles});
+    write_mesh("deformed.ply", {fit.deformed, body_.mesh.mesh.triangles});
+    write_text(path("history.csv"), history_csv(body_, fitting, fit.solution));
+    write_report(&fitting, &fit);
+  }
+
+  void write_report(const Fitting* fitting, const Fit* fit) const {
+    write_text(path("report.json"), report_of(source_, body_, fitting, fit, settings_, times_).dump(1) + "\n");
+  }
+
+  const CommandLine& line_;
+  Settings settings_;
+  StageTimes times_;
+  Source source_;
+  Body body_;
+};
+
+}  // namespace
+
+int run(const CommandLine& line) {
+  Run chain(line);
+  try {
+    fs::create_directories(line.out);
+    for (const char* name : kResults) fs::remove(fs::path(line.out) / name);  // an old result is never taken for a new one
+    chain();
+    return 0;
+  } catch (const geometry::Refusal& refusal) {
+    fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());
+    try {
+      for (const char* name : kResults) fs::remove(fs::path(line.out) / name);
+      write_text((fs::path(line.out) / "report.json").string(), report_of(chain.source(), refusal).dump(1) + "\n");
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "fit: {}\n", error.what());
+    }
+    return 3;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "fit: {}\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace tensegric_fit::fit

@@ -1,0 +1,6 @@
+#!/usr/bin/env bash
+# Installs, builds and runs all tests. Arguments go to ctest.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+"$root/launch/build.sh" -DCATKIN_ENABLE_TESTING=ON
+ctest --test-dir "$root/build" --output-on-failure "$@"
