@@ -2,32 +2,67 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
-#include <string>
 #include <vector>
 
 #include "geometry/control_mesh.hpp"
+#include "geometry/triangle_mesh.hpp"
+#include "tffd/reach.hpp"
+#include "tffd/weights.hpp"
 
 namespace tensegric_fit::tffd {
 
-/// `standard`: W from inner to outer centroid, smooth kernel: q' = M x, affine-exact. `paper`: unit normal, linear kernel.
+/// `standard`: W from inner to outer centroid, smooth kernel, no tear at a fixed border: q' = q + M (x - x at
+/// rest) with constant M; affine-exact wherever the share of the motion is 1 (reach.hpp). `paper`: as
+/// published, W the unit normal and a linear kernel; the skin tears where the control mesh ends.
 enum class Setting { standard, paper };
 
 /// Field defaults are the parameters' defaults.
 struct Options {
   Setting setting = Setting::standard;
-  double beta = 2.0;  ///< reach of a triangle in multiples of its mean radius (paper: 2.5)
+  double beta =
+      0;  ///< reach of a triangle in multiples of its mean radius; 0: the setting's own, 2 (paper: 2.5)
 };
 
-/// Body vertices bound to a control mesh at rest.
+/// A body bound to a control mesh at rest.
 class Binding {
  public:
-  /// \throw Refusal bad_option, bad_mesh
-  Binding(const std::vector<Eigen::Vector3d>& vertices, const geometry::ControlMesh& control, const Options& options);
+  /// Uses the control mesh's nodes, triangles and fixed flags.
+  /// \throw Refusal bad_option: beta; bad_mesh: no control triangles, a flat one, a body or nodes that are
+  /// not usable
+  Binding(const geometry::TriangleMesh& body, const geometry::ControlMesh& control, const Options& options);
 
-  /// Positions of all vertices for the control nodes at `outer` and `inner`. Vertices out of reach stay, bit for bit.
+  /// Positions of all vertices for the control nodes at `outer` and `inner`. Vertices that are no anchors
+  /// stay, bit for bit, and with all nodes at rest every vertex does (paper: to rounding). \throw Refusal
+  /// bad_mesh: another number of nodes than was bound; non_finite
   std::vector<Eigen::Vector3d> deform(const std::vector<Eigen::Vector3d>& outer,
                                       const std::vector<Eigen::Vector3d>& inner) const;
+
+  /// M, for whoever needs the body's derivatives by the nodes. \pre standard setting (else it has no rows)
+  const NodeWeights& weights() const { return weights_; }
+
+  /// The vertices that follow the control mesh, ascending.
+  const std::vector<Anchor>& anchors() const { return anchors_; }
+
+  /// The body at rest.
+  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
+
+  std::size_t control_vertices() const { return outer_.size(); }
+
+  /// Control triangles, as bound.
+  const std::vector<Eigen::Vector3i>& triangles() const { return triangles_; }
+
+ private:
+  void move_by_weights(const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner,
+                       std::vector<Eigen::Vector3d>& moved) const;
+  void move_by_normals(const std::vector<Eigen::Vector3d>& outer, std::vector<Eigen::Vector3d>& moved) const;
+
+  Setting setting_;
+  std::vector<Eigen::Vector3d> vertices_;
+  std::vector<Eigen::Vector3d> outer_, inner_;
+  std::vector<Eigen::Vector3i> triangles_;
+  std::vector<Anchor> anchors_;
+  NodeWeights weights_;
+  NormalTerms terms_;
 };
 
 }  // namespace tensegric_fit::tffd

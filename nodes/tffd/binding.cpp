@@ -1,0 +1,124 @@
+#include "tffd/binding.hpp"
+
+#include <Eigen/Geometry>
+
+#include "geometry/status.hpp"
+#include "tffd/closest_point.hpp"
+
+namespace tensegric_fit::tffd {
+namespace {
+
+using geometry::Refusal;
+namespace refusal = geometry::refusal;
+
+double beta_of(const Options& options) {
+  if (options.beta == 0) return options.setting == Setting::paper ? 2.5 : 2.0;
+  // Below 1 the local kernels leave gaps between the triangles; far above, every triangle carries everything.
+  if (!(options.beta >= 1 && options.beta <= 20))
+    throw Refusal(refusal::kBadOption, "t-FFD: beta must be 0 (the setting's own) or from 1 to 20");
+  return options.beta;
+}
+
+void check_nodes(const std::vector<Eigen::Vector3d>& nodes, std::size_t count) {
+  if (nodes.size() != count)
+    throw Refusal(refusal::kBadMesh,
+                  "t-FFD: the number of control nodes is not the one that the body was bound with");
+  for (const Eigen::Vector3d& node : nodes)
+    if (!node.allFinite())
+      throw Refusal(refusal::kNonFinite, "t-FFD: a control node's position is not finite");
+}
+
+void check_input(const geometry::TriangleMesh& body, const geometry::ControlMesh& control) {
+  geometry::check_mesh(body);
+  geometry::check_mesh({control.outer, control.triangles});
+  check_nodes(control.inner, control.outer.size());
+  if (control.triangles.empty()) throw Refusal(refusal::kBadMesh, "t-FFD: the control mesh has no triangles");
+  if (control.outer_fixed.size() != control.outer.size() ||
+      control.inner_fixed.size() != control.outer.size())
+    throw Refusal(refusal::kBadMesh, "t-FFD: the control mesh needs one fixed flag a node");
+}
+
+// In the paper's setting whatever is in reach moves in full.
+std::vector<Anchor> anchors_of(const NormalTerms& bound, const std::vector<Eigen::Vector3d>& vertices,
+                               const std::vector<Frame>& frames) {
+  std::vector<Anchor> anchors;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const NormalTerm* heaviest = nullptr;
+    for (int i = bound.starts[v]; i < bound.starts[v + 1]; ++i)
+      if (!heaviest || bound.terms[i].weight > heaviest->weight) heaviest = &bound.terms[i];
+    if (heaviest)
+      anchors.push_back({static_cast<int>(v), heaviest->triangle,
+                         closest_barycentric(vertices[v], frames[heaviest->triangle].corners), 1});
+  }
+  return anchors;
+}
+
+}  // namespace
+
+Binding::Binding(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
+                 const Options& options)
+    : setting_(options.setting),
+      vertices_(body.vertices),
+      outer_(control.outer),
+      inner_(control.inner),
+      triangles_(control.triangles) {
+  const double beta = beta_of(options);
+  check_input(body, control);
+  if (setting_ == Setting::paper) {
+    const std::vector<Frame> frames = frames_of(control, Axis::unit_normal);
+    terms_ = paper_weights(vertices_, frames, beta);
+    anchors_ = anchors_of(terms_, vertices_, frames);
+  } else {
+    const std::vector<Frame> frames = frames_of(control, Axis::inner_to_outer);
+    anchors_ = reach_of(body, control, frames, beta);
+    weights_ = standard_weights(body, control, frames, beta, anchors_);
+  }
+}
+
+std::vector<Eigen::Vector3d> Binding::deform(const std::vector<Eigen::Vector3d>& outer,
+                                             const std::vector<Eigen::Vector3d>& inner) const {
+  check_nodes(outer, outer_.size());
+  check_nodes(inner, inner_.size());
+  std::vector<Eigen::Vector3d> moved = vertices_;
+  if (setting_ == Setting::paper)
+    move_by_normals(outer, moved);
+  else
+    move_by_weights(outer, inner, moved);
+  return moved;
+}
+
+void Binding::move_by_weights(const std::vector<Eigen::Vector3d>& outer,
+                              const std::vector<Eigen::Vector3d>& inner,
+                              std::vector<Eigen::Vector3d>& moved) const {
+  std::vector<Eigen::Vector3d> motion(outer.size() + inner.size());
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    motion[i] = outer[i] - outer_[i];
+    motion[outer.size() + i] = inner[i] - inner_[i];
+  }
+  for (const Anchor& anchor : anchors_) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (NodeWeights::InnerIterator m(weights_, anchor.vertex); m; ++m) sum += m.value() * motion[m.col()];
+    moved[anchor.vertex] += sum;
+  }
+}
+
+void Binding::move_by_normals(const std::vector<Eigen::Vector3d>& outer,
+                              std::vector<Eigen::Vector3d>& moved) const {
+  std::vector<Eigen::Matrix3d> axes(triangles_.size());
+  for (std::size_t t = 0; t < axes.size(); ++t) {
+    const Eigen::Vector3d& p = outer[triangles_[t][0]];
+    const Eigen::Vector3d u = outer[triangles_[t][1]] - p, v = outer[triangles_[t][2]] - p;
+    axes[t] << u, v,
+        u.cross(v).normalized();  // Eigen leaves the zero vector of a collapsed triangle as it is
+  }
+  for (const Anchor& anchor : anchors_) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int i = terms_.starts[anchor.vertex]; i < terms_.starts[anchor.vertex + 1]; ++i) {
+      const NormalTerm& term = terms_.terms[i];
+      sum += term.weight * (outer[triangles_[term.triangle][0]] + axes[term.triangle] * term.local);
+    }
+    moved[anchor.vertex] = sum;
+  }
+}
+
+}  // namespace tensegric_fit::tffd

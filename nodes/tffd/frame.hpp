@@ -1,0 +1,36 @@
+/// Control triangles as t-FFD sees them at rest (P1 §3.2, DESIGN §5).
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "geometry/control_mesh.hpp"
+
+namespace tensegric_fit::tffd {
+
+/// A control triangle at rest: corner 0, U and V along two sides, W off the plane; q = corner 0 + u U + v V +
+/// w W.
+struct Frame {
+  std::array<Eigen::Vector3d, 3> corners;
+  Eigen::Vector3d centroid;
+  Eigen::Vector3d normal;             ///< unit
+  Eigen::Matrix3d local_from_offset;  ///< inverse of [U V W]
+  double area;                        ///< m^2
+  double radius;                      ///< mean distance from the centroid to the corners, m
+
+  /// (u, v, w) of a point.
+  Eigen::Vector3d local(const Eigen::Vector3d& q) const { return local_from_offset * (q - corners[0]); }
+};
+
+/// What W is.
+enum class Axis {
+  unit_normal,    ///< of the triangle
+  inner_to_outer  ///< from the centroid of the inner triangle to that of the outer one
+};
+
+/// One a control triangle. \throw Refusal bad_mesh: a triangle without area, or inner nodes in the plane of
+/// the outer ones
+std::vector<Frame> frames_of(const geometry::ControlMesh& control, Axis axis);
+
+}  // namespace tensegric_fit::tffd

@@ -1,0 +1,167 @@
+#include "tffd/reach.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "geometry/status.hpp"
+#include "tffd/closest_point.hpp"
+
+namespace tensegric_fit::tffd {
+namespace {
+
+// The part of a border triangle's depth over which the share rises to 1.
+constexpr double kFadeDepth = 0.5;
+
+struct Border {
+  bool open = false;                     // the control mesh has a rim
+  std::vector<double> depth;             // per outer node: 0 on a fixed border and in fixed triangles, else 1
+  std::vector<std::array<char, 3>> rim;  // per triangle: side opposite to corner k is on the rim
+};
+
+Border border_of(const geometry::ControlMesh& control) {
+  std::vector<char> moves(control.triangles.size(), 0);
+  for (std::size_t t = 0; t < moves.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int node = control.triangles[t][k];
+      if (!control.outer_fixed[node] || !control.inner_fixed[node]) moves[t] = 1;
+    }
+  Border border;
+  border.depth.assign(control.outer.size(), 1);
+  border.rim.assign(moves.size(), {0, 0, 0});
+  const auto still = [&](int node) {
+    if (control.outer_fixed[node]) border.depth[node] = 0;
+  };
+  for (const geometry::Edge& edge : geometry::edges_of({control.outer, control.triangles})) {
+    if (edge.right < 0) {
+      border.open = true;
+      const Eigen::Vector3i& t = control.triangles[edge.left];
+      for (int k = 0; k < 3; ++k)
+        if (t[k] != edge.first && t[k] != edge.second) border.rim[edge.left][k] = 1;
+    }
+    const bool both_move = moves[edge.left] && edge.right >= 0 && moves[edge.right];
+    if (both_move) continue;
+    still(edge.first);
+    still(edge.second);
+  }
+  return border;
+}
+
+struct Closest {
+  int triangle = -1;
+  Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // from the closest point to the vertex
+};
+
+// Among the triangles that face as `facing` does (all, where it is null) and are nearer than `reach` of their
+// radii.
+Closest closest_triangle(const Eigen::Vector3d& q, const Eigen::Vector3d* facing,
+                         const std::vector<Frame>& frames, double reach) {
+  Closest closest;
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < frames.size(); ++t) {
+    const Frame& frame = frames[t];
+    if (facing && !(facing->dot(frame.normal) > 0)) continue;
+    // No corner is farther from the centroid than twice the mean of the three.
+    const double least = (q - frame.centroid).norm() - 2 * frame.radius;
+    if (least > best || least > reach * frame.radius) continue;
+    const Eigen::Vector3d barycentric = closest_barycentric(q, frame.corners);
+    const Eigen::Vector3d offset = q - barycentric[0] * frame.corners[0] - barycentric[1] * frame.corners[1] -
+                                   barycentric[2] * frame.corners[2];
+    const double distance = offset.norm();
+    if (distance >= best || distance > reach * frame.radius) continue;
+    best = distance;
+    closest = {static_cast<int>(t), barycentric, offset};
+  }
+  return closest;
+}
+
+double share_at(const Closest& closest, const geometry::ControlMesh& control, const Border& border,
+                const Frame& frame, double reach) {
+  const Eigen::Vector3i& t = control.triangles[closest.triangle];
+  double depth = 0;
+  bool on_rim = false;
+  for (int k = 0; k < 3; ++k) {
+    depth += closest.barycentric[k] * border.depth[t[k]];
+    if (closest.barycentric[k] == 0 && border.rim[closest.triangle][k]) on_rim = true;
+  }
+  // Quadratic, not a smoothstep: the control motion itself grows with depth, and the product should nowhere
+  // be much steeper.
+  const double rise = std::max(0.0, 1 - depth / kFadeDepth);
+  double share = 1 - rise * rise;
+  if (on_rim) {
+    const double beyond = (closest.offset - frame.normal * frame.normal.dot(closest.offset)).norm();
+    const double z = std::min(1.0, beyond / (reach * frame.radius));
+    share *= (1 - z) * (1 - z) * (1 + 2 * z);
+  }
+  return share;
+}
+
+// Anchors that body edges join, over anchors, to the vertex nearest to one of the nodes that may move.
+std::vector<Anchor> joined_to_nodes(const std::vector<Anchor>& anchors, const geometry::TriangleMesh& body,
+                                    const geometry::ControlMesh& control, const Border& border) {
+  std::vector<int> anchor_of(body.vertices.size(), -1);
+  for (std::size_t i = 0; i < anchors.size(); ++i) anchor_of[anchors[i].vertex] = static_cast<int>(i);
+  std::vector<Eigen::Vector3i> triangles;
+  for (const Eigen::Vector3i& t : body.triangles)
+    if (anchor_of[t[0]] >= 0 && anchor_of[t[1]] >= 0 && anchor_of[t[2]] >= 0)
+      triangles.emplace_back(anchor_of[t[0]], anchor_of[t[1]], anchor_of[t[2]]);
+  const std::vector<std::vector<int>> neighbours = geometry::neighbours_of(anchors.size(), triangles);
+
+  std::vector<char> joined(anchors.size(), 0);
+  std::vector<int> front;
+  for (std::size_t node = 0; node < control.outer.size(); ++node) {
+    if (border.depth[node] == 0) continue;
+    int nearest = -1;
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < anchors.size(); ++i) {
+      const double distance = (body.vertices[anchors[i].vertex] - control.outer[node]).squaredNorm();
+      if (distance < best) best = distance, nearest = static_cast<int>(i);
+    }
+    if (nearest >= 0 && !joined[nearest]) joined[nearest] = 1, front.push_back(nearest);
+  }
+  while (!front.empty()) {
+    const int i = front.back();
+    front.pop_back();
+    for (const int next : neighbours[i])
+      if (!joined[next]) joined[next] = 1, front.push_back(next);
+  }
+  std::vector<Anchor> kept;
+  for (std::size_t i = 0; i < anchors.size(); ++i)
+    if (joined[i]) kept.push_back(anchors[i]);
+  return kept;
+}
+
+}  // namespace
+
+std::vector<Anchor> reach_of(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
+                             const std::vector<Frame>& frames, double reach) {
+  const Border border = border_of(control);
+  if (border.open && body.triangles.empty())
+    throw geometry::Refusal(geometry::refusal::kBadMesh,
+                            "a control mesh with a border needs the body's triangles, and it has none");
+  std::vector<Eigen::Vector3d> normals;
+  double widest = 0;
+  if (border.open) {
+    normals = geometry::vertex_normals(body.vertices, body.triangles);
+    for (const Frame& frame : frames) widest = std::max(widest, reach * frame.radius);
+  }
+  auto [low, high] = geometry::bounding_box(control.outer);
+  low.array() -= widest;
+  high.array() += widest;
+
+  std::vector<Anchor> anchors;
+  for (std::size_t v = 0; v < body.vertices.size(); ++v) {
+    const Eigen::Vector3d& q = body.vertices[v];
+    if (border.open && ((q.array() < low.array()).any() || (q.array() > high.array()).any())) continue;
+    const Closest closest =
+        border.open ? closest_triangle(q, &normals[v], frames, reach)
+                    : closest_triangle(q, nullptr, frames, std::numeric_limits<double>::infinity());
+    if (closest.triangle < 0) continue;
+    const double share = share_at(closest, control, border, frames[closest.triangle], reach);
+    if (share > 0) anchors.push_back({static_cast<int>(v), closest.triangle, closest.barycentric, share});
+  }
+  return border.open ? joined_to_nodes(anchors, body, control, border) : anchors;
+}
+
+}  // namespace tensegric_fit::tffd

@@ -1,0 +1,42 @@
+/// The weights with which control triangles carry a vertex (P1 §3.2, ref. [10]; DESIGN §5).
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "geometry/control_mesh.hpp"
+#include "geometry/triangle_mesh.hpp"
+#include "tffd/frame.hpp"
+#include "tffd/reach.hpp"
+
+namespace tensegric_fit::tffd {
+
+/// Sparse and constant, one row a body vertex, one column a node: outer node i is i, inner node i is V + i.
+using NodeWeights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// M of q' = q + M (x - x at rest), with q = M x at rest before the share of each anchor is put on. Rows of
+/// vertices that are no anchors are empty. \pre the frames run from inner to outer centroid
+NodeWeights standard_weights(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
+                             const std::vector<Frame>& frames, double beta,
+                             const std::vector<Anchor>& anchors);
+
+/// One triangle's part in one vertex, with the unit normal for W.
+struct NormalTerm {
+  int triangle;
+  double weight;          ///< sums to 1 over a vertex
+  Eigen::Vector3d local;  ///< (u, v, w) at binding
+};
+
+/// The terms of vertex i are those from starts[i] to starts[i + 1]; none where the vertex is out of reach.
+struct NormalTerms {
+  std::vector<int> starts;
+  std::vector<NormalTerm> terms;
+};
+
+/// The published setting: k = max(0, 1 - |q - G| / (beta r)), nothing else. \pre the frames have unit normals
+/// for W
+NormalTerms paper_weights(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Frame>& frames,
+                          double beta);
+
+}  // namespace tensegric_fit::tffd
