@@ -59,7 +59,8 @@ Body take_mesh(geometry::TriangleMesh mesh) {
   return body;
 }
 
-Fitting prepare(const Body& body, const control_mesh::Template& pattern, const Settings& settings, StageTimes& times) {
+Fitting prepare(const Body& body, const control_mesh::Template& pattern, const Settings& settings,
+                StageTimes& times) {
   geometry::ControlMesh control;
   {
     const Stopwatch watch(times.control_mesh);
@@ -68,7 +69,8 @@ Fitting prepare(const Body& body, const control_mesh::Template& pattern, const S
   return prepare(body, std::move(control), settings, times);
 }
 
-Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings& settings, StageTimes& times) {
+Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings& settings,
+                StageTimes& times) {
   geometry::check_control_mesh(control);
   tensegric::Model model = [&] {
     const Stopwatch watch(times.tensegric);
@@ -79,8 +81,8 @@ Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings&
   return {std::move(control), std::move(model), std::move(binding)};
 }
 
-Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& garment, const Settings& settings,
-         StageTimes& times, const tensegric::Solution* start) {
+Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& garment,
+         const Settings& settings, StageTimes& times, const tensegric::Solution* start) {
   Fit fit;
   {
     const Stopwatch watch(times.tensegric);
@@ -88,8 +90,8 @@ Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& gar
   }
   const Stopwatch watch(times.tffd);
   fit.deformed = fitting.binding.deform(fit.solution.outer, fit.solution.inner);
-  fit.distortion = tffd::body_distortion(body.mesh.mesh, fitting.control,
-                                         tffd::control_distortion(fitting.control, fit.solution.outer));
+  fit.distortion =
+      tffd::body_distortion(fitting.binding, tffd::control_distortion(fitting.control, fit.solution.outer));
   const auto triangles = reached_triangles(body, fitting.binding);
   for (const geometry::ControlRegion& region : fitting.control.regions) {
     const Eigen::Vector3d apex = geometry::region_apex(fitting.control, region);

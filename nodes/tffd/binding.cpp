@@ -1,6 +1,7 @@
 #include "tffd/binding.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "geometry/status.hpp"
 #include "tffd/closest_point.hpp"
@@ -73,6 +74,12 @@ Binding::Binding(const geometry::TriangleMesh& body, const geometry::ControlMesh
     anchors_ = reach_of(body, control, frames, beta);
     weights_ = standard_weights(body, control, frames, beta, anchors_);
   }
+}
+
+bool Binding::reaches(int vertex) const {
+  const auto at = std::lower_bound(anchors_.begin(), anchors_.end(), vertex,
+                                   [](const Anchor& anchor, int v) { return anchor.vertex < v; });
+  return at != anchors_.end() && at->vertex == vertex;
 }
 
 std::vector<Eigen::Vector3d> Binding::deform(const std::vector<Eigen::Vector3d>& outer,

@@ -43,6 +43,9 @@ class Binding {
   /// The vertices that follow the control mesh, ascending.
   const std::vector<Anchor>& anchors() const { return anchors_; }
 
+  /// Whether the control mesh can move that vertex.
+  bool reaches(int vertex) const;
+
   /// The body at rest.
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
 
