@@ -2,43 +2,42 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <cstdint>
+#include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
 #include "geometry/triangle_mesh.hpp"
+#include "inspect/colours.hpp"
 
 namespace tensegric_fit::inspect {
 
-using Colour = std::array<std::uint8_t, 3>;  ///< RGB
-
-/// One neutral colour for an undeformed body.
-inline constexpr Colour kNeutral{200, 200, 200};
-
-/// Fixed scale: distortion 1 is neutral, less (tighter) goes to red, more (looser) to blue; saturates at 0.7 and 1.3.
-std::vector<Colour> distortion_colours(const std::vector<double>& distortion);
-
-/// The same colours with a light baked in: rviz draws coloured triangle lists unlit.
-std::vector<Colour> lit(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours,
-                        const Eigen::Vector3d& light_direction);
-
-/// Looks along `view` with `up` upwards, orthographic.
+/// Looks along `forward` with `up` upwards, orthographic.
 struct View {
   Eigen::Vector3d forward;  ///< unit, the way the camera looks, scan frame
-  Eigen::Vector3d up;       ///< unit
+  Eigen::Vector3d up;       ///< unit, square to `forward`
   Eigen::Vector3d centre;   ///< in the middle of the picture
   double height;            ///< metres from the lower to the upper edge
 };
 
-/// BGR picture, z-buffered and lit. Lines (polylines in the scan frame) are drawn over it where they are visible.
+/// Views of a person; `body_from_scan` takes the scan's frame to the body's. `height` in metres.
+View front_view(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d& centre, double height);
+/// Her left profile: she looks to the left edge.
+View side_view(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d& centre, double height);
+/// From before her, her left and a little above (P1 Fig. 5).
+View oblique_view(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d& centre, double height);
+
+/// A line in the scan's frame, drawn where it is visible.
 struct Polyline {
   std::vector<Eigen::Vector3d> points;
   bool closed;
   Colour colour;
 };
-cv::Mat draw(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours, const std::vector<Polyline>& lines,
-             const View& view, int width, int height);
+
+/// BGR picture on white: z-buffered, smoothly shaded by a light above the camera. Lines lie over the skin;
+/// what is hidden behind more than a few millimetres of body is not drawn. `colours` has one a vertex, or is
+/// empty: all neutral. \throw Refusal bad_mesh: colours do not fit; bad_option: a picture without size
+cv::Mat draw(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours,
+             const std::vector<Polyline>& lines, const View& view, int width, int height);
 
 }  // namespace tensegric_fit::inspect

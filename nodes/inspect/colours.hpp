@@ -1,0 +1,32 @@
+/// Colours of the deformed skin, and light baked into colours.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::inspect {
+
+using Colour = std::array<std::uint8_t, 3>;  ///< RGB
+
+/// One neutral colour for an undeformed body.
+inline constexpr Colour kNeutral{212, 205, 199};
+
+/// The scale's ends: distortion below the first and above the second is shown as the end is.
+inline constexpr double kTightest = 0.7, kLoosest = 1.3;
+
+/// Fixed scale, even to the eye: distortion 1 is neutral, less (tighter) goes to red, more (looser) to blue.
+Colour distortion_colour(double distortion);
+
+/// The same for many; a value that is not finite is neutral.
+std::vector<Colour> distortion_colours(const std::vector<double>& distortion);
+
+/// The same colours with a light baked in: rviz draws coloured triangle lists unlit. `light_direction` is the
+/// way the light shines; surfaces are lit softly from both sides. \pre one colour a vertex
+std::vector<Colour> lit(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours,
+                        const Eigen::Vector3d& light_direction);
+
+}  // namespace tensegric_fit::inspect

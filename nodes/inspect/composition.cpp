@@ -1,0 +1,66 @@
+#include "inspect/composition.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "inspect/colours.hpp"
+
+namespace tensegric_fit::inspect {
+namespace {
+
+const cv::Scalar kInk(70, 66, 64), kPaper(255, 255, 255);
+
+int strip_height(const cv::Mat& picture) {
+  return std::max(12, picture.rows / 16);
+}
+
+// `anchor` is 0 at the text's left end, 1 at its right end; `at` is half-way up its capitals.
+void write(cv::Mat& picture, const std::string& text, int strip, cv::Point at, double anchor) {
+  const double scale = strip / 70.0;
+  int below = 0;
+  const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, 1, &below);
+  at += cv::Point(-static_cast<int>(std::lround(anchor * size.width)), size.height / 2);
+  cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, scale, kInk, 1, cv::LINE_AA);
+}
+
+std::string per_cent(double ratio) {
+  return std::to_string(std::lround(100 * ratio)) + " %";
+}
+
+}  // namespace
+
+cv::Mat side_by_side(const cv::Mat& left, const cv::Mat& right) {
+  const cv::Mat gap(left.rows, std::max(1, left.rows / 60), left.type(), kPaper);
+  cv::Mat result;
+  cv::hconcat(std::vector<cv::Mat>{left, gap, right}, result);
+  return result;
+}
+
+cv::Mat with_caption(const cv::Mat& picture, const std::string& text) {
+  const int strip = strip_height(picture);
+  cv::Mat result;
+  cv::copyMakeBorder(picture, result, strip, 0, 0, 0, cv::BORDER_CONSTANT, kPaper);
+  write(result, text, strip, {result.cols / 2, strip / 2}, 0.5);
+  return result;
+}
+
+cv::Mat with_distortion_scale(const cv::Mat& picture) {
+  const int strip = strip_height(picture), height = strip / 2;
+  cv::Mat result;
+  cv::copyMakeBorder(picture, result, 0, 2 * strip, 0, 0, cv::BORDER_CONSTANT, kPaper);
+  const int width = result.cols / 2, left = (result.cols - width) / 2, top = picture.rows + strip / 3;
+  for (int x = 0; x < width; ++x) {
+    const Colour c = distortion_colour(kTightest + (kLoosest - kTightest) * x / std::max(1, width - 1));
+    cv::line(result, {left + x, top}, {left + x, top + height}, cv::Scalar(c[2], c[1], c[0]));
+  }
+  const int under = top + height + strip / 2, beside = top + height / 2;
+  write(result, per_cent(kTightest), strip, {left, under}, 0.5);
+  write(result, per_cent(1), strip, {left + width / 2, under}, 0.5);
+  write(result, per_cent(kLoosest), strip, {left + width, under}, 0.5);
+  write(result, "tighter", strip, {left - strip / 2, beside}, 1);
+  write(result, "looser", strip, {left + width + strip / 2, beside}, 0);
+  return result;
+}
+
+}  // namespace tensegric_fit::inspect

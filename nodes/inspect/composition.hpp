@@ -1,0 +1,19 @@
+/// Pictures put together: before beside after, words, the scale of colours.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+
+namespace tensegric_fit::inspect {
+
+/// Left and right with a narrow gap. \pre of one height, BGR
+cv::Mat side_by_side(const cv::Mat& left, const cv::Mat& right);
+
+/// The picture under a white strip with `text` (ASCII) in its middle.
+cv::Mat with_caption(const cv::Mat& picture, const std::string& text);
+
+/// The picture over a white strip with the fixed scale of distortion_colour: per cent, "tighter" and
+/// "looser".
+cv::Mat with_distortion_scale(const cv::Mat& picture);
+
+}  // namespace tensegric_fit::inspect

@@ -1,0 +1,37 @@
+/// The pictures that `fit` writes (P1 Figs 5-8).
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "geometry/body_measures.hpp"
+#include "geometry/triangle_mesh.hpp"
+#include "inspect/picture.hpp"
+
+namespace tensegric_fit::inspect {
+
+/// A body before and after. Only borrowed: the meshes and measures must outlive the scene.
+struct FitScene {
+  const geometry::TriangleMesh& before;
+  const std::vector<Eigen::Vector3d>& after;  ///< one a vertex of `before`
+  const std::vector<double>& distortion;      ///< one a vertex of `before`
+  const geometry::BodyMeasures& measures;     ///< for the frame
+  std::vector<Eigen::Vector3d> focus;  ///< what the pictures are to show, such as control nodes; empty: all
+  std::vector<std::vector<Eigen::Vector3d>> lines_before, lines_after;  ///< constraining lines
+};
+
+/// Before on the left, after on the right (P1 Fig. 6, Fig. 7, Fig. 5): BGR, 1512 x 796. All \throw as draw()
+cv::Mat front_picture(const FitScene& scene);
+cv::Mat side_picture(const FitScene& scene);
+cv::Mat oblique_picture(const FitScene& scene);
+
+/// After, coloured by distortion, from the front and from an angle, with the scale (P1 Fig. 8): BGR, 1515 x
+/// 750.
+cv::Mat distortion_picture(const FitScene& scene);
+
+/// The body alone with the tapes of its girths: BGR, 900 x 900.
+cv::Mat front_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures);
+cv::Mat side_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures);
+
+}  // namespace tensegric_fit::inspect
