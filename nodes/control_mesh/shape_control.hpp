@@ -11,7 +11,8 @@
 
 namespace tensegric_fit::control_mesh {
 
-/// Which nodes stay where they are, outer and inner alike, and how thick the units are. YAML, all keys optional:
+/// Which nodes stay where they are, outer and inner alike, and how thick the units are. YAML, all keys
+/// optional:
 ///   nodes: [0, 5]                               # vertices of the control mesh
 ///   boxes: [{min: [x, y, z], max: [x, y, z]}]   # and all vertices in these boxes, metres
 ///   thickness: 0.01                             # metres; default: half the mean edge

@@ -2,10 +2,59 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace tensegric_fit::control_mesh {
 
-struct Template {};
+/// A level (height, m) or an angle round the trunk (degrees), taken from one landmark or between two.
+/// Written for her left: on her right _L and _R change places, and the middle column takes the mean of both
+/// readings.
+struct Reference {
+  std::string landmark;
+  std::string towards;  ///< empty: the value at `landmark` alone
+  double at = 0;        ///< share of the way from `landmark` to `towards`
+  double offset = 0;    ///< added; angles: away from the front, to either side alike
+};
+
+/// A node of her left half or of the middle column: placed by the body, or with a name only.
+struct TemplateNode {
+  enum class Placing { between_others, at_landmark, level_and_angle };
+  int row = 0, column = 0;
+  std::string name;  ///< empty, or ending in _L; on the middle column without a side
+  Placing placing = Placing::between_others;
+  std::string landmark;  ///< at_landmark
+  Reference level, angle;
+};
+
+/// The block of grid cells between two rows and two columns (of the whole grid, both ends included).
+struct TemplateRegion {
+  std::string name;
+  int first_row, last_row, first_column, last_column;
+};
+
+struct TemplateLine {
+  std::string name;
+  std::vector<std::string> through;  ///< node names, _L and _R written out
+};
+
+/// A grid of rows (downwards) and columns (from her left side over the middle to her right side), drawn for
+/// her left half and mirrored. Column count is odd. Nodes that are not placed lie evenly along the skin
+/// between those that are.
+struct Template {
+  std::string name;
+  std::vector<std::string> axis;  ///< landmarks; the vertical through their mean is the trunk's axis
+  int rows = 0, columns = 0;
+  std::vector<TemplateNode> nodes;
+  std::vector<std::string>
+      diagonals;  ///< rows-1 of columns/2: '\' joins (r,c) to (r+1,c+1), '/' (r+1,c) to (r,c+1)
+  std::vector<std::string> fixed;              ///< rows of columns/2+1: '#' fixed, '.' free
+  bool inner_fixed = true;                     ///< are the inner nodes below fixed outer nodes fixed too
+  std::vector<std::vector<double>> thickness;  ///< rows of columns/2+1, metres
+  std::vector<TemplateRegion> regions;
+  std::vector<TemplateLine> lines;
+
+  int middle() const { return columns / 2; }
+};
 
 /// \throw Refusal bad_template naming file and key
 Template load_template(const std::string& path);

@@ -1,0 +1,25 @@
+/// What a template says without a body: which nodes there are and how they hang together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "control_mesh/template.hpp"
+#include "geometry/control_mesh.hpp"
+
+namespace tensegric_fit::control_mesh {
+
+/// Her left half is drawn in the template; the right half is its mirror image.
+enum class Side { left, right };
+
+/// Number of the node at a row and a column of the template's drawn half, on either side.
+int node_at(const Template& pattern, int row, int column, Side side);
+
+/// `name` as it reads on a side: on her right _L and _R change places; names without a side stay.
+std::string name_on(const std::string& name, Side side);
+
+/// The control mesh with names, flags, triangles, regions and lines, but all nodes at the origin. Triangles
+/// run counter-clockwise for columns that go from her left over the front. \throw Refusal unknown_line
+geometry::ControlMesh grid_of(const Template& pattern);
+
+}  // namespace tensegric_fit::control_mesh

@@ -1,0 +1,44 @@
+#include "control_mesh/inner_nodes.hpp"
+
+#include <algorithm>
+
+namespace tensegric_fit::control_mesh {
+namespace {
+
+using Eigen::Vector3d;
+constexpr double kShareOfBody = 0.4;  // of the way through the body: the inner node stays inside
+constexpr double kLeastShare =
+    0.1;  // of the outer triangle's area that the inner one must keep, facing the same way
+constexpr double kShrink = 0.9;
+constexpr int kMostRounds = 40;
+constexpr double kThroughBody = 0.5;  // m
+constexpr double kBelowSkin = 1e-4;   // m; where the ray through the body starts
+
+}  // namespace
+
+void place_inner_nodes(geometry::ControlMesh& control, std::vector<double> thickness, const Skin& skin) {
+  const auto normals = geometry::vertex_normals(control.outer, control.triangles);
+  for (std::size_t v = 0; v < thickness.size(); ++v) {
+    const Vector3d below = control.outer[v] - kBelowSkin * normals[v];
+    const auto far_side = skin.first_exit(below, -normals[v], kThroughBody);
+    if (far_side) thickness[v] = std::min(thickness[v], kShareOfBody * (*far_side - below).norm());
+  }
+  for (int round = 0; round < kMostRounds; ++round) {
+    for (std::size_t v = 0; v < thickness.size(); ++v)
+      control.inner[v] = control.outer[v] - thickness[v] * normals[v];
+    std::vector<char> too_thick(thickness.size(), 0);
+    for (const Eigen::Vector3i& k : control.triangles) {
+      const Vector3d outer =
+          geometry::area_vector(control.outer[k[0]], control.outer[k[1]], control.outer[k[2]]);
+      const Vector3d inner =
+          geometry::area_vector(control.inner[k[0]], control.inner[k[1]], control.inner[k[2]]);
+      if (inner.dot(outer) < kLeastShare * outer.squaredNorm())
+        for (int i = 0; i < 3; ++i) too_thick[k[i]] = 1;
+    }
+    if (std::find(too_thick.begin(), too_thick.end(), 1) == too_thick.end()) return;
+    for (std::size_t v = 0; v < thickness.size(); ++v)
+      if (too_thick[v]) thickness[v] *= kShrink;
+  }
+}
+
+}  // namespace tensegric_fit::control_mesh

@@ -1,0 +1,190 @@
+#include <algorithm>
+#include <set>
+
+#include "control_mesh/template.hpp"
+#include "geometry/checked_yaml.hpp"
+
+namespace tensegric_fit::control_mesh {
+namespace {
+
+using geometry::check_keys;
+using geometry::number_in;
+using geometry::optional;
+using geometry::Refusal;
+using geometry::required;
+constexpr const char* kCode = geometry::refusal::kBadTemplate;
+constexpr int kMostRows = 100;
+
+bool ends_in(const std::string& word, const char* ending) {
+  return word.size() > 2 && word.compare(word.size() - 2, 2, ending) == 0;
+}
+
+int whole_number(const YAML::Node& map, const char* key, int low, int high, const std::string& where) {
+  number_in(map, key, low, high, where, kCode);
+  return required<int>(map, key, where, kCode);
+}
+
+Reference reference_from(const YAML::Node& map, double most_offset, const std::string& where) {
+  check_keys(map, {"landmark", "between", "at", "offset"}, where, kCode);
+  Reference reference;
+  if (map["between"]) {
+    const auto ends = required<std::vector<std::string>>(map, "between", where, kCode);
+    if (ends.size() != 2 || map["landmark"])
+      throw Refusal(kCode, where + ": give one 'landmark', or 'between' with two landmarks and 'at'");
+    reference.landmark = ends[0];
+    reference.towards = ends[1];
+    reference.at = number_in(map, "at", -2, 3, where, kCode);
+  } else {
+    reference.landmark = required<std::string>(map, "landmark", where, kCode);
+    if (map["at"]) throw Refusal(kCode, where + ": 'at' needs 'between'");
+  }
+  if (map["offset"]) reference.offset = number_in(map, "offset", -most_offset, most_offset, where, kCode);
+  return reference;
+}
+
+TemplateNode node_from(const YAML::Node& map, const Template& pattern, const std::string& where) {
+  check_keys(map, {"row", "column", "name", "landmark", "level", "angle"}, where, kCode);
+  TemplateNode node;
+  node.row = whole_number(map, "row", 0, pattern.rows - 1, where);
+  node.column = whole_number(map, "column", 0, pattern.middle(), where);
+  node.name = optional<std::string>(map, "name", "", where, kCode);
+  const bool on_middle = node.column == pattern.middle();
+  if (!node.name.empty() && (ends_in(node.name, "_R") || ends_in(node.name, "_L") == on_middle))
+    throw Refusal(kCode, where + ": 'name' must end in _L, and on the middle column must not");
+  if (map["landmark"]) {
+    node.placing = TemplateNode::Placing::at_landmark;
+    node.landmark = required<std::string>(map, "landmark", where, kCode);
+    if (map["level"] || map["angle"])
+      throw Refusal(kCode, where + ": 'landmark' excludes 'level' and 'angle'");
+  } else if (map["level"] || map["angle"]) {
+    node.placing = TemplateNode::Placing::level_and_angle;
+    if (!map["level"] || !map["angle"]) throw Refusal(kCode, where + ": 'level' and 'angle' go together");
+    node.level = reference_from(map["level"], 0.5, where + ", level");
+    node.angle = reference_from(map["angle"], 180, where + ", angle");
+  } else if (node.name.empty()) {
+    throw Refusal(kCode, where + ": neither a 'name' nor a place");
+  }
+  return node;
+}
+
+/// A picture of her left half: one word a row, made of two characters.
+std::vector<std::string> picture(const YAML::Node& root, const char* key, int rows, int columns, char a,
+                                 char b, const std::string& path) {
+  const auto lines = required<std::vector<std::string>>(root, key, path, kCode);
+  const auto fits = [&](const std::string& line) {
+    return line.size() == static_cast<std::size_t>(columns) &&
+           std::all_of(line.begin(), line.end(), [a, b](char c) { return c == a || c == b; });
+  };
+  if (lines.size() != static_cast<std::size_t>(rows) || !std::all_of(lines.begin(), lines.end(), fits))
+    throw Refusal(kCode, path + ": '" + key + "' must be " + std::to_string(rows) + " words of " +
+                             std::to_string(columns) + " characters '" + a + "' or '" + b + "'");
+  return lines;
+}
+
+std::vector<std::vector<double>> thickness_from(const YAML::Node& root, const Template& pattern,
+                                                const std::string& path) {
+  const auto table = required<std::vector<std::vector<double>>>(root, "thickness", path, kCode);
+  bool fits = table.size() == static_cast<std::size_t>(pattern.rows);
+  for (const auto& row : table) {
+    fits = fits && row.size() == static_cast<std::size_t>(pattern.middle() + 1);
+    for (double metres : row) fits = fits && metres >= 0.001 && metres <= 0.2;
+  }
+  if (!fits)
+    throw Refusal(kCode, path + ": 'thickness' must be " + std::to_string(pattern.rows) + " rows of " +
+                             std::to_string(pattern.middle() + 1) + " lengths of 0.001 to 0.2 m");
+  return table;
+}
+
+TemplateRegion region_from(const YAML::Node& map, const Template& pattern, const std::string& where) {
+  check_keys(map, {"name", "rows", "columns"}, where, kCode);
+  const auto span = [&](const char* key, int count) {
+    const auto ends = required<std::vector<int>>(map, key, where, kCode);
+    if (ends.size() != 2 || ends[0] < 0 || ends[0] >= ends[1] || ends[1] >= count)
+      throw Refusal(kCode,
+                    where + ": '" + key + "' must be two ascending numbers below " + std::to_string(count));
+    return ends;
+  };
+  const auto rows = span("rows", pattern.rows), columns = span("columns", pattern.columns);
+  return {required<std::string>(map, "name", where, kCode), rows[0], rows[1], columns[0], columns[1]};
+}
+
+YAML::Node list_of(const YAML::Node& root, const char* key, const std::string& path) {
+  if (!root[key] || !root[key].IsSequence() || root[key].size() == 0)
+    throw Refusal(kCode, path + ": '" + key + "' must be a list with something in it");
+  return root[key];
+}
+
+/// Every node must be reachable: the first and the last row have both ends placed, and no node stands there
+/// twice.
+void check_nodes(const Template& pattern, const std::string& path) {
+  std::set<std::pair<int, int>> places, placed;
+  std::set<std::string> names;
+  for (const TemplateNode& node : pattern.nodes) {
+    if (!places.insert({node.row, node.column}).second ||
+        (!node.name.empty() && !names.insert(node.name).second))
+      throw Refusal(kCode, path + ": 'nodes' has row " + std::to_string(node.row) + ", column " +
+                               std::to_string(node.column) + " or the name '" + node.name + "' twice");
+    if (node.placing != TemplateNode::Placing::between_others) placed.insert({node.row, node.column});
+  }
+  for (int row : {0, pattern.rows - 1})
+    for (int column : {0, pattern.middle()})
+      if (placed.count({row, column}) == 0)
+        throw Refusal(kCode, path + ": 'nodes' must place row " + std::to_string(row) + ", column " +
+                                 std::to_string(column));
+}
+
+void check_lines(const Template& pattern, const std::string& path) {
+  std::set<std::string> names;
+  for (const TemplateNode& node : pattern.nodes) {
+    if (node.name.empty()) continue;
+    names.insert(node.name);
+    if (ends_in(node.name, "_L")) names.insert(node.name.substr(0, node.name.size() - 1) + "R");
+  }
+  for (const TemplateLine& line : pattern.lines) {
+    if (line.through.size() < 2)
+      throw Refusal(kCode, path + ": line '" + line.name + "' needs two nodes in 'through'");
+    for (const std::string& stop : line.through)
+      if (names.count(stop) == 0)
+        throw Refusal(kCode, path + ": line '" + line.name + "': 'through' has no such node '" + stop + "'");
+  }
+}
+
+}  // namespace
+
+Template load_template(const std::string& path) {
+  const YAML::Node root = geometry::load_yaml_map(path, kCode);
+  check_keys(root,
+             {"name", "axis", "rows", "columns", "nodes", "diagonals", "fixed", "inner_fixed", "thickness",
+              "regions", "lines"},
+             path, kCode);
+  Template pattern;
+  pattern.name = required<std::string>(root, "name", path, kCode);
+  pattern.axis = required<std::vector<std::string>>(root, "axis", path, kCode);
+  if (pattern.axis.empty()) throw Refusal(kCode, path + ": 'axis' must name a landmark");
+  pattern.rows = whole_number(root, "rows", 2, kMostRows, path);
+  pattern.columns = whole_number(root, "columns", 3, kMostRows, path);
+  if (pattern.columns % 2 == 0)
+    throw Refusal(kCode, path + ": 'columns' must be odd: one of them is the middle");
+
+  for (const YAML::Node& node : list_of(root, "nodes", path))
+    pattern.nodes.push_back(
+        node_from(node, pattern, path + ", node " + std::to_string(pattern.nodes.size() + 1)));
+  check_nodes(pattern, path);
+  pattern.diagonals = picture(root, "diagonals", pattern.rows - 1, pattern.middle(), '\\', '/', path);
+  pattern.fixed = picture(root, "fixed", pattern.rows, pattern.middle() + 1, '#', '.', path);
+  pattern.inner_fixed = required<bool>(root, "inner_fixed", path, kCode);
+  pattern.thickness = thickness_from(root, pattern, path);
+  for (const YAML::Node& region : list_of(root, "regions", path))
+    pattern.regions.push_back(
+        region_from(region, pattern, path + ", region " + std::to_string(pattern.regions.size() + 1)));
+  for (const YAML::Node& line : list_of(root, "lines", path)) {
+    const std::string where = path + ", line " + std::to_string(pattern.lines.size() + 1);
+    check_keys(line, {"name", "through"}, where, kCode);
+    pattern.lines.push_back({required<std::string>(line, "name", where, kCode),
+                             required<std::vector<std::string>>(line, "through", where, kCode)});
+  }
+  check_lines(pattern, path);
+  return pattern;
+}
+
+}  // namespace tensegric_fit::control_mesh

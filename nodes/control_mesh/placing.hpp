@@ -1,0 +1,21 @@
+/// Lays a template's nodes on the skin.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "control_mesh/skin.hpp"
+#include "control_mesh/template.hpp"
+#include "geometry/body_measures.hpp"
+
+namespace tensegric_fit::control_mesh {
+
+/// A vertical line inside the trunk, in the body frame: angles and levels are seen from it.
+/// \throw Refusal missing_part:<landmark>
+Eigen::Vector3d trunk_axis(const Template& pattern, const geometry::BodyMeasures& measures);
+
+/// Positions of all nodes on the skin, body frame. \throw Refusal missing_part:<landmark>, not_a_body
+std::vector<Eigen::Vector3d> place_nodes(const Template& pattern, const geometry::BodyMeasures& measures,
+                                         const Skin& skin);
+
+}  // namespace tensegric_fit::control_mesh

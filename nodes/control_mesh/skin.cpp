@@ -1,0 +1,213 @@
+#include "control_mesh/skin.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/section.hpp"
+
+namespace tensegric_fit::control_mesh {
+namespace {
+
+using Eigen::Vector3d;
+constexpr double kCell = 0.02;    // m; a few body triangles (about 7 mm) a cell
+constexpr double kOnEdge = 1e-9;  // barycentric: a ray in the plane of symmetry runs exactly along edges
+constexpr double kOnLoop = 1e-6;  // m; a point of the skin lies on a section through it
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+struct Hit {
+  double distance;  // along the ray
+  bool leaving;     // from inside to outside
+};
+
+std::optional<Hit> hit(const Vector3d& from, const Vector3d& direction, const Vector3d& a, const Vector3d& b,
+                       const Vector3d& c) {
+  const Vector3d u = b - a, v = c - a, across = direction.cross(v);
+  const double determinant = u.dot(across);
+  if (std::abs(determinant) < 1e-15) return std::nullopt;  // seen edge-on: its neighbours are hit
+  const Vector3d w = from - a, along = w.cross(u);
+  const double s = w.dot(across) / determinant, t = direction.dot(along) / determinant;
+  if (s < -kOnEdge || t < -kOnEdge || s + t > 1 + kOnEdge) return std::nullopt;
+  return Hit{v.dot(along) / determinant, determinant < 0};
+}
+
+Vector3d nearest_on_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
+  const double squared = (b - a).squaredNorm();
+  const double t = squared > 0 ? std::clamp((p - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
+  return a + t * (b - a);
+}
+
+Vector3d nearest_on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const Vector3d normal = geometry::area_vector(a, b, c);
+  const double squared = normal.squaredNorm();
+  if (squared > 0) {
+    const Vector3d foot = p - normal * (normal.dot(p - a) / squared);
+    const auto inside = [&](const Vector3d& s, const Vector3d& t) {
+      return normal.dot((t - s).cross(foot - s)) >= 0;
+    };
+    if (inside(a, b) && inside(b, c) && inside(c, a)) return foot;
+  }
+  Vector3d best = nearest_on_segment(p, a, b);
+  for (const Vector3d& q : {nearest_on_segment(p, b, c), nearest_on_segment(p, c, a)})
+    if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
+  return best;
+}
+
+struct PlaceOnLoop {
+  std::size_t segment = 0;
+  Vector3d point;
+  double distance = kFar;
+};
+
+PlaceOnLoop place_on(const geometry::SectionLoop& loop, const Vector3d& p) {
+  PlaceOnLoop best;
+  const std::size_t count = loop.points.size(), segments = loop.closed ? count : count - 1;
+  for (std::size_t s = 0; s < segments; ++s) {
+    const Vector3d q = nearest_on_segment(p, loop.points[s], loop.points[(s + 1) % count]);
+    if ((q - p).norm() < best.distance) best = {s, q, (q - p).norm()};
+  }
+  return best;
+}
+
+/// The loop's points from `a` forward to `b`; empty where an open loop does not lead there.
+std::vector<Vector3d> forward(const geometry::SectionLoop& loop, const PlaceOnLoop& a, const PlaceOnLoop& b) {
+  const std::size_t count = loop.points.size();
+  std::vector<Vector3d> way{a.point};
+  const bool ahead = b.segment > a.segment ||
+                     (b.segment == a.segment &&
+                      (b.point - loop.points[a.segment]).norm() >= (a.point - loop.points[a.segment]).norm());
+  if (!ahead && !loop.closed) return {};
+  const std::size_t steps = ahead ? b.segment - a.segment : count - a.segment + b.segment;
+  for (std::size_t i = 1; i <= steps; ++i) way.push_back(loop.points[(a.segment + i) % count]);
+  way.push_back(b.point);
+  return way;
+}
+
+std::vector<Vector3d> divide(const std::vector<Vector3d>& way, int count) {
+  const double length = geometry::length_of(way, false);
+  std::vector<Vector3d> points;
+  double behind = 0;
+  std::size_t s = 0;
+  for (int i = 1; i <= count; ++i) {
+    const double target = length * i / (count + 1);
+    double step = (way[s + 1] - way[s]).norm();
+    while (s + 2 < way.size() && behind + step < target) {
+      behind += step;
+      ++s;
+      step = (way[s + 1] - way[s]).norm();
+    }
+    points.push_back(way[s] +
+                     (way[s + 1] - way[s]) * (step > 0 ? std::min(1.0, (target - behind) / step) : 0.0));
+  }
+  return points;
+}
+
+}  // namespace
+
+Skin::Skin(geometry::TriangleMesh surface) : surface_(std::move(surface)) {
+  const auto box = geometry::bounding_box(surface_.vertices);
+  corner_ = box[0];
+  cells_ = ((box[1] - box[0]) / kCell).array().floor().cast<int>() + 1;
+  triangles_in_.resize(static_cast<std::size_t>(cells_.x()) * cells_.y() * cells_.z());
+  for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+    const Eigen::Vector3i& k = surface_.triangles[t];
+    const Vector3d &a = surface_.vertices[k[0]], &b = surface_.vertices[k[1]], &c = surface_.vertices[k[2]];
+    const Eigen::Vector3i low = cell_of(a.cwiseMin(b).cwiseMin(c)), high = cell_of(a.cwiseMax(b).cwiseMax(c));
+    for (int z = low.z(); z <= high.z(); ++z)
+      for (int y = low.y(); y <= high.y(); ++y)
+        for (int x = low.x(); x <= high.x(); ++x)
+          triangles_in_[(static_cast<std::size_t>(z) * cells_.y() + y) * cells_.x() + x].push_back(
+              static_cast<int>(t));
+  }
+}
+
+Eigen::Vector3i Skin::cell_of(const Vector3d& point) const {
+  const Vector3d cell = ((point - corner_) / kCell).array().floor();
+  return cell.cwiseMax(0).cwiseMin((cells_.array() - 1).matrix().cast<double>()).cast<int>();
+}
+
+std::vector<int> Skin::triangles_near(const Vector3d& low, const Vector3d& high) const {
+  const Eigen::Vector3i first = cell_of(low.array() - kOnEdge), last = cell_of(high.array() + kOnEdge);
+  std::vector<int> found;
+  for (int z = first.z(); z <= last.z(); ++z)
+    for (int y = first.y(); y <= last.y(); ++y)
+      for (int x = first.x(); x <= last.x(); ++x) {
+        const auto& here = triangles_in_[(static_cast<std::size_t>(z) * cells_.y() + y) * cells_.x() + x];
+        found.insert(found.end(), here.begin(), here.end());
+      }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+std::optional<Vector3d> Skin::first_exit(const Vector3d& from, const Vector3d& direction,
+                                         double reach) const {
+  const Vector3d to = from + reach * direction;
+  double best = kFar;
+  for (int t : triangles_near(from.cwiseMin(to), from.cwiseMax(to))) {
+    const Eigen::Vector3i& k = surface_.triangles[t];
+    const auto h =
+        hit(from, direction, surface_.vertices[k[0]], surface_.vertices[k[1]], surface_.vertices[k[2]]);
+    if (h && h->leaving && h->distance >= 0 && h->distance <= reach) best = std::min(best, h->distance);
+  }
+  if (best == kFar) return std::nullopt;
+  return from + best * direction;
+}
+
+std::optional<Vector3d> Skin::nearest_along(const Vector3d& from, const Vector3d& direction,
+                                            double reach) const {
+  const Vector3d back = from - reach * direction, front = from + reach * direction;
+  double best = kFar;
+  for (int t : triangles_near(back.cwiseMin(front), back.cwiseMax(front))) {
+    const Eigen::Vector3i& k = surface_.triangles[t];
+    const auto h =
+        hit(from, direction, surface_.vertices[k[0]], surface_.vertices[k[1]], surface_.vertices[k[2]]);
+    if (h && h->leaving && std::abs(h->distance) <= reach && std::abs(h->distance) < std::abs(best))
+      best = h->distance;
+  }
+  if (best == kFar) return std::nullopt;
+  return from + best * direction;
+}
+
+Vector3d Skin::nearest(const Vector3d& point) const {
+  const Vector3d size = cells_.cast<double>() * kCell;
+  const double whole = size.norm() + (point - corner_).norm();
+  for (double reach = kCell;; reach *= 2) {
+    Vector3d best = point;
+    double least = kFar;
+    for (int t : triangles_near(point.array() - reach, point.array() + reach)) {
+      const Eigen::Vector3i& k = surface_.triangles[t];
+      const Vector3d q = nearest_on_triangle(point, surface_.vertices[k[0]], surface_.vertices[k[1]],
+                                             surface_.vertices[k[2]]);
+      if ((q - point).norm() >= least) continue;
+      least = (q - point).norm();
+      best = q;
+    }
+    if (least <= reach || reach > whole) return best;
+  }
+}
+
+std::vector<Vector3d> Skin::between(const Vector3d& a, const Vector3d& b, int count,
+                                    const Vector3d& outward) const {
+  const Vector3d normal = (b - a).cross(outward);
+  std::vector<Vector3d> way;
+  if (normal.norm() > 0) {
+    for (const geometry::SectionLoop& loop : geometry::plane_section(surface_, a, normal.normalized())) {
+      const PlaceOnLoop at_a = place_on(loop, a), at_b = place_on(loop, b);
+      if (at_a.distance > kOnLoop || at_b.distance > kOnLoop) continue;
+      std::vector<Vector3d> there = forward(loop, at_a, at_b), back = forward(loop, at_b, at_a);
+      std::reverse(back.begin(), back.end());
+      for (auto& candidate : {there, back})
+        if (!candidate.empty() &&
+            (way.empty() || geometry::length_of(candidate, false) < geometry::length_of(way, false)))
+          way = candidate;
+    }
+  }
+  std::vector<Vector3d> points = divide(way.empty() ? std::vector<Vector3d>{a, b} : way, count);
+  if (way.empty())  // the section is broken here: the skin beside the straight way
+    for (Vector3d& p : points) p = nearest(p);
+  return points;
+}
+
+}  // namespace tensegric_fit::control_mesh

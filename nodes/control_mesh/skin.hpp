@@ -1,0 +1,46 @@
+/// Questions asked of the body's surface while a control mesh is laid on it.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::control_mesh {
+
+/// A part of the body's surface with an index over its triangles. All answers are exact for the mesh and do
+/// not depend on the order of its triangles but for ties.
+class Skin {
+ public:
+  /// \pre `surface` has passed check_mesh and is not empty
+  explicit Skin(geometry::TriangleMesh surface);
+
+  /// Where the ray first leaves the body, up to `reach` metres away. `direction` is a unit vector.
+  std::optional<Eigen::Vector3d> first_exit(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
+                                            double reach) const;
+
+  /// The point of the line through `from` nearest to it, at most `reach` away either way, where the skin
+  /// faces along `direction`.
+  std::optional<Eigen::Vector3d> nearest_along(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
+                                               double reach) const;
+
+  Eigen::Vector3d nearest(const Eigen::Vector3d& point) const;
+
+  /// `count` points that divide the way over the skin from `a` to `b` evenly: along the plane section through
+  /// both that holds `outward`, the shorter way round. Follows the skin into folds that a ray would miss.
+  std::vector<Eigen::Vector3d> between(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int count,
+                                       const Eigen::Vector3d& outward) const;
+
+ private:
+  /// Triangles whose cells touch the box, ascending.
+  std::vector<int> triangles_near(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
+  Eigen::Vector3i cell_of(const Eigen::Vector3d& point) const;
+
+  geometry::TriangleMesh surface_;
+  Eigen::Vector3d corner_;
+  Eigen::Vector3i cells_;
+  std::vector<std::vector<int>> triangles_in_;
+};
+
+}  // namespace tensegric_fit::control_mesh
