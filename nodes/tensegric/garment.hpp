@@ -11,9 +11,9 @@ namespace tensegric_fit::tensegric {
 /// How the one tension T along a line follows from its length L and neutral length l. A line never pushes.
 struct TensionLaw {
   enum class Kind { rigid, stiffness, table };
-  Kind kind = Kind::rigid;                      ///< rigid: L <= l exactly
-  double stiffness = 0;                         ///< T = stiffness * max(0, L/l - 1), pseudo force
-  std::vector<std::pair<double, double>> table; ///< (L/l, T), both ascending, linear in between
+  Kind kind = Kind::rigid;                       ///< rigid: L <= l exactly
+  double stiffness = 0;                          ///< T = stiffness * max(0, L/l - 1), pseudo force
+  std::vector<std::pair<double, double>> table;  ///< (L/l, T), both ascending, linear in between
 };
 
 struct GarmentLine {
@@ -21,8 +21,9 @@ struct GarmentLine {
   double ratio = 1;  ///< neutral length / length at rest
   TensionLaw law;
   double tension_limit = std::numeric_limits<double>::infinity();  ///< pseudo force
-  std::vector<std::string> through;  ///< names of control nodes; empty: the control mesh's own line of this name
-  bool taut = false;                 ///< straight from stop to stop; else over the control mesh's edges
+  std::vector<std::string>
+      through;        ///< names of control nodes; empty: the control mesh's own line of this name
+  bool taut = false;  ///< straight from stop to stop; else over the control mesh's edges
 };
 
 struct Garment {

@@ -36,18 +36,21 @@ struct RegionResult {
 /// One row of P2 Fig. 11. `residual` is relative to the mean tensile force at rest.
 struct Iterate {
   int iteration = 0;
-  std::vector<double> line_ratios;          ///< length / length at rest, one a line of the garment
-  std::vector<double> volume_errors;        ///< (V - V0) / V0, one a region
-  std::vector<Eigen::Vector3d> tracked;     ///< the control nodes in SolverOptions::track
+  std::vector<double> line_ratios;       ///< length / length at rest, one a line of the garment
+  std::vector<double> volume_errors;     ///< (V - V0) / V0, one a region
+  std::vector<Eigen::Vector3d> tracked;  ///< the control nodes in SolverOptions::track
   double residual = 0;
 };
 
 /// Field defaults are the parameters' defaults.
 struct SolverOptions {
   SolverName solver = SolverName::equilibrium;
-  int max_iterations = 0;                              ///< 0: the solver's own cap
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();   ///< pseudo force on each outer node, scan frame
-  std::vector<int> track;                              ///< outer nodes whose way is written into the history
+  int max_iterations = 0;                             ///< 0: the solver's own cap
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< pseudo force on each outer node, scan frame
+  std::vector<int> track;                             ///< outer nodes whose way is written into the history
+  double line_force = 1;  ///< relaxation, adaptive: pull of a rigid line per stretch / k (P1 §3.5)
+  double volume_force =
+      1;  ///< relaxation, adaptive: mean push at a node per relative loss of volume / k (P1 §3.4)
 };
 
 struct Solution {
@@ -64,9 +67,9 @@ struct Solution {
 /// Called after each iteration with the state as it stands; return false to cancel (status capped).
 using Progress = std::function<bool(const Iterate&, const std::vector<Eigen::Vector3d>& outer)>;
 
-/// Deforms the model under the garment's lines at constant region volumes. `start` is null (from rest) or an earlier
-/// solution of the same model (warm start). Never returns a non-finite position.
-/// \throw Refusal unknown_line, bad_garment, bad_option
+/// Deforms the model under the garment's lines at constant region volumes. `start` is null (from rest) or an
+/// earlier solution of the same model (warm start). Never returns a non-finite position. \throw Refusal
+/// unknown_line, bad_garment, bad_option
 Solution solve(const Model& model, const Garment& garment, const SolverOptions& options,
                const Solution* start = nullptr, const Progress& progress = {});
 

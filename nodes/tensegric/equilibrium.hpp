@@ -1,0 +1,11 @@
+/// The equilibrium solver: least energy at constant volumes under the bands (DESIGN §4, solver 3).
+#pragma once
+
+#include "tensegric/problem.hpp"
+
+namespace tensegric_fit::tensegric {
+
+/// Follows the load in steps from rest, or from an earlier solution that came to a balance.
+Outcome find_equilibrium(const Problem& problem, const Solution* start, Recorder& recorder);
+
+}  // namespace tensegric_fit::tensegric

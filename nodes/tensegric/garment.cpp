@@ -1,0 +1,108 @@
+#include "tensegric/garment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/checked_yaml.hpp"
+
+namespace tensegric_fit::tensegric {
+namespace {
+
+using geometry::Refusal;
+using geometry::refusal::kBadGarment;
+
+constexpr double kLowestRatio = 0.05, kHighestRatio = 10;  // beyond lies a slip of the pen, not a garment
+constexpr double kHighestTension = 1e9;
+
+std::vector<std::string> words(const YAML::Node& map, const char* key, const std::string& where) {
+  if (!map[key]) return {};
+  if (map[key].IsScalar()) return {map[key].Scalar()};
+  return geometry::required<std::vector<std::string>>(map, key, where, kBadGarment);
+}
+
+std::vector<std::pair<double, double>> read_table(const YAML::Node& law, const std::string& where) {
+  const auto rows = geometry::required<std::vector<std::vector<double>>>(law, "table", where, kBadGarment);
+  std::vector<std::pair<double, double>> table;
+  for (const std::vector<double>& row : rows) {
+    if (row.size() != 2)
+      throw Refusal(kBadGarment, where + ": each row of 'table' must be [stretch, tension]");
+    if (!std::isfinite(row[0]) || row[0] < 1 || !(row[1] >= 0 && row[1] <= kHighestTension))
+      throw Refusal(kBadGarment,
+                    where + ": 'table' needs stretches of at least 1 and tensions of at least 0");
+    if (!table.empty() && (row[0] <= table.back().first || row[1] < table.back().second))
+      throw Refusal(kBadGarment, where + ": the rows of 'table' must ascend");
+    table.emplace_back(row[0], row[1]);
+  }
+  if (table.empty()) throw Refusal(kBadGarment, where + ": 'table' has no rows");
+  if (table.front().first == 1 && table.front().second != 0)
+    throw Refusal(kBadGarment, where + ": 'table' must have no tension at stretch 1");
+  if (table.front().first > 1) table.insert(table.begin(), {1, 0});
+  if (table.size() < 2) throw Refusal(kBadGarment, where + ": 'table' needs a row beyond stretch 1");
+  return table;
+}
+
+TensionLaw read_law(const YAML::Node& line, const std::string& where) {
+  TensionLaw law;
+  const YAML::Node node = line["law"];
+  if (!node || (node.IsScalar() && node.Scalar() == "rigid")) return law;
+  if (!node.IsMap() || node.size() != 1)
+    throw Refusal(kBadGarment,
+                  where + ": 'law' must be rigid, {stiffness: s} or {table: [[stretch, tension], ...]}");
+  geometry::check_keys(node, {"stiffness", "table"}, where + ": law", kBadGarment);
+  if (node["stiffness"]) {
+    law.kind = TensionLaw::Kind::stiffness;
+    law.stiffness = geometry::number_in(node, "stiffness", 0, kHighestTension, where, kBadGarment);
+  } else {
+    law.kind = TensionLaw::Kind::table;
+    law.table = read_table(node, where);
+  }
+  return law;
+}
+
+GarmentLine read_line(const YAML::Node& node, const std::string& where) {
+  if (!node.IsMap()) throw Refusal(kBadGarment, where + ": must be a map");
+  for (const char* key : {"points", "width", "smooth"})
+    if (node[key])
+      throw Refusal(kBadGarment,
+                    where + ": '" + key + "' is not supported: give the line's nodes with 'through'");
+  geometry::check_keys(node, {"name", "ratio", "law", "tension_limit", "through", "follow"}, where,
+                       kBadGarment);
+  GarmentLine line;
+  line.name = geometry::required<std::string>(node, "name", where, kBadGarment);
+  if (line.name.empty()) throw Refusal(kBadGarment, where + ": 'name' is empty");
+  if (node["ratio"])
+    line.ratio = geometry::number_in(node, "ratio", kLowestRatio, kHighestRatio, where, kBadGarment);
+  line.law = read_law(node, where);
+  if (node["tension_limit"])
+    line.tension_limit = geometry::number_in(node, "tension_limit", 0, kHighestTension, where, kBadGarment);
+  line.through = words(node, "through", where);
+  if (line.through.size() == 1) throw Refusal(kBadGarment, where + ": 'through' needs two nodes or more");
+  const auto follow = geometry::optional<std::string>(node, "follow", "skin", where, kBadGarment);
+  if (follow != "skin" && follow != "taut")
+    throw Refusal(kBadGarment, where + ": 'follow' is '" + follow + "', not skin or taut");
+  line.taut = follow == "taut";
+  return line;
+}
+
+}  // namespace
+
+Garment load_garment(const std::string& path) {
+  const YAML::Node root = geometry::load_yaml_map(path, kBadGarment);
+  geometry::check_keys(root, {"name", "region", "lines"}, path, kBadGarment);
+  Garment garment;
+  garment.name = geometry::required<std::string>(root, "name", path, kBadGarment);
+  garment.regions = words(root, "region", path);
+  if (garment.regions.empty()) throw Refusal(kBadGarment, path + ": key 'region' is missing or empty");
+  if (!root["lines"] || !root["lines"].IsSequence() || root["lines"].size() == 0)
+    throw Refusal(kBadGarment, path + ": 'lines' must list one line or more");
+  for (std::size_t i = 0; i < root["lines"].size(); ++i) {
+    const GarmentLine line = read_line(root["lines"][i], path + ": line " + std::to_string(i + 1));
+    const bool taken = std::any_of(garment.lines.begin(), garment.lines.end(),
+                                   [&line](const GarmentLine& other) { return other.name == line.name; });
+    if (taken) throw Refusal(kBadGarment, path + ": two lines are named '" + line.name + "'");
+    garment.lines.push_back(line);
+  }
+  return garment;
+}
+
+}  // namespace tensegric_fit::tensegric

@@ -1,0 +1,193 @@
+#include "tensegric/kkt.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "tensegric/members.hpp"
+
+namespace tensegric_fit::tensegric {
+namespace {
+
+std::vector<std::pair<int, int>> coupled_nodes(const Problem& problem) {
+  std::vector<std::pair<int, int>> pairs;
+  const auto couple = [&](int a, int b) {
+    if (problem.free_index[a] >= 0 && problem.free_index[b] >= 0)
+      pairs.emplace_back(problem.free_index[a], problem.free_index[b]);
+  };
+  for (const Member& m : problem.model.members) couple(m.a, m.b);
+  for (const Band& band : problem.bands)
+    for (std::size_t i = 1; i < band.nodes.size(); ++i) couple(band.nodes[i - 1], band.nodes[i]);
+  return pairs;
+}
+
+// A band's condition: zero where it does what its hold says.
+double band_condition(const Band& band, Hold hold, double length, double neutral, double limit,
+                      double tension) {
+  switch (hold) {
+    case Hold::length:
+      return length - neutral;
+    case Hold::elastic:
+      return law_tension(band.law, length / neutral) - tension;
+    case Hold::limit:
+      return limit - tension;
+    case Hold::slack:
+      break;
+  }
+  return -tension;
+}
+
+}  // namespace
+
+Kkt::Kkt(const Problem& problem)
+    : problem_(problem),
+      regions_(static_cast<int>(problem.volumes.size())),
+      bands_(static_cast<int>(problem.bands.size())),
+      hessian_(problem.free_nodes, coupled_nodes(problem)) {
+  factor_.analyzePattern(hessian_.lower());
+}
+
+Defect Kkt::defect(const Balance& at, const Load& load) const {
+  Defect result;
+  result.gradient = Eigen::VectorXd::Zero(3 * problem_.free_nodes);
+  result.conditions.resize(regions_ + bands_);
+  add_member_gradient(problem_.model, at.x, problem_.free_index, result.gradient);
+  for (std::size_t i = 0; i < problem_.model.control.outer.size(); ++i)
+    if (problem_.free_index[i] >= 0) result.gradient.segment<3>(3 * problem_.free_index[i]) -= load.gravity;
+  for (int r = 0; r < regions_; ++r) {
+    const RegionVolume& region = problem_.volumes[r];
+    result.conditions[r] = (region.rest - volume(region, at.x)) / region.area;
+    result.volume_error = std::max(result.volume_error, std::abs(volume_error(region, at.x)));
+    add_volume_gradient(region, at.x, problem_.free_index, -at.pressures[r] / region.area, result.gradient);
+  }
+  for (int b = 0; b < bands_; ++b) {
+    const Band& band = problem_.bands[b];
+    const double error = band_condition(band, at.holds[b], smooth_length(band, at.x), load.neutral[b],
+                                        load.limit[b], at.tensions[b]);
+    result.conditions[regions_ + b] = error;
+    if (at.holds[b] == Hold::length)
+      result.length_error = std::max(result.length_error, std::abs(error) / load.neutral[b]);
+    else
+      result.tension_error = std::max(result.tension_error, std::abs(error) / problem_.force_scale);
+    add_length_gradient(band, at.x, problem_.free_index, at.tensions[b], result.gradient);
+  }
+  result.residual = relative_residual(problem_, result.gradient);
+  return result;
+}
+
+double Kkt::energy(const Balance& at, const Load& load) const {
+  double energy = member_energy(problem_.model, at.x);
+  for (std::size_t i = 0; i < problem_.model.control.outer.size(); ++i)
+    if (problem_.free_index[i] >= 0) energy -= load.gravity.dot(at.x[i] - problem_.rest[i]);
+  for (int b = 0; b < bands_; ++b) {
+    const Band& band = problem_.bands[b];
+    if (at.holds[b] == Hold::limit) energy += load.limit[b] * smooth_length(band, at.x);
+    if (at.holds[b] == Hold::elastic)
+      energy += load.neutral[b] * law_work(band.law, smooth_length(band, at.x) / load.neutral[b]);
+  }
+  return energy;
+}
+
+void Kkt::jacobian(const Positions& x) {
+  jacobian_.setZero(3 * problem_.free_nodes, regions_ + bands_);
+  for (int r = 0; r < regions_; ++r)
+    add_volume_gradient(problem_.volumes[r], x, problem_.free_index, -1 / problem_.volumes[r].area,
+                        jacobian_.col(r));
+  for (int b = 0; b < bands_; ++b)
+    add_length_gradient(problem_.bands[b], x, problem_.free_index, 1, jacobian_.col(regions_ + b));
+}
+
+void Kkt::assemble(const Balance& at, bool convex) {
+  hessian_.clear();
+  add_member_hessian(problem_.model, at.x, problem_.free_index, convex, hessian_);
+  for (int b = 0; b < bands_; ++b)
+    add_length_hessian(problem_.bands[b], at.x, problem_.free_index, std::max(0.0, at.tensions[b]), hessian_);
+  if (convex) {
+    hessian_.add_to_diagonal(1e-3 * problem_.force_scale / problem_.model.members.front().rest);
+    return;
+  }
+  for (int r = 0; r < regions_; ++r)
+    add_volume_hessian(problem_.volumes[r], at.x, problem_.free_index,
+                       -at.pressures[r] / problem_.volumes[r].area, hessian_);
+}
+
+// Factorises and forms the Schur complement; true where the balance is a minimum under its conditions: by the
+// law of inertia, where the matrix has as many negative pivots as the complement has negative eigenvalues.
+bool Kkt::factorise(const Balance& at, const Load& load) {
+  factor_.factorize(hessian_.lower());
+  if (factor_.info() != Eigen::Success || !factor_.vectorD().allFinite()) return false;
+  solved_ = factor_.solve(jacobian_);
+  const int count = regions_ + bands_;
+  by_length_.setOnes(count);
+  by_multiplier_.setZero(count);
+  for (int b = 0; b < bands_; ++b) {
+    if (at.holds[b] == Hold::length) continue;
+    const Band& band = problem_.bands[b];
+    by_multiplier_[regions_ + b] = 1;
+    by_length_[regions_ + b] =
+        at.holds[b] == Hold::elastic
+            ? law_slope(band.law, smooth_length(band, at.x) / load.neutral[b]) / load.neutral[b]
+            : 0;
+  }
+  const Eigen::MatrixXd product = jacobian_.transpose() * solved_;
+  schur_ = by_length_.asDiagonal() * product;
+  schur_.diagonal() += by_multiplier_;
+  schur_factor_.compute(schur_);
+
+  const Eigen::Index negative = (factor_.vectorD().array() <= 0).count();
+  if (negative == 0) return true;
+  std::vector<int> kept;
+  for (int i = 0; i < count; ++i)
+    if (by_length_[i] > 0) kept.push_back(i);
+  Eigen::MatrixXd compliance(kept.size(), kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    for (std::size_t j = 0; j < kept.size(); ++j)
+      compliance(i, j) =
+          product(kept[i], kept[j]) + (i == j ? by_multiplier_[kept[i]] / by_length_[kept[i]] : 0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(compliance, Eigen::EigenvaluesOnly);
+  return (eigen.eigenvalues().array() < 0).count() == negative;
+}
+
+Step Kkt::step(const Balance& at, const Load& load, const Defect& defect) {
+  Step result;
+  jacobian(at.x);
+  assemble(at, false);
+  result.minimum = factorise(at, load);
+  if (!result.minimum) {
+    assemble(at, true);
+    factorise(at, load);
+  }
+  const Eigen::VectorXd free_move = factor_.solve(defect.gradient);
+  result.multipliers =
+      schur_factor_.solve(defect.conditions - by_length_.asDiagonal() * (jacobian_.transpose() * free_move));
+  result.move = -(free_move + solved_ * result.multipliers);
+  return result;
+}
+
+Eigen::VectorXd Kkt::correction(const Eigen::VectorXd& conditions) const {
+  return -(solved_ * schur_factor_.solve(conditions));
+}
+
+void Kkt::guess_multipliers(Balance& at, const Load& load) const {
+  std::vector<int> open;
+  for (int i = 0; i < regions_ + bands_; ++i)
+    if (i < regions_ || at.holds[i - regions_] == Hold::length) open.push_back(i);
+  at.pressures.setZero(regions_);
+  for (int i : open)
+    if (i >= regions_) at.tensions[i - regions_] = 0;
+  const Eigen::VectorXd gradient = defect(at, load).gradient;
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(gradient.size(), static_cast<Eigen::Index>(open.size()));
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    const int i = open[k];
+    if (i < regions_)
+      add_volume_gradient(problem_.volumes[i], at.x, problem_.free_index, -1 / problem_.volumes[i].area,
+                          columns.col(k));
+    else
+      add_length_gradient(problem_.bands[i - regions_], at.x, problem_.free_index, 1, columns.col(k));
+  }
+  const Eigen::VectorXd best = columns.completeOrthogonalDecomposition().solve(-gradient);
+  for (std::size_t k = 0; k < open.size(); ++k)
+    (open[k] < regions_ ? at.pressures[open[k]] : at.tensions[open[k] - regions_]) = best[k];
+}
+
+}  // namespace tensegric_fit::tensegric

@@ -1,0 +1,89 @@
+/// One Newton step on the conditions of balance: forces, volumes and bands together (DESIGN §4, solver 3).
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <vector>
+
+#include "tensegric/node_matrix.hpp"
+#include "tensegric/problem.hpp"
+
+namespace tensegric_fit::tensegric {
+
+/// What a band does at present.
+enum class Hold {
+  slack,    ///< shorter than neutral: pulls nothing
+  length,   ///< rigid: kept at its neutral length
+  elastic,  ///< pulls by its law
+  limit     ///< pulls its tension limit, whatever its length
+};
+
+/// Positions and multipliers. Pressure pushes outward where it is positive.
+struct Balance {
+  Positions x;
+  Eigen::VectorXd pressures;  ///< one a region, times its area: a force
+  Eigen::VectorXd tensions;   ///< one a band
+  std::vector<Hold> holds;    ///< one a band
+};
+
+/// What is asked for: changes as the load is followed.
+struct Load {
+  std::vector<double> neutral;  ///< one a band, m
+  std::vector<double> limit;    ///< one a band, pseudo force
+  Eigen::Vector3d gravity;
+};
+
+/// Net forces and broken conditions at a balance.
+struct Defect {
+  Eigen::VectorXd gradient;    ///< of the Lagrangian by the free nodes
+  Eigen::VectorXd conditions;  ///< regions (m: loss of volume / area), then bands (m, or a pseudo force)
+  double residual = 0;         ///< largest net force / mean tensile force at rest
+  double volume_error = 0;     ///< largest |dV / V|
+  double length_error = 0;     ///< largest |L / l - 1| of the bands kept at length
+  double tension_error = 0;    ///< largest error of the other bands' tensions / mean tensile force at rest
+};
+
+struct Step {
+  Eigen::VectorXd move;         ///< by the free nodes
+  Eigen::VectorXd multipliers;  ///< change of pressures, then of tensions
+  bool minimum = true;  ///< the balance is a minimum of the energy as far as the second derivative tells
+};
+
+class Kkt {
+ public:
+  explicit Kkt(const Problem& problem);
+
+  Defect defect(const Balance& at, const Load& load) const;
+
+  /// Newton's step. Where the second derivative is no minimum's, each member's positive semi-definite part
+  /// serves.
+  Step step(const Balance& at, const Load& load, const Defect& defect);
+
+  /// A move of least effort that takes `conditions` to zero, by the matrix of the last step.
+  Eigen::VectorXd correction(const Eigen::VectorXd& conditions) const;
+
+  /// Gradients of the conditions, one a column, as of the last step.
+  const Eigen::MatrixXd& gradients() const { return jacobian_; }
+
+  /// Energy of members, gravity and the bands that are not kept at length.
+  double energy(const Balance& at, const Load& load) const;
+
+  /// The multipliers that come nearest to balance at `at`, for the volumes and the bands kept at length.
+  void guess_multipliers(Balance& at, const Load& load) const;
+
+ private:
+  void assemble(const Balance& at, bool convex);
+  bool factorise(const Balance& at, const Load& load);
+  void jacobian(const Positions& x);
+
+  const Problem& problem_;
+  int regions_, bands_;
+  NodeMatrix hessian_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+  Eigen::MatrixXd jacobian_, solved_;  // columns: gradients of volumes and lengths; the same, solved for
+  Eigen::VectorXd by_length_, by_multiplier_;  // each condition's derivatives
+  Eigen::MatrixXd schur_;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> schur_factor_;
+};
+
+}  // namespace tensegric_fit::tensegric

@@ -1,0 +1,49 @@
+#include "tensegric/members.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tensegric_fit::tensegric {
+
+double member_energy(const Model& model, const Positions& x) {
+  double energy = 0;
+  for (const Member& m : model.members) {
+    const double force = tension(model, m, (x[m.a] - x[m.b]).norm());
+    energy += force * force / (2 * spring(model, m));
+  }
+  return energy;
+}
+
+void add_member_gradient(const Model& model, const Positions& x, const std::vector<int>& free_index,
+                         Eigen::VectorXd& gradient) {
+  for (const Member& m : model.members) {
+    const Eigen::Vector3d span = x[m.a] - x[m.b];
+    const double length = span.norm();
+    const double force = tension(model, m, length);
+    if (force == 0 || length == 0) continue;
+    const Eigen::Vector3d pull = force / length * span;
+    if (free_index[m.a] >= 0) gradient.segment<3>(3 * free_index[m.a]) += pull;
+    if (free_index[m.b] >= 0) gradient.segment<3>(3 * free_index[m.b]) -= pull;
+  }
+}
+
+void add_member_hessian(const Model& model, const Positions& x, const std::vector<int>& free_index,
+                        bool convex, NodeMatrix& hessian) {
+  for (const Member& m : model.members) {
+    const int a = free_index[m.a], b = free_index[m.b];
+    if (a < 0 && b < 0) continue;
+    const Eigen::Vector3d span = x[m.a] - x[m.b];
+    const double length = span.norm();
+    const double force = tension(model, m, length);
+    if (length == 0 || (force == 0 && !m.strut)) continue;
+    const Eigen::Vector3d u = span / length;
+    const double across = convex ? std::max(0.0, force / length) : force / length;
+    Eigen::Matrix3d block = (spring(model, m) - across) * u * u.transpose();
+    block.diagonal().array() += across;
+    hessian.add(a, a, block);
+    hessian.add(b, b, block);
+    hessian.add(a, b, -block);
+  }
+}
+
+}  // namespace tensegric_fit::tensegric

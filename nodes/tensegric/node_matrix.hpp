@@ -1,0 +1,30 @@
+/// Symmetric sparse matrices of 3x3 blocks, one block row a free node.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <utility>
+#include <vector>
+
+namespace tensegric_fit::tensegric {
+
+/// The pattern stands from the start; values are cleared and added to as often as wanted, so that a
+/// factorisation's symbolic part is done once.
+class NodeMatrix {
+ public:
+  /// Blocks on the diagonal and at each of `pairs` of nodes, in any order, repeated or not.
+  NodeMatrix(int nodes, std::vector<std::pair<int, int>> pairs);
+
+  void clear();
+  /// Adds `block` at (row, column) and, off the diagonal, its transpose at (column, row). A negative index (a
+  /// fixed node) adds nothing. \pre the pair is in the pattern
+  void add(int row, int column, const Eigen::Matrix3d& block);
+  void add_to_diagonal(double value);
+  /// Lower triangle.
+  const Eigen::SparseMatrix<double>& lower() const { return lower_; }
+
+ private:
+  std::vector<int> start_, rows_;  // of each block column, the block rows below the diagonal
+  Eigen::SparseMatrix<double> lower_;
+};
+
+}  // namespace tensegric_fit::tensegric

@@ -1,0 +1,58 @@
+/// What every solver is given: the model with the garment laid on it.
+#pragma once
+
+#include <vector>
+
+#include "tensegric/band.hpp"
+#include "tensegric/region_volume.hpp"
+#include "tensegric/solver.hpp"
+
+namespace tensegric_fit::tensegric {
+
+struct Problem {
+  const Model& model;
+  const SolverOptions& options;
+  std::vector<int> free_index;  ///< of each node its number among the free ones, or -1
+  int free_nodes;
+  Positions rest;
+  std::vector<Band> bands;
+  std::vector<RegionVolume> volumes;
+  double force_scale;  ///< mean tension of the tensile parts at rest
+};
+
+/// Where a solver is, and what the bands pull.
+struct State {
+  Positions x;
+  std::vector<double> tensions;  ///< one a band
+};
+
+/// How a solver ended.
+struct Outcome {
+  State state;
+  Status status = Status::capped;
+  int iterations = 0;
+  double residual = 0;
+  std::string note;
+};
+
+/// \throw Refusal unknown_line, bad_garment, bad_option
+Problem lay_garment(const Model& model, const Garment& garment, const SolverOptions& options);
+
+/// Largest net force at a free node, relative to the mean tensile force at rest. `gradient` is the negative
+/// net force.
+double relative_residual(const Problem& problem, const Eigen::VectorXd& gradient);
+
+/// Keeps the history and tells the caller of each iteration.
+class Recorder {
+ public:
+  Recorder(const Problem& problem, const Progress& progress) : problem_(problem), progress_(progress) {}
+  /// False where the caller wants to stop.
+  bool record(int iteration, const Positions& x, double residual);
+  std::vector<Iterate> history;
+
+ private:
+  const Problem& problem_;
+  const Progress& progress_;
+};
+
+}  // namespace tensegric_fit::tensegric

@@ -1,0 +1,23 @@
+/// What to tell people about the shape of a deformed control mesh.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tensegric/model.hpp"
+
+namespace tensegric_fit::tensegric {
+
+/// Area after / before of each control triangle: smallest and largest; and how many triangles turned over.
+struct TriangleChange {
+  double smallest = 1, largest = 1;
+  int below_half = 0, turned_over = 0;
+};
+
+TriangleChange triangle_change(const Model& model, const Positions& x);
+
+/// Sentences on triangles that are compressed below half their area or turned over; empty where there are
+/// none.
+std::string shape_note(const Model& model, const Positions& x);
+
+}  // namespace tensegric_fit::tensegric

@@ -1,0 +1,117 @@
+#include "tensegric/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/status.hpp"
+#include "tensegric/equilibrium.hpp"
+#include "tensegric/problem.hpp"
+#include "tensegric/relaxation.hpp"
+#include "tensegric/shape_check.hpp"
+
+namespace tensegric_fit::tensegric {
+namespace {
+
+using geometry::Refusal;
+namespace refusal = geometry::refusal;
+
+void check_start(const Model& model, const Solution& start) {
+  const std::size_t count = model.control.outer.size();
+  if (start.outer.size() != count || start.inner.size() != count)
+    throw Refusal(refusal::kBadOption, "the solution to start from is not of this model");
+  for (const auto* layer : {&start.outer, &start.inner})
+    for (const Eigen::Vector3d& p : *layer)
+      if (!p.allFinite()) throw Refusal(refusal::kBadOption, "the solution to start from is not finite");
+}
+
+void add_sentence(std::string& note, const std::string& sentence) {
+  if (!sentence.empty()) note += (note.empty() ? "" : " ") + sentence;
+}
+
+std::string millimetres(double metres) {
+  return std::to_string(std::lround(1000 * metres)) + " mm";
+}
+
+// Lines that stayed longer than asked for.
+std::string reach_note(const std::vector<LineResult>& lines, const std::vector<Band>& bands) {
+  std::string note;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const LineResult& line = lines[i];
+    if (bands[i].law.kind != TensionLaw::Kind::rigid || line.final <= line.neutral * (1 + 1e-6)) continue;
+    add_sentence(note, "Line " + line.name + " comes no shorter than " + millimetres(line.final) + "; " +
+                           millimetres(line.neutral) + " were asked for.");
+  }
+  return note;
+}
+
+Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iterate> history) {
+  const Positions& x = outcome.state.x;
+  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(problem.model.control.outer.size());
+  Solution solution;
+  solution.outer.assign(x.begin(), middle);
+  solution.inner.assign(middle, x.end());
+  for (std::size_t b = 0; b < problem.bands.size(); ++b) {
+    const Band& band = problem.bands[b];
+    solution.lines.push_back({band.name, band.initial, band.neutral, geometry::line_length(band.nodes, x),
+                              band.request, outcome.state.tensions[b], band.nodes});
+  }
+  for (const RegionVolume& region : problem.volumes)
+    solution.regions.push_back({region.name, region.rest, volume(region, x)});
+  solution.status = outcome.status;
+  solution.iterations = outcome.iterations;
+  solution.residual = outcome.residual;
+  solution.history = std::move(history);
+  solution.note = outcome.note;
+  add_sentence(solution.note, reach_note(solution.lines, problem.bands));
+  add_sentence(solution.note, shape_note(problem.model, x));
+  return solution;
+}
+
+}  // namespace
+
+std::string to_string(SolverName name) {
+  switch (name) {
+    case SolverName::equilibrium:
+      return "equilibrium";
+    case SolverName::adaptive:
+      return "adaptive";
+    case SolverName::relaxation:
+      break;
+  }
+  return "relaxation";
+}
+
+std::string to_string(Status status) {
+  switch (status) {
+    case Status::converged:
+      return "converged";
+    case Status::infeasible:
+      return "infeasible";
+    case Status::capped:
+      return "capped";
+    case Status::oscillating:
+      return "oscillating";
+    case Status::diverged:
+      break;
+  }
+  return "diverged";
+}
+
+SolverName solver_from(const std::string& word) {
+  for (SolverName name : {SolverName::equilibrium, SolverName::adaptive, SolverName::relaxation})
+    if (to_string(name) == word) return name;
+  throw Refusal(refusal::kBadOption, "solver '" + word + "' is not equilibrium, adaptive or relaxation");
+}
+
+Solution solve(const Model& model, const Garment& garment, const SolverOptions& options,
+               const Solution* start, const Progress& progress) {
+  if (start != nullptr) check_start(model, *start);
+  const Problem problem = lay_garment(model, garment, options);
+  Recorder recorder(problem, progress);
+  const Outcome outcome = options.solver == SolverName::equilibrium
+                              ? find_equilibrium(problem, start, recorder)
+                              : relax(problem, start, options.solver == SolverName::adaptive, recorder);
+  return report(problem, outcome, std::move(recorder.history));
+}
+
+}  // namespace tensegric_fit::tensegric

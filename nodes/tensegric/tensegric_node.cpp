@@ -1,0 +1,205 @@
+/// control/mesh + garment -> control/deformed
+#include <std_srvs/Trigger.h>
+
+#include <chrono>
+
+#include "inspect/markers.hpp"
+#include "ros/body_messages.hpp"
+#include "ros/display.hpp"
+#include "ros/garment_fitter.hpp"
+#include "ros/parameters.hpp"
+#include "ros/run_node.hpp"
+#include "ros/shipped_files.hpp"
+#include "ros/stage.hpp"
+#include "ros/wardrobe.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+struct Setup {
+  tensegric::ModelOptions model;
+  tensegric::SolverOptions solver;
+  double progress_period = 0.1;  ///< seconds between states that are published while solving
+  std::string garment = "B1";    ///< worn until another is asked for, and after a reset
+  std::string garment_directory = shipped_folder("garments");
+};
+
+Setup setup_from(const ros::NodeHandle& private_node) {
+  Setup setup;
+  Parameters parameters(private_node);
+  tensegric::ModelOptions& model = setup.model;
+  model.strut_stiffness = parameters.number("strut_stiffness", model.strut_stiffness, 0.01, 1000);
+  model.prestress = parameters.number("prestress", model.prestress, 0.001, 0.2);
+  tensegric::SolverOptions& solver = setup.solver;
+  solver.solver = tensegric::solver_from(
+      parameters.choice("solver", to_string(solver.solver), {"equilibrium", "adaptive", "relaxation"}));
+  solver.max_iterations = parameters.integer("max_iterations", solver.max_iterations, 0, 10000000);
+  solver.gravity = parameters.vector("gravity", solver.gravity);
+  solver.line_force = parameters.number("line_force", solver.line_force, 0, 1e6);
+  solver.volume_force = parameters.number("volume_force", solver.volume_force, 0, 1e6);
+  setup.progress_period = parameters.number("progress_period", setup.progress_period, 0.001, 60);
+  setup.garment = parameters.text("garment", setup.garment);
+  setup.garment_directory = parameters.text("garment_directory", setup.garment_directory);
+  parameters.check_all_known();
+  return setup;
+}
+
+class TensegricNode {
+ public:
+  TensegricNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
+      : setup_(setup_from(private_node)),
+        wardrobe_(setup_.garment_directory),
+        worn_(wardrobe_.take(setup_.garment)),
+        fitter_(setup_.model, setup_.solver),
+        fit_(node, "control/deformed"),
+        garment_(node, "garment"),
+        display_(private_node),
+        stage_("tensegric", node) {
+    announce();
+    const ros::TransportHints prompt = ros::TransportHints().tcpNoDelay();
+    control_in_ = node.subscribe("control/mesh", 2, &TensegricNode::on_control, this, prompt);
+    garment_in_ = node.subscribe("garment", 8, &TensegricNode::on_garment, this, prompt);
+    set_garment_ = node.advertiseService("set_garment", &TensegricNode::on_set_garment, this);
+    reset_ = node.advertiseService("reset", &TensegricNode::on_reset, this);
+  }
+
+ private:
+  void on_control(const ControlMesh::ConstPtr& control) {
+    stage_.begin(control->scan_id);
+    control_ = control;
+    fit(true);
+  }
+
+  void on_garment(const ros::MessageEvent<Garment const>& event) {
+    if (event.getPublisherName() == ros::this_node::getName()) return;
+    try {
+      put_on(request_in(*event.getMessage()), false);
+      garment_.forget();  // its publisher keeps it for late joiners
+    } catch (const geometry::Refusal& refusal) {
+      stage_.refuse(control_ ? control_->scan_id : "", refusal);
+    }
+  }
+
+  bool on_set_garment(SetGarment::Request& request, SetGarment::Response& response) {
+    try {
+      put_on(wardrobe_.take(request), false);
+      announce();
+      response.accepted = true;
+      response.message = control_ ? "fitting to scan " + control_->scan_id : "kept until a scan comes";
+    } catch (const geometry::Refusal& refusal) {
+      response.accepted = false;
+      response.code = refusal.code();
+      response.message = refusal.what();
+    }
+    return true;
+  }
+
+  /// Back to the first garment, from the body at rest.
+  bool on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    try {
+      put_on(wardrobe_.take(setup_.garment), true);
+      announce();
+      response.success = true;
+      response.message = "garment '" + worn_.garment.name + "' from rest";
+    } catch (const geometry::Refusal& refusal) {
+      response.success = false;
+      response.message = refusal.code() + ": " + refusal.what();
+    }
+    return true;
+  }
+
+  /// \throw Refusal: the garment worn before stays
+  void put_on(GarmentRequest request, bool from_rest) {
+    fitter_.check(request.garment);
+    worn_ = std::move(request);
+    fit(from_rest);
+  }
+
+  void announce() {
+    std_msgs::Header header;
+    header.stamp = ros::Time::now();
+    garment_.offer([message = boost::make_shared<Garment>(to_message(header, worn_))] { return message; });
+  }
+
+  void fit(bool from_rest) {
+    if (!control_) return;
+    stage_.post(control_->scan_id, [this, control = control_, request = worn_, from_rest] {
+      return fit(control, request, from_rest);
+    });
+  }
+
+  Stage::Result fit(const ControlMesh::ConstPtr& control, const GarmentRequest& request, bool from_rest) {
+    const FitName name{tag_in(*control), request.garment.name, fitter_.solver_of(request)};
+    const auto start = Clock::now();
+    double told = 0;
+    const auto progress = [&](const tensegric::Iterate& iterate, const std::vector<Eigen::Vector3d>& outer) {
+      const double now = milliseconds_since(start);
+      if (now - told >= 1000 * setup_.progress_period) {
+        fit_.pass(to_message(name, iterate, outer, now));
+        told = now;
+      }
+      return !stage_.superseded(control->scan_id);
+    };
+    auto worn = std::make_shared<WornGarment>();
+    worn->solution = fitter_.fit(control, request, from_rest, progress);
+    worn->header = control->header;
+    worn->control = fitter_.model()->control;
+    const auto message =
+        boost::make_shared<FitState>(to_message(name, worn->solution, milliseconds_since(start)));
+    return {[this, message, worn] {
+              fit_.offer([message] { return message; });
+              show(worn);
+            },
+            {{"garment", message->garment},
+             {"solver", message->solver},
+             {"status", message->status},
+             {"iterations", std::to_string(message->iteration)}}};
+  }
+
+  /// What there is to show of a fit.
+  struct WornGarment {
+    std_msgs::Header header;
+    geometry::ControlMesh control;
+    tensegric::Solution solution;
+  };
+
+  void show(const std::shared_ptr<const WornGarment>& worn) {
+    display_.markers.offer([=] {
+      std::vector<inspect::TenseLine> lines;
+      for (const tensegric::LineResult& line : worn->solution.lines)
+        lines.push_back({line.nodes, line.tension});
+      return inspect::Markers(worn->header)
+          .control_mesh(worn->control, worn->solution.outer)
+          .lines(worn->control, worn->solution.outer, lines)
+          .share();
+    });
+    const geometry::TriangleMesh skin{worn->solution.outer, worn->control.triangles};
+    display_.polygon_mesh.offer([=] { return inspect::polygon_mesh(worn->header, skin, {}); });
+    display_.image.offer([=] { return front_image(worn->header, skin, {}, {}, facing(skin)); });
+  }
+
+  const Setup setup_;
+  const Wardrobe wardrobe_;
+  GarmentRequest worn_;
+  ControlMesh::ConstPtr control_;
+  GarmentFitter fitter_;
+  KeptPublisher<FitState> fit_;
+  KeptPublisher<Garment> garment_;
+  Display display_;
+  ros::Subscriber control_in_, garment_in_;
+  ros::ServiceServer set_garment_, reset_;
+  Stage stage_;  // last: its worker uses all of the above
+};
+
+}  // namespace
+}  // namespace tensegric_fit::node
+
+int main(int argc, char** argv) {
+  return tensegric_fit::node::run_node<tensegric_fit::node::TensegricNode>(argc, argv, "tensegric");
+}
