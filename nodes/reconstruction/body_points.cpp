@@ -1,0 +1,83 @@
+#include "reconstruction/body_points.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "reconstruction/voxel_grid.hpp"
+
+namespace tensegric_fit::reconstruction {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+constexpr double kNeighbourhood = 0.01;  // m, cell in which a point should have company
+constexpr double kLink = 0.03;           // m, cell of the clustering: bridges gaps of 30 to 60 mm
+
+Points points_at(const Points& points, const std::vector<int>& indices) {
+  Points result(indices.size());
+  std::transform(indices.begin(), indices.end(), result.begin(), [&](int i) { return points[i]; });
+  return result;
+}
+
+/// Points in neighbourhoods that hold at least a tenth of what the median point's does, in the grid's order.
+std::vector<int> without_stray(const Points& points) {
+  const VoxelGrid grid(points, kNeighbourhood);
+  std::vector<int> company(grid.cell_count()), cells, sorted;
+  for (int c = 0; c < grid.cell_count(); ++c) {
+    grid.around(c, cells);
+    for (int other : cells) company[c] += grid.end(other) - grid.begin(other);
+    sorted.insert(sorted.end(), grid.end(c) - grid.begin(c), company[c]);
+  }
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  const int enough = std::max(3, sorted[sorted.size() / 2] / 10);
+  std::vector<int> kept;
+  for (int c = 0; c < grid.cell_count(); ++c)
+    if (company[c] >= enough)
+      kept.insert(kept.end(), grid.order().begin() + grid.begin(c), grid.order().begin() + grid.end(c));
+  return kept;
+}
+
+/// Number of the connected cluster of each cell.
+std::vector<int> clusters_of(const VoxelGrid& grid) {
+  std::vector<int> cluster(grid.cell_count(), -1), front, cells;
+  int count = 0;
+  for (int seed = 0; seed < grid.cell_count(); ++seed) {
+    if (cluster[seed] >= 0) continue;
+    cluster[seed] = count;
+    front.assign(1, seed);
+    while (!front.empty()) {
+      const int cell = front.back();
+      front.pop_back();
+      grid.around(cell, cells);
+      for (int other : cells) {
+        if (cluster[other] >= 0) continue;
+        cluster[other] = count;
+        front.push_back(other);
+      }
+    }
+    ++count;
+  }
+  return cluster;
+}
+
+}  // namespace
+
+std::vector<int> body_points(const Points& points) {
+  if (points.empty()) return {};
+  const std::vector<int> dense = without_stray(points);
+  if (dense.empty()) return {};
+  const VoxelGrid grid(points_at(points, dense), kLink);
+  const std::vector<int> cluster = clusters_of(grid);
+  std::vector<int> size(*std::max_element(cluster.begin(), cluster.end()) + 1), of_point(dense.size());
+  for (int c = 0; c < grid.cell_count(); ++c) {
+    size[cluster[c]] += grid.end(c) - grid.begin(c);
+    for (int i = grid.begin(c); i < grid.end(c); ++i) of_point[grid.order()[i]] = cluster[c];
+  }
+  const int largest = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
+  std::vector<int> body;
+  for (std::size_t i = 0; i < dense.size(); ++i)
+    if (of_point[i] == largest) body.push_back(dense[i]);
+  return body;
+}
+
+}  // namespace tensegric_fit::reconstruction

@@ -1,0 +1,124 @@
+#include "reconstruction/normals.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "reconstruction/neighbours.hpp"
+#include "reconstruction/visibility.hpp"
+
+namespace tensegric_fit::reconstruction {
+namespace {
+
+constexpr int kNeighbours = 16;  // of the plane through a point's surroundings
+constexpr int kLinks = 8;        // nearest neighbours whose signs are linked
+
+struct Link {
+  float agreement;  // |n_a . n_b|
+  int a, b;
+};
+
+/// Unsigned normals, and links from each point to its nearest neighbours.
+std::vector<Eigen::Vector3d> plane_normals(const std::vector<Eigen::Vector3d>& points,
+                                           std::vector<Link>& links) {
+  const PointTree tree(points);
+  std::vector<Eigen::Vector3d> normals(points.size());
+  std::vector<int> near;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    tree.nearest(points[i], kNeighbours, near);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+    for (int j : near) {
+      const Eigen::Vector3d d = points[j] - points[i];
+      sum += d;
+      products += d * d.transpose();
+    }
+    axes.computeDirect(products - sum * sum.transpose() / static_cast<double>(near.size()));
+    normals[i] = axes.eigenvectors().col(0);
+    for (int k = 0; k < std::min<int>(kLinks + 1, static_cast<int>(near.size())); ++k)
+      if (near[k] > static_cast<int>(i) || k == kLinks) links.push_back({0, static_cast<int>(i), near[k]});
+  }
+  return normals;
+}
+
+/// Patches of points whose normals are known relative to each other, each with the evidence for its sign.
+class SignedPatches {
+ public:
+  explicit SignedPatches(std::vector<double> evidence)
+      : parent_(evidence.size()), flipped_(evidence.size(), 0), evidence_(std::move(evidence)) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+
+  /// Joins the patches of a and b, whose normals point the same way (or not), unless both know better.
+  void join(int a, int b, bool same_way) {
+    const auto [root_a, flip_a] = find(a);
+    const auto [root_b, flip_b] = find(b);
+    if (root_a == root_b) return;
+    const bool flip = (flip_a != flip_b) == same_way;  // of root b's normal against root a's
+    const double from_b = flip ? -evidence_[root_b] : evidence_[root_b];
+    if (evidence_[root_a] * from_b < 0 && std::min(std::abs(evidence_[root_a]), std::abs(from_b)) > kSure)
+      return;
+    const int root = std::min(root_a, root_b), child = std::max(root_a, root_b);
+    const double joined = evidence_[root_a] + from_b;
+    evidence_[root] = root == root_a || !flip ? joined : -joined;
+    parent_[child] = root;
+    flipped_[child] = flip;
+  }
+
+  /// True where the normal of i must be turned over.
+  bool turned(int i) {
+    const auto [root, flip] = find(i);
+    return flip != (evidence_[root] < 0);
+  }
+
+ private:
+  static constexpr double kSure = 20;  // evidence, in points seen full face
+
+  std::pair<int, bool> find(int i) {
+    bool flip = false;
+    int root = i;
+    for (; parent_[root] != root; root = parent_[root]) flip ^= flipped_[root];
+    for (bool rest = flip; parent_[i] != root && i != root;) {  // the path now ends at the root
+      const int next = parent_[i];
+      const bool of_next = rest ^ flipped_[i];
+      parent_[i] = root;
+      flipped_[i] = rest;
+      rest = of_next;
+      i = next;
+    }
+    return {root, flip};
+  }
+
+  std::vector<int> parent_;
+  std::vector<char> flipped_;  // against the parent
+  std::vector<double> evidence_;
+};
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> outward_normals(const std::vector<Eigen::Vector3d>& points,
+                                             const std::vector<Eigen::Vector3d>& hints) {
+  std::vector<Link> links;
+  std::vector<Eigen::Vector3d> normals = plane_normals(points, links);
+  for (Link& link : links)
+    link.agreement = static_cast<float>(std::abs(normals[link.a].dot(normals[link.b])));
+  std::sort(links.begin(), links.end(), [](const Link& l, const Link& r) {
+    return std::tie(r.agreement, l.a, l.b) < std::tie(l.agreement, r.a, r.b);
+  });
+
+  const bool hinted = !hints.empty();
+  const std::vector<Eigen::Vector3d> seen = hinted ? std::vector<Eigen::Vector3d>() : seen_from(points);
+  std::vector<double> evidence(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    evidence[i] = hinted ? hints[i].dot(normals[i]) : seen[i].dot(normals[i]) / std::max(1.0, seen[i].norm());
+  SignedPatches patches(evidence);
+  for (const Link& link : links) patches.join(link.a, link.b, normals[link.a].dot(normals[link.b]) > 0);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (patches.turned(static_cast<int>(i))) normals[i] = -normals[i];
+  return normals;
+}
+
+}  // namespace tensegric_fit::reconstruction

@@ -1,0 +1,16 @@
+/// Outward normals of a body's points.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace tensegric_fit::reconstruction {
+
+/// One unit normal a point, outward. The line of each is that of the plane through its neighbours; its sign
+/// follows its neighbours and, for the patch as a whole, `hints`: normals from the scanner (zero where
+/// unknown), or, where that is empty, the side from which the point can be seen from afar. \pre upright body,
+/// z up
+std::vector<Eigen::Vector3d> outward_normals(const std::vector<Eigen::Vector3d>& points,
+                                             const std::vector<Eigen::Vector3d>& hints);
+
+}  // namespace tensegric_fit::reconstruction

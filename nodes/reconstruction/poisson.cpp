@@ -1,0 +1,38 @@
+#include "reconstruction/poisson.hpp"
+
+#include <pcl/point_types.h>
+#include <pcl/surface/poisson.h>
+
+#include <mutex>
+
+namespace tensegric_fit::reconstruction {
+
+geometry::TriangleMesh poisson_surface(const geometry::PointCloud& cloud, int depth) {
+  const auto input = pcl::make_shared<pcl::PointCloud<pcl::PointNormal>>();
+  input->reserve(cloud.points.size());
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Eigen::Vector3f p = cloud.points[i].cast<float>(), n = cloud.normals[i].cast<float>();
+    input->emplace_back(p.x(), p.y(), p.z(), n.x(), n.y(), n.z());
+  }
+  pcl::PointCloud<pcl::PointNormal> vertices;
+  std::vector<pcl::Vertices> faces;
+  {
+    static std::mutex one_at_a_time;
+    const std::lock_guard<std::mutex> lock(one_at_a_time);
+    pcl::Poisson<pcl::PointNormal> poisson;
+    poisson.setDepth(depth);
+    poisson.setThreads(1);
+    poisson.setInputCloud(input);
+    poisson.reconstruct(vertices, faces);
+  }
+  geometry::TriangleMesh mesh;
+  mesh.vertices.reserve(vertices.size());
+  for (const pcl::PointNormal& v : vertices) mesh.vertices.emplace_back(v.x, v.y, v.z);
+  mesh.triangles.reserve(faces.size());
+  for (const pcl::Vertices& face : faces)
+    mesh.triangles.emplace_back(static_cast<int>(face.vertices[0]), static_cast<int>(face.vertices[1]),
+                                static_cast<int>(face.vertices[2]));
+  return mesh;
+}
+
+}  // namespace tensegric_fit::reconstruction

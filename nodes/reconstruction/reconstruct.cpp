@@ -1,0 +1,100 @@
+#include "reconstruction/reconstruct.hpp"
+
+#include <algorithm>
+
+#include "reconstruction/body_points.hpp"
+#include "reconstruction/floor.hpp"
+#include "reconstruction/normals.hpp"
+#include "reconstruction/poisson.hpp"
+#include "reconstruction/repair.hpp"
+#include "reconstruction/resolution.hpp"
+#include "reconstruction/soles.hpp"
+#include "reconstruction/standing.hpp"
+#include "reconstruction/support.hpp"
+#include "reconstruction/surface_fit.hpp"
+#include "reconstruction/validate.hpp"
+
+namespace tensegric_fit::reconstruction {
+namespace {
+
+using geometry::PointCloud;
+using geometry::TriangleMesh;
+
+constexpr double kUnseenEdge = 0.008;  // m; the edge of a foot rounds off below what the sensors see of it
+constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher stands on something else
+
+void transform(PointCloud& cloud, const Eigen::Isometry3d& by) {
+  for (Eigen::Vector3d& p : cloud.points) p = by * p;
+  for (Eigen::Vector3d& n : cloud.normals) n = by.linear() * n;
+}
+
+PointCloud pick(const PointCloud& cloud, const std::vector<int>& indices) {
+  PointCloud result;
+  for (int i : indices) {
+    result.points.push_back(cloud.points[i]);
+    if (!cloud.normals.empty()) result.normals.push_back(cloud.normals[i]);
+  }
+  return result;
+}
+
+double lowest_of(const std::vector<Eigen::Vector3d>& points) {
+  return geometry::bounding_box(points)[0].z();
+}
+
+/// The body's points, upright, the ground under the soles at z = 0; `from_scan` takes the scan to them.
+PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometry3d& from_scan) {
+  const std::optional<Floor> floor = find_floor(scan.points);
+  const Eigen::Vector3d middle = geometry::bounding_box(scan.points)[0];
+  from_scan = floor ? level(floor->normal, floor->offset, middle)
+                    : level(Eigen::Vector3d::UnitZ(), middle.z(), middle);
+  transform(scan, from_scan);
+  if (floor) {
+    const double cut = std::clamp(4 * floor->noise, 0.004, 0.008);
+    std::vector<int> above;
+    for (std::size_t i = 0; i < scan.points.size(); ++i)
+      if (scan.points[i].z() > cut) above.push_back(static_cast<int>(i));
+    scan = pick(scan, above);
+  }
+  PointCloud body = pick(scan, body_points(scan.points));
+  check_shape(body.points, options);
+  if (!floor || lowest_of(body.points) > kOffTheFloor) {
+    Eigen::Isometry3d to_ground = resting_plane(body.points);
+    to_ground.pretranslate(Eigen::Vector3d(0, 0, kUnseenEdge));
+    transform(body, to_ground);
+    from_scan = to_ground * from_scan;
+  }
+  return body;
+}
+
+}  // namespace
+
+BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
+  check_options(options);
+  // 1. The points that can be used; 2. of these the body's, standing on z = 0.
+  Eigen::Isometry3d from_scan;
+  PointCloud body = standing_body(usable_points(scan, options), options, from_scan);
+  const std::size_t seen = body.points.size();
+  // 3. Normals, and the soles that no sensor sees.
+  body.normals = outward_normals(body.points, body.normals);
+  for (const Eigen::Vector3d& p : sole_points(body.points)) {
+    body.points.push_back(p);
+    body.normals.emplace_back(0, 0, -1);
+  }
+  // 4. One closed surface on the points and above the ground.
+  TriangleMesh mesh = one_closed_surface(poisson_surface(body, options.poisson_depth));
+  fit_to_points(mesh, body);
+  for (Eigen::Vector3d& v : mesh.vertices) v.z() = std::max(v.z(), 0.0);
+  // 5. As many triangles as asked for, and what of them nobody saw.
+  BodyMesh result;
+  result.mesh = with_triangles(mesh, options.body_triangles);
+  body.points.resize(seen);
+  result.points_used = seen;
+  result.filled = filled_vertices(result.mesh, body.points, options.support_distance);
+  // 6. Back to the scan's frame.
+  const Eigen::Isometry3d to_scan = from_scan.inverse();
+  for (Eigen::Vector3d& v : result.mesh.vertices) v = to_scan * v;
+  result.holes = holes_of(result.mesh, result.filled);
+  return result;
+}
+
+}  // namespace tensegric_fit::reconstruction

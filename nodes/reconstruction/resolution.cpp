@@ -1,0 +1,82 @@
+#include "reconstruction/resolution.hpp"
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
+#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+#include <queue>
+#include <tuple>
+
+namespace tensegric_fit::reconstruction {
+namespace {
+
+struct Traits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+  using Normal = OpenMesh::Vec3d;
+};
+using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+
+Mesh to_open_mesh(const geometry::TriangleMesh& mesh) {
+  Mesh result;
+  result.reserve(mesh.vertices.size(), 3 * mesh.triangles.size() / 2, mesh.triangles.size());
+  for (const Eigen::Vector3d& v : mesh.vertices) result.add_vertex({v.x(), v.y(), v.z()});
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    result.add_face(Mesh::VertexHandle(t[0]), Mesh::VertexHandle(t[1]), Mesh::VertexHandle(t[2]));
+  return result;
+}
+
+geometry::TriangleMesh from_open_mesh(const Mesh& mesh) {
+  geometry::TriangleMesh result;
+  for (const auto v : mesh.vertices())
+    result.vertices.emplace_back(mesh.point(v)[0], mesh.point(v)[1], mesh.point(v)[2]);
+  for (const auto face : mesh.faces()) {
+    Eigen::Vector3i t;
+    int k = 0;
+    for (const auto v : face.vertices()) t[k++] = v.idx();
+    result.triangles.push_back(t);
+  }
+  return result;
+}
+
+void collapse_to(Mesh& mesh, std::size_t triangles) {
+  mesh.request_face_normals();
+  mesh.update_face_normals();
+  OpenMesh::Decimater::DecimaterT<Mesh> decimater(mesh);
+  OpenMesh::Decimater::ModQuadricT<Mesh>::Handle quadric;
+  OpenMesh::Decimater::ModNormalFlippingT<Mesh>::Handle flipping;
+  decimater.add(quadric);
+  decimater.module(quadric).unset_max_err();
+  decimater.add(flipping);
+  decimater.module(flipping).set_max_normal_deviation(60);
+  decimater.initialize();
+  decimater.decimate_to_faces(0, triangles);
+  mesh.garbage_collection();
+}
+
+void split_to(Mesh& mesh, std::size_t triangles) {
+  using Entry = std::tuple<double, int>;  // squared length, minus the edge's number: ties go to the lower one
+  std::priority_queue<Entry> longest;
+  const auto push = [&](Mesh::EdgeHandle e) { longest.emplace(mesh.calc_edge_sqr_length(e), -e.idx()); };
+  for (const auto e : mesh.edges()) push(e);
+  while (mesh.n_faces() + 2 <= triangles) {
+    const auto [squared, number] = longest.top();
+    longest.pop();
+    const Mesh::EdgeHandle edge(-number);
+    if (mesh.calc_edge_sqr_length(edge) != squared) continue;  // it has been halved since
+    const Mesh::VertexHandle middle = mesh.add_vertex(mesh.calc_edge_midpoint(edge));
+    mesh.split(edge, middle);
+    for (const auto e : mesh.ve_range(middle)) push(e);
+  }
+}
+
+}  // namespace
+
+geometry::TriangleMesh with_triangles(const geometry::TriangleMesh& mesh, int triangles) {
+  Mesh work = to_open_mesh(mesh);
+  const auto wanted = static_cast<std::size_t>(triangles);
+  if (work.n_faces() > wanted) collapse_to(work, wanted);
+  split_to(work, wanted);
+  return from_open_mesh(work);
+}
+
+}  // namespace tensegric_fit::reconstruction

@@ -1,0 +1,66 @@
+#include "reconstruction/standing.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace tensegric_fit::reconstruction {
+namespace {
+
+using Triangle = std::array<Eigen::Vector3d, 3>;
+
+const double kLeastUp = std::cos(20 * M_PI / 180);
+constexpr int kMostPivots = 200;
+constexpr double kFar = 10;  // m, beyond every point
+
+/// True where the origin lies in the triangle as seen from above.
+bool covers_origin(const Triangle& t) {
+  const auto side = [&](int i, int j) { return t[i].x() * t[j].y() - t[i].y() * t[j].x(); };
+  const double a = side(0, 1), b = side(1, 2), c = side(2, 0);
+  return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
+}
+
+Eigen::Vector3d upward_normal(const Triangle& t) {
+  const Eigen::Vector3d n = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+  return n.z() < 0 ? Eigen::Vector3d(-n) : n;
+}
+
+}  // namespace
+
+Eigen::Isometry3d level(const Eigen::Vector3d& normal, double offset, const Eigen::Vector3d& middle) {
+  const Eigen::Vector3d origin = middle + (offset - normal.dot(middle)) * normal;
+  Eigen::Isometry3d result(Eigen::Quaterniond::FromTwoVectors(normal, Eigen::Vector3d::UnitZ()));
+  result.translation() = -(result.linear() * origin);
+  return result;
+}
+
+Eigen::Isometry3d resting_plane(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  double lowest = points.front().z();
+  for (const Eigen::Vector3d& p : points) {
+    middle += p / static_cast<double>(points.size());
+    lowest = std::min(lowest, p.z());
+  }
+  // A plane that starts high up on three far points comes down: the point farthest below it takes the place
+  // of one corner, such that the triangle still covers the middle.
+  Triangle t{Eigen::Vector3d(kFar, -kFar, kFar), Eigen::Vector3d(0, kFar, kFar),
+             Eigen::Vector3d(-kFar, -kFar, kFar)};
+  for (int pivot = 0; pivot < kMostPivots; ++pivot) {
+    const Eigen::Vector3d normal = upward_normal(t);
+    Eigen::Vector3d deepest = t[0];
+    for (const Eigen::Vector3d& p : points)
+      if (normal.dot(p - middle) < normal.dot(deepest)) deepest = p - middle;
+    if (normal.dot(deepest) > normal.dot(t[0]) - 1e-9) break;
+    int corner = 0;
+    for (; corner < 2; ++corner) {
+      Triangle next = t;
+      next[corner] = deepest;
+      if (covers_origin(next)) break;
+    }
+    t[corner] = deepest;
+  }
+  const Eigen::Vector3d normal = upward_normal(t);
+  if (!(normal.z() > kLeastUp)) return level(Eigen::Vector3d::UnitZ(), lowest, middle);
+  return level(normal, normal.dot(t[0] + middle), middle);
+}
+
+}  // namespace tensegric_fit::reconstruction

@@ -1,0 +1,18 @@
+/// Where the scan stands: its floor, or the plane that the body would come to rest on.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace tensegric_fit::reconstruction {
+
+/// Takes the plane (unit normal, up) with normal . x = offset to z = 0, and the point of it under `middle` to
+/// the origin. The turn is the smallest one.
+Eigen::Isometry3d level(const Eigen::Vector3d& normal, double offset, const Eigen::Vector3d& middle);
+
+/// The plane under all points that they would rest on: the facet of their convex hull that lies below their
+/// middle, as an isometry like `level`'s. A plane steeper than 20 degrees is not believed; the lowest point's
+/// level is taken then. \pre not empty, z roughly up
+Eigen::Isometry3d resting_plane(const std::vector<Eigen::Vector3d>& points);
+
+}  // namespace tensegric_fit::reconstruction

@@ -1,0 +1,41 @@
+#include "reconstruction/support.hpp"
+
+#include <algorithm>
+
+#include "reconstruction/neighbours.hpp"
+
+namespace tensegric_fit::reconstruction {
+
+std::vector<char> filled_vertices(const geometry::TriangleMesh& mesh,
+                                  const std::vector<Eigen::Vector3d>& points, double distance) {
+  const PointTree tree(points);
+  std::vector<char> filled(mesh.vertices.size());
+  std::transform(mesh.vertices.begin(), mesh.vertices.end(), filled.begin(),
+                 [&](const Eigen::Vector3d& v) { return tree.distance(v) > distance; });
+  return filled;
+}
+
+std::vector<Hole> holes_of(const geometry::TriangleMesh& mesh, const std::vector<char>& filled) {
+  std::vector<char> keep(mesh.triangles.size());
+  std::transform(mesh.triangles.begin(), mesh.triangles.end(), keep.begin(),
+                 [&](const Eigen::Vector3i& t) { return filled[t[0]] && filled[t[1]] && filled[t[2]]; });
+  const geometry::TriangleMesh fillings = geometry::submesh(mesh, keep);
+  const std::vector<int> component = geometry::components_of(fillings);
+  std::vector<Hole> holes;
+  for (std::size_t t = 0; t < component.size(); ++t) {
+    if (component[t] == static_cast<int>(holes.size())) holes.push_back({Eigen::Vector3d::Zero(), 0});
+    const Eigen::Vector3i& corner = fillings.triangles[t];
+    const Eigen::Vector3d &a = fillings.vertices[corner[0]], &b = fillings.vertices[corner[1]],
+                          &c = fillings.vertices[corner[2]];
+    const double area = geometry::area_vector(a, b, c).norm() / 2;
+    holes[component[t]].area += area;
+    holes[component[t]].centre += area * (a + b + c) / 3;
+  }
+  holes.erase(std::remove_if(holes.begin(), holes.end(), [](const Hole& h) { return !(h.area > 0); }),
+              holes.end());
+  for (Hole& hole : holes) hole.centre /= hole.area;
+  std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) { return a.area > b.area; });
+  return holes;
+}
+
+}  // namespace tensegric_fit::reconstruction

@@ -1,0 +1,140 @@
+#include "reconstruction/validate.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::reconstruction {
+namespace {
+
+namespace refusal = geometry::refusal;
+using geometry::Refusal;
+
+constexpr double kBoothReach = 4.0;     // m from the middle: farther points are stray
+constexpr double kLargestExtent = 8.0;  // m, no booth is larger
+constexpr double kTypicalExtent = 1.7;  // m, of a body
+
+void check_range(const char* field, double value, double low, double high) {
+  if (!(value >= low && value <= high))
+    throw Refusal(refusal::kBadOption,
+                  fmt::format("{} is {}; it must lie between {} and {}", field, value, low, high));
+}
+
+double percentile(std::vector<double> values, double fraction) {
+  const auto nth =
+      values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+/// Low, middle and high coordinates without the stray points, as rows.
+std::array<Eigen::Vector3d, 3> spread(const std::vector<Eigen::Vector3d>& points) {
+  std::array<Eigen::Vector3d, 3> result;
+  std::vector<double> values(points.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::transform(points.begin(), points.end(), values.begin(), [axis](const auto& p) { return p[axis]; });
+    result[0][axis] = percentile(values, 0.01);
+    result[1][axis] = percentile(values, 0.5);
+    result[2][axis] = percentile(values, 0.99);
+  }
+  return result;
+}
+
+void check_unit(double extent) {
+  if (extent <= kLargestExtent) return;
+  struct Unit {
+    const char* name;
+    double per_metre;
+  };
+  constexpr Unit kUnits[] = {{"centimetres", 100}, {"inches", 39.37}, {"millimetres", 1000}};
+  const Unit* likely = nullptr;
+  for (const Unit& unit : kUnits) {
+    const auto distance = [&](const Unit& u) {
+      return std::abs(std::log(extent / (u.per_metre * kTypicalExtent)));
+    };
+    if (likely == nullptr || distance(unit) < distance(*likely)) likely = &unit;
+  }
+  throw Refusal(refusal::kWrongUnit,
+                fmt::format("the scan is {:.4g} across; points must be in metres, these look like {}", extent,
+                            likely->name));
+}
+
+}  // namespace
+
+void check_options(const Options& options) {
+  check_range("body_triangles", options.body_triangles, 1000, 1000000);
+  check_range("poisson_depth", options.poisson_depth, 5, 10);
+  check_range("min_points", options.min_points, 500, 1e6);
+  check_range("max_points", options.max_points, 1e4, 1e8);
+  check_range("support_distance", options.support_distance, 0.002, 0.05);
+  if (options.min_points > options.max_points)
+    throw Refusal(refusal::kBadOption, "min_points is greater than max_points");
+}
+
+geometry::PointCloud usable_points(const geometry::PointCloud& scan, const Options& options) {
+  const std::size_t count = scan.points.size();
+  if (count == 0) throw Refusal(refusal::kEmptyCloud, "the scan has no points");
+  if (!scan.normals.empty() && scan.normals.size() != count)
+    throw Refusal(refusal::kWrongFields,
+                  fmt::format("the scan has {} points and {} normals", count, scan.normals.size()));
+  if (count > static_cast<std::size_t>(options.max_points))
+    throw Refusal(refusal::kTooManyPoints,
+                  fmt::format("the scan has {} points, more than {}", count, options.max_points));
+
+  std::vector<Eigen::Vector3d> finite;
+  std::copy_if(scan.points.begin(), scan.points.end(), std::back_inserter(finite),
+               [](const Eigen::Vector3d& p) { return p.allFinite(); });
+  if (finite.size() < (count + 1) / 2)
+    throw Refusal(refusal::kNonFinite, fmt::format("only {} of {} points are finite", finite.size(), count));
+  if (finite.size() < static_cast<std::size_t>(options.min_points))
+    throw Refusal(refusal::kTooFewPoints, fmt::format("the scan has {} finite points, {} are needed",
+                                                      finite.size(), options.min_points));
+  const auto [low, middle, high] = spread(finite);
+  const double extent = (high - low).maxCoeff();
+  if (!(extent > 0)) throw Refusal(refusal::kNotABody, "all points of the scan lie in one place");
+  check_unit(extent);
+
+  geometry::PointCloud usable;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d& p = scan.points[i];
+    if (!p.allFinite() || (p - middle).lpNorm<Eigen::Infinity>() > kBoothReach) continue;
+    usable.points.push_back(p);
+    if (scan.normals.empty()) continue;
+    const Eigen::Vector3d& n = scan.normals[i];
+    const bool is_unit = n.allFinite() && std::abs(n.squaredNorm() - 1) < 0.1;
+    usable.normals.push_back(is_unit ? n : Eigen::Vector3d::Zero());
+  }
+  return usable;
+}
+
+void check_shape(const std::vector<Eigen::Vector3d>& body, const Options& options) {
+  if (body.size() < static_cast<std::size_t>(options.min_points))
+    throw Refusal(refusal::kTooFewPoints,
+                  fmt::format("the largest thing in the scan has {} points, {} are needed", body.size(),
+                              options.min_points));
+  const auto [low, middle, high] = spread(body);
+  const double height = high.z() - low.z();
+  if (height < 0.5 || height > 2.3)
+    throw Refusal(refusal::kNotABody,
+                  fmt::format("what was scanned is {:.2f} m high; a body is 0.5 to 2.3 m", height));
+
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  for (const Eigen::Vector3d& p : body) {
+    const Eigen::Vector2d d = (p - middle).head<2>();
+    covariance += d * d.transpose() / static_cast<double>(body.size());
+  }
+  const Eigen::Vector2d deviation =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance).eigenvalues().cwiseMax(0).cwiseSqrt();
+  if (deviation[0] < 0.02)
+    throw Refusal(refusal::kNotABody,
+                  fmt::format("what was scanned is flat: {:.0f} mm deep", 4e3 * deviation[0]));
+  if (deviation[0] > 0.2 * height || deviation[1] > 0.45 * height)
+    throw Refusal(refusal::kNotABody, "what was scanned is too wide for its height to be an upright body");
+}
+
+}  // namespace tensegric_fit::reconstruction

@@ -1,0 +1,46 @@
+#include "reconstruction/voxel_grid.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::reconstruction {
+
+VoxelGrid::VoxelGrid(const std::vector<Eigen::Vector3d>& points, double cell_size) {
+  const auto box = geometry::bounding_box(points);
+  const auto index = [&](const Eigen::Vector3d& p, int axis) {
+    return static_cast<std::int64_t>((p[axis] - box[0][axis]) / cell_size) + 1;  // an empty cell all round
+  };
+  row_ = index(box[1], 0) + 2;
+  layer_ = row_ * (index(box[1], 1) + 2);
+  std::vector<std::pair<std::int64_t, int>> cells(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d& p = points[i];
+    cells[i] = {index(p, 2) * layer_ + index(p, 1) * row_ + index(p, 0), static_cast<int>(i)};
+  }
+  std::sort(cells.begin(), cells.end());
+  order_.reserve(cells.size());
+  for (const auto& [key, point] : cells) {
+    if (keys_.empty() || keys_.back() != key) {
+      keys_.push_back(key);
+      first_.push_back(static_cast<int>(order_.size()));
+    }
+    order_.push_back(point);
+  }
+  first_.push_back(static_cast<int>(order_.size()));
+}
+
+void VoxelGrid::around(int cell, std::vector<int>& cells) const {
+  cells.clear();
+  for (int dz = -1; dz <= 1; ++dz) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      const std::int64_t middle = keys_[cell] + dz * layer_ + dy * row_;
+      auto found = std::lower_bound(keys_.begin(), keys_.end(), middle - 1);
+      for (; found != keys_.end() && *found <= middle + 1; ++found)
+        cells.push_back(static_cast<int>(found - keys_.begin()));
+    }
+  }
+}
+
+}  // namespace tensegric_fit::reconstruction
