@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "geometry/status.hpp"
-#include "tffd/closest_point.hpp"
 
 namespace tensegric_fit::tffd {
 namespace {
@@ -40,17 +39,10 @@ void check_input(const geometry::TriangleMesh& body, const geometry::ControlMesh
 }
 
 // In the paper's setting whatever is in reach moves in full.
-std::vector<Anchor> anchors_of(const NormalTerms& bound, const std::vector<Eigen::Vector3d>& vertices,
-                               const std::vector<Frame>& frames) {
+std::vector<Anchor> anchors_of(const NormalTerms& bound) {
   std::vector<Anchor> anchors;
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    const NormalTerm* heaviest = nullptr;
-    for (int i = bound.starts[v]; i < bound.starts[v + 1]; ++i)
-      if (!heaviest || bound.terms[i].weight > heaviest->weight) heaviest = &bound.terms[i];
-    if (heaviest)
-      anchors.push_back({static_cast<int>(v), heaviest->triangle,
-                         closest_barycentric(vertices[v], frames[heaviest->triangle].corners), 1});
-  }
+  for (std::size_t v = 0; v + 1 < bound.starts.size(); ++v)
+    if (bound.starts[v] < bound.starts[v + 1]) anchors.push_back({static_cast<int>(v), 1});
   return anchors;
 }
 
@@ -67,8 +59,9 @@ Binding::Binding(const geometry::TriangleMesh& body, const geometry::ControlMesh
   check_input(body, control);
   if (setting_ == Setting::paper) {
     const std::vector<Frame> frames = frames_of(control, Axis::unit_normal);
-    terms_ = paper_weights(vertices_, frames, beta);
-    anchors_ = anchors_of(terms_, vertices_, frames);
+    terms_ = paper_terms(vertices_, frames, beta);
+    anchors_ = anchors_of(terms_);
+    weights_.values = paper_values(vertices_, control, frames, terms_);
   } else {
     const std::vector<Frame> frames = frames_of(control, Axis::inner_to_outer);
     anchors_ = reach_of(body, control, frames, beta);
@@ -104,7 +97,8 @@ void Binding::move_by_weights(const std::vector<Eigen::Vector3d>& outer,
   }
   for (const Anchor& anchor : anchors_) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (NodeWeights::InnerIterator m(weights_, anchor.vertex); m; ++m) sum += m.value() * motion[m.col()];
+    for (SparseRows::InnerIterator m(weights_.nodes, anchor.vertex); m; ++m)
+      sum += m.value() * motion[m.col()];
     moved[anchor.vertex] += sum;
   }
 }

@@ -19,26 +19,24 @@ enum class Setting { standard, paper };
 /// Field defaults are the parameters' defaults.
 struct Options {
   Setting setting = Setting::standard;
-  double beta =
-      0;  ///< reach of a triangle in multiples of its mean radius; 0: the setting's own, 2 (paper: 2.5)
+  double beta = 0;  ///< reach of a triangle in its mean radii; 0: the setting's own, 2 (paper: 2.5)
 };
 
 /// A body bound to a control mesh at rest.
 class Binding {
  public:
   /// Uses the control mesh's nodes, triangles and fixed flags.
-  /// \throw Refusal bad_option: beta; bad_mesh: no control triangles, a flat one, a body or nodes that are
-  /// not usable
+  /// \throw Refusal bad_option: beta; bad_mesh: no control triangles, a flat one; non_finite
   Binding(const geometry::TriangleMesh& body, const geometry::ControlMesh& control, const Options& options);
 
   /// Positions of all vertices for the control nodes at `outer` and `inner`. Vertices that are no anchors
-  /// stay, bit for bit, and with all nodes at rest every vertex does (paper: to rounding). \throw Refusal
-  /// bad_mesh: another number of nodes than was bound; non_finite
+  /// stay, bit for bit, and with all nodes at rest every vertex does (paper: to rounding).
+  /// \throw Refusal bad_mesh: another number of nodes than was bound; non_finite
   std::vector<Eigen::Vector3d> deform(const std::vector<Eigen::Vector3d>& outer,
                                       const std::vector<Eigen::Vector3d>& inner) const;
 
-  /// M, for whoever needs the body's derivatives by the nodes. \pre standard setting (else it has no rows)
-  const NodeWeights& weights() const { return weights_; }
+  /// M, and what carries values. In the paper's setting there is no constant M, and `nodes` is empty.
+  const Weights& weights() const { return weights_; }
 
   /// The vertices that follow the control mesh, ascending.
   const std::vector<Anchor>& anchors() const { return anchors_; }
@@ -48,11 +46,6 @@ class Binding {
 
   /// The body at rest.
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
-
-  std::size_t control_vertices() const { return outer_.size(); }
-
-  /// Control triangles, as bound.
-  const std::vector<Eigen::Vector3i>& triangles() const { return triangles_; }
 
  private:
   void move_by_weights(const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner,
@@ -64,7 +57,7 @@ class Binding {
   std::vector<Eigen::Vector3d> outer_, inner_;
   std::vector<Eigen::Vector3i> triangles_;
   std::vector<Anchor> anchors_;
-  NodeWeights weights_;
+  Weights weights_;
   NormalTerms terms_;
 };
 

@@ -52,13 +52,12 @@ std::vector<double> control_distortion(const geometry::ControlMesh& control,
 }
 
 std::vector<double> body_distortion(const Binding& binding, const std::vector<double>& at_control_vertices) {
-  check_count(at_control_vertices.size(), binding.control_vertices());
+  const SparseRows& weights = binding.weights().values;
+  check_count(at_control_vertices.size(), static_cast<std::size_t>(weights.cols()));
   std::vector<double> values(binding.vertices().size(), 1);
-  for (const Anchor& anchor : binding.anchors()) {
-    const Eigen::Vector3i& t = binding.triangles()[anchor.triangle];
-    for (int k = 0; k < 3; ++k)
-      values[anchor.vertex] += anchor.share * anchor.barycentric[k] * (at_control_vertices[t[k]] - 1);
-  }
+  for (const Anchor& anchor : binding.anchors())
+    for (SparseRows::InnerIterator w(weights, anchor.vertex); w; ++w)
+      values[anchor.vertex] += w.value() * (at_control_vertices[w.col()] - 1);
   return values;
 }
 

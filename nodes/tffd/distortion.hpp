@@ -14,9 +14,9 @@ namespace tensegric_fit::tffd {
 std::vector<double> control_distortion(const geometry::ControlMesh& control,
                                        const std::vector<Eigen::Vector3d>& outer);
 
-/// The same at each body vertex: the value at the closest point of the control mesh, brought to 1 where the
-/// skin's share of the motion goes to 0. Exactly 1 where the body was not touched. \throw Refusal bad_mesh:
-/// not one value a control vertex
+/// The same at each body vertex: a mean over the control vertices around it (Weights::values), brought to 1
+/// as the skin's share of the motion goes to 0. Exactly 1 where the body cannot be moved. \throw Refusal
+/// bad_mesh: not one value a control vertex
 std::vector<double> body_distortion(const Binding& binding, const std::vector<double>& at_control_vertices);
 
 /// How a triangle of skin was stretched in its own plane, after / before: the most and the least of all

@@ -19,6 +19,10 @@ struct Frame {
   double area;                        ///< m^2
   double radius;                      ///< mean distance from the centroid to the corners, m
 
+  /// The triangle is at least that far away (no corner is farther from the centroid than 1.5 times their
+  /// mean).
+  double least_distance(const Eigen::Vector3d& q) const { return (q - centroid).norm() - 1.5 * radius; }
+
   /// (u, v, w) of a point.
   Eigen::Vector3d local(const Eigen::Vector3d& q) const { return local_from_offset * (q - corners[0]); }
 };

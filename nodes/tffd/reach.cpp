@@ -62,8 +62,7 @@ Closest closest_triangle(const Eigen::Vector3d& q, const Eigen::Vector3d* facing
   for (std::size_t t = 0; t < frames.size(); ++t) {
     const Frame& frame = frames[t];
     if (facing && !(facing->dot(frame.normal) > 0)) continue;
-    // No corner is farther from the centroid than twice the mean of the three.
-    const double least = (q - frame.centroid).norm() - 2 * frame.radius;
+    const double least = frame.least_distance(q);
     if (least > best || least > reach * frame.radius) continue;
     const Eigen::Vector3d barycentric = closest_barycentric(q, frame.corners);
     const Eigen::Vector3d offset = q - barycentric[0] * frame.corners[0] - barycentric[1] * frame.corners[1] -
@@ -159,7 +158,7 @@ std::vector<Anchor> reach_of(const geometry::TriangleMesh& body, const geometry:
                     : closest_triangle(q, nullptr, frames, std::numeric_limits<double>::infinity());
     if (closest.triangle < 0) continue;
     const double share = share_at(closest, control, border, frames[closest.triangle], reach);
-    if (share > 0) anchors.push_back({static_cast<int>(v), closest.triangle, closest.barycentric, share});
+    if (share > 0) anchors.push_back({static_cast<int>(v), share});
   }
   return border.open ? joined_to_nodes(anchors, body, control, border) : anchors;
 }

@@ -10,11 +10,9 @@
 
 namespace tensegric_fit::tffd {
 
-/// A body vertex that takes part, with the closest point of the control mesh.
+/// A body vertex that follows the control mesh.
 struct Anchor {
   int vertex;
-  int triangle;                 ///< control triangle of the closest point
-  Eigen::Vector3d barycentric;  ///< of the closest point
   double share;  ///< 0 < share <= 1: the part of the control mesh's motion that the vertex takes
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "tffd/closest_point.hpp"
 
@@ -12,79 +11,118 @@ namespace {
 // Share of the global kernel where it is fully on. Any value above 0 gives the same limit where the local
 // kernels end.
 constexpr double kGlobal = 0.05;
+// It sets in where no triangle is nearer than this part of its reach.
+constexpr double kGlobalFrom = 0.5;
 
 double square(double x) {
   return x * x;
 }
 
-// Distance from each triangle in multiples of its reach.
-void distances(const Eigen::Vector3d& q, const std::vector<Frame>& frames, double beta,
-               std::vector<double>& z) {
+struct Nearness {
+  double z;                     // distance from the triangle in multiples of its reach
+  Eigen::Vector3d barycentric;  // of its closest point
+};
+
+Nearness nearness(const Eigen::Vector3d& q, const Frame& frame, double beta) {
+  const Eigen::Vector3d b = closest_barycentric(q, frame.corners);
+  const Eigen::Vector3d closest = b[0] * frame.corners[0] + b[1] * frame.corners[1] + b[2] * frame.corners[2];
+  return {(q - closest).norm() / (beta * frame.radius), b};
+}
+
+// Of triangles that have no weight at q, only that they are out of reach: z = 1.
+void find_near(const Eigen::Vector3d& q, const std::vector<Frame>& frames, double beta,
+               std::vector<Nearness>& near) {
+  double nearest = 1;
   for (std::size_t t = 0; t < frames.size(); ++t) {
-    const Frame& frame = frames[t];
-    const Eigen::Vector3d b = closest_barycentric(q, frame.corners);
-    const Eigen::Vector3d closest =
-        b[0] * frame.corners[0] + b[1] * frame.corners[1] + b[2] * frame.corners[2];
-    z[t] = (q - closest).norm() / (beta * frame.radius);
+    const bool out_of_reach = frames[t].least_distance(q) > beta * frames[t].radius;
+    near[t] = out_of_reach ? Nearness{1, Eigen::Vector3d::Zero()} : nearness(q, frames[t], beta);
+    nearest = std::min(nearest, near[t].z);
   }
+  if (nearest <= kGlobalFrom) return;
+  for (std::size_t t = 0; t < frames.size(); ++t) near[t] = nearness(q, frames[t], beta);
 }
 
 // A (1-z)^4 (4z+1), and past half the reach of every triangle more and more of the global A/z^4, so that no
 // vertex is left without weights and nothing jumps where the last local weight ends.
-void kernels(const std::vector<Frame>& frames, const std::vector<double>& z, std::vector<double>& k) {
-  const double nearest = *std::min_element(z.begin(), z.end());
-  const double on = std::clamp(2 * nearest - 1, 0.0, 1.0);
+void kernels(const std::vector<Frame>& frames, const std::vector<Nearness>& near, std::vector<double>& k) {
+  double nearest = 1;
+  for (const Nearness& triangle : near) nearest = std::min(nearest, triangle.z);
+  const double on = std::max(0.0, (nearest - kGlobalFrom) / (1 - kGlobalFrom));
   const double global = kGlobal * on * on * (3 - 2 * on);
   double sum = 0;
-  for (std::size_t t = 0; t < z.size(); ++t) {
-    k[t] = z[t] < 1 ? square(square(1 - z[t])) * (4 * z[t] + 1) : 0;
-    if (global > 0) k[t] += global / square(square(z[t]));
+  for (std::size_t t = 0; t < near.size(); ++t) {
+    const double z = near[t].z;
+    k[t] = z < 1 ? square(square(1 - z)) * (4 * z + 1) : 0;
+    if (global > 0) k[t] += global / square(square(z));
     k[t] *= frames[t].area;
     sum += k[t];
   }
   for (double& weight : k) weight /= sum;
 }
 
+// A row of a sparse matrix that is gathered in any order.
+class Row {
+ public:
+  explicit Row(Eigen::Index columns) : sums_(static_cast<std::size_t>(columns), 0), used_(sums_.size(), 0) {}
+
+  void add(int column, double value) {
+    sums_[column] += value;
+    used_[column] = 1;
+  }
+
+  // Appends the row, times `factor`, and starts a new one.
+  void append_to(SparseRows& matrix, Eigen::Index row, double factor) {
+    for (std::size_t column = 0; column < sums_.size(); ++column)
+      if (used_[column]) matrix.insertBack(row, static_cast<Eigen::Index>(column)) = factor * sums_[column];
+    std::fill(sums_.begin(), sums_.end(), 0);
+    std::fill(used_.begin(), used_.end(), 0);
+  }
+
+ private:
+  std::vector<double> sums_;
+  std::vector<char> used_;
+};
+
 }  // namespace
 
-NodeWeights standard_weights(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
-                             const std::vector<Frame>& frames, double beta,
-                             const std::vector<Anchor>& anchors) {
-  const Eigen::Index nodes = static_cast<Eigen::Index>(control.outer.size());
-  NodeWeights weights(static_cast<Eigen::Index>(body.vertices.size()), 2 * nodes);
-  std::vector<double> z(frames.size()), k(frames.size());
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(2 * nodes);
-  std::vector<char> used(static_cast<std::size_t>(nodes));
-  std::size_t next = 0;
-  for (Eigen::Index v = 0; v < weights.rows(); ++v) {
-    weights.startVec(v);
-    if (next == anchors.size() || anchors[next].vertex != v) continue;
-    const Anchor& anchor = anchors[next++];
+Weights standard_weights(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
+                         const std::vector<Frame>& frames, double beta, const std::vector<Anchor>& anchors) {
+  const int outer = static_cast<int>(control.outer.size());
+  const Eigen::Index vertices = static_cast<Eigen::Index>(body.vertices.size());
+  Weights weights{SparseRows(vertices, 2 * outer), SparseRows(vertices, outer)};
+  std::vector<Nearness> near(frames.size());
+  std::vector<double> k(frames.size());
+  Row nodes(2 * outer), values(outer);
+  auto anchor = anchors.begin();
+  for (Eigen::Index v = 0; v < vertices; ++v) {
+    weights.nodes.startVec(v);
+    weights.values.startVec(v);
+    if (anchor == anchors.end() || anchor->vertex != v) continue;
     const Eigen::Vector3d& q = body.vertices[v];
-    distances(q, frames, beta, z);
-    kernels(frames, z, k);
-    row.setZero();
-    std::fill(used.begin(), used.end(), 0);
+    find_near(q, frames, beta, near);
+    kernels(frames, near, k);
     for (std::size_t t = 0; t < frames.size(); ++t) {
       if (k[t] == 0) continue;
       const Eigen::Vector3d uvw = frames[t].local(q);
-      const double outer[] = {1 - uvw[0] - uvw[1], uvw[0], uvw[1]};
+      const double corner[] = {1 - uvw[0] - uvw[1], uvw[0], uvw[1]};
       for (int j = 0; j < 3; ++j) {
         const int node = control.triangles[t][j];
-        used[node] = 1;
-        row[node] += k[t] * (outer[j] + uvw[2] / 3);
-        row[nodes + node] -= k[t] * uvw[2] / 3;
+        nodes.add(node, k[t] * (corner[j] + uvw[2] / 3));
+        nodes.add(outer + node, -k[t] * uvw[2] / 3);
+        values.add(node, k[t] * near[t].barycentric[j]);
       }
     }
-    for (Eigen::Index column = 0; column < 2 * nodes; ++column)
-      if (used[column % nodes]) weights.insertBack(v, column) = anchor.share * row[column];
+    nodes.append_to(weights.nodes, v, anchor->share);
+    values.append_to(weights.values, v, anchor->share);
+    ++anchor;
   }
-  weights.finalize();
+  weights.nodes.finalize();
+  weights.values.finalize();
   return weights;
 }
 
-NormalTerms paper_weights(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Frame>& frames,
-                          double beta) {
+NormalTerms paper_terms(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Frame>& frames,
+                        double beta) {
   NormalTerms bound;
   bound.starts.reserve(vertices.size() + 1);
   bound.starts.push_back(0);
@@ -101,6 +139,24 @@ NormalTerms paper_weights(const std::vector<Eigen::Vector3d>& vertices, const st
     bound.starts.push_back(static_cast<int>(bound.terms.size()));
   }
   return bound;
+}
+
+SparseRows paper_values(const std::vector<Eigen::Vector3d>& vertices, const geometry::ControlMesh& control,
+                        const std::vector<Frame>& frames, const NormalTerms& bound) {
+  SparseRows weights(static_cast<Eigen::Index>(vertices.size()),
+                     static_cast<Eigen::Index>(control.outer.size()));
+  Row row(weights.cols());
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    weights.startVec(static_cast<Eigen::Index>(v));
+    for (int i = bound.starts[v]; i < bound.starts[v + 1]; ++i) {
+      const NormalTerm& term = bound.terms[i];
+      const Eigen::Vector3d b = closest_barycentric(vertices[v], frames[term.triangle].corners);
+      for (int j = 0; j < 3; ++j) row.add(control.triangles[term.triangle][j], term.weight * b[j]);
+    }
+    row.append_to(weights, static_cast<Eigen::Index>(v), 1);
+  }
+  weights.finalize();
+  return weights;
 }
 
 }  // namespace tensegric_fit::tffd

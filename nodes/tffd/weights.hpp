@@ -12,14 +12,21 @@
 
 namespace tensegric_fit::tffd {
 
-/// Sparse and constant, one row a body vertex, one column a node: outer node i is i, inner node i is V + i.
-using NodeWeights = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+/// Sparse and constant, one row a body vertex; rows of vertices that are no anchors are empty.
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// M of q' = q + M (x - x at rest), with q = M x at rest before the share of each anchor is put on. Rows of
-/// vertices that are no anchors are empty. \pre the frames run from inner to outer centroid
-NodeWeights standard_weights(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
-                             const std::vector<Frame>& frames, double beta,
-                             const std::vector<Anchor>& anchors);
+/// Both have the anchor's share multiplied in.
+struct Weights {
+  /// M of q' = q + M (x - x at rest). One column a node: outer node i is i, inner node i is V + i.
+  SparseRows nodes;
+  /// What carries a value from the outer nodes to the skin: rows have no negative weight and sum to the
+  /// share.
+  SparseRows values;
+};
+
+/// \pre the frames run from inner to outer centroid
+Weights standard_weights(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
+                         const std::vector<Frame>& frames, double beta, const std::vector<Anchor>& anchors);
 
 /// One triangle's part in one vertex, with the unit normal for W.
 struct NormalTerm {
@@ -36,7 +43,11 @@ struct NormalTerms {
 
 /// The published setting: k = max(0, 1 - |q - G| / (beta r)), nothing else. \pre the frames have unit normals
 /// for W
-NormalTerms paper_weights(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Frame>& frames,
-                          double beta);
+NormalTerms paper_terms(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Frame>& frames,
+                        double beta);
+
+/// Weights::values of the published setting.
+SparseRows paper_values(const std::vector<Eigen::Vector3d>& vertices, const geometry::ControlMesh& control,
+                        const std::vector<Frame>& frames, const NormalTerms& bound);
 
 }  // namespace tensegric_fit::tffd
