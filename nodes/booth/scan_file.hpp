@@ -7,7 +7,8 @@
 
 namespace tensegric_fit::booth {
 
-/// By the file's ending: .ply, .pcd, .bag. \throw Refusal broken_file, wrong_fields, bad_option (another ending)
+/// By the file's ending: .ply, .pcd, .bag, in either case. The fields are as the file has them;
+/// geometry::points_of checks them. \throw Refusal broken_file, bad_option (another ending)
 pcl::PCLPointCloud2 read_scan(const std::string& path);
 
 }  // namespace tensegric_fit::booth

@@ -1,0 +1,144 @@
+#include "booth/body_landmarks.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace tensegric_fit::booth {
+namespace {
+
+using Eigen::Vector3d;
+
+// The most concave point of the sagittal profile below a bust point, and its curvature, 1/m.
+struct Fold {
+  Vector3d point;
+  double curvature;
+};
+
+Fold fold_below(const BodyShape& shape, double y, double bust_height) {
+  constexpr double kStep = 0.001;
+  constexpr int kSteps = 150, kWindow = 4;  // curvature over 8 mm, less than a fold's width
+  const Vector3d in_plane(1, 0, 1);
+  Vector3d p = shape.exit_point({shape.scaled(0.05), y, bust_height}, Vector3d::UnitX());
+  std::vector<Vector3d> profile;
+  std::vector<double> turn;  // direction of the outward normal, upwards positive
+  for (int i = 0; i < kSteps; ++i) {
+    const Vector3d g = shape.gradient(p).cwiseProduct(in_plane).normalized();
+    profile.push_back(p);
+    turn.push_back(std::atan2(g.z(), g.x()));
+    p = shape.project(p + kStep * Vector3d(g.z(), 0, -g.x()), in_plane);
+  }
+  Fold fold{profile.front(), 0};
+  for (int i = kWindow; i + kWindow < kSteps; ++i) {
+    const double curvature = (turn[i + kWindow] - turn[i - kWindow]) / (2 * kWindow * kStep);
+    if (curvature > fold.curvature) fold = {profile[i], curvature};
+  }
+  return fold;
+}
+
+Vector3d lowest_fold(const BodyShape& shape, const Vector3d& bust_point) {
+  constexpr double kReach = 0.055, kStep = 0.005;
+  constexpr double kFlat = 20;  // 1/m: beside the breast the profile has no fold
+  Vector3d lowest = fold_below(shape, bust_point.y(), bust_point.z()).point;
+  for (double medial = kStep; medial < kReach + kStep / 2; medial += kStep) {
+    const double y = bust_point.y() - std::copysign(medial, bust_point.y());
+    const Fold fold = fold_below(shape, y, bust_point.z());
+    if (fold.curvature > kFlat && fold.point.z() < lowest.z()) lowest = fold.point;
+  }
+  return lowest;
+}
+
+// The point of the left or right buttock that is farthest back.
+Vector3d rearmost(const BodyShape& shape, double side) {
+  const auto skin = [&shape](double y, double z) { return shape.exit_point({0, y, z}, -Vector3d::UnitX()); };
+  double y = side * shape.scaled(0.065), z = shape.scaled(0.89);
+  Vector3d best = skin(y, z);
+  for (double step = shape.scaled(0.01); step > 1e-5; step /= 2) {
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (const auto& [dy, dz] : {std::pair{step, 0.0}, {-step, 0.0}, {0.0, step}, {0.0, -step}}) {
+        const Vector3d p = skin(y + dy, z + dz);
+        if (p.x() < best.x() - 1e-9) {
+          best = p;
+          y += dy;
+          z += dz;
+          moved = true;
+        }
+      }
+    }
+  }
+  return best;
+}
+
+Vector3d crotch(const BodyShape& shape) {
+  Vector3d lowest(0, 0, std::numeric_limits<double>::infinity());
+  for (double x = -0.030; x < 0.070; x += 0.0005) {
+    const Vector3d p = shape.exit_point({shape.scaled(x), 0, shape.scaled(0.90)}, -Vector3d::UnitZ());
+    if (p.z() < lowest.z()) lowest = p;
+  }
+  return lowest;
+}
+
+// At this height, the way from front to back between trunk and arm that stays farthest out of the body; by
+// how much.
+struct Passage {
+  Vector3d narrowest;
+  double clearance;
+};
+
+Passage passage(const BodyShape& shape, double side, double z) {
+  const BodyShape::Axis arm = shape.upper_arm_axis(side > 0);
+  const Vector3d bone = arm.origin + (z - arm.origin.z()) / arm.direction.z() * arm.direction;
+  Passage result{Vector3d::Zero(), std::numeric_limits<double>::infinity()};
+  for (double x = -0.05; x < 0.07; x += 0.002) {
+    Passage here{Vector3d::Zero(), -1};
+    for (double y = shape.scaled(0.10); y < std::abs(bone.y()); y += 0.001) {
+      const Vector3d p(shape.scaled(x), side * y, z);
+      const double v = shape.value(p);
+      if (v > here.clearance) here = {p, v};
+    }
+    if (here.clearance < result.clearance) result = here;
+  }
+  return result;
+}
+
+Vector3d axilla(const BodyShape& shape, double side) {
+  double open = shape.scaled(1.15), closed = shape.scaled(1.35);
+  while (closed - open > 0.0002) {
+    const double middle = (open + closed) / 2;
+    (passage(shape, side, middle).clearance > 0 ? open : closed) = middle;
+  }
+  return shape.project(passage(shape, side, open).narrowest);
+}
+
+}  // namespace
+
+std::vector<geometry::Landmark> find_body_landmarks(const BodyShape& shape) {
+  std::vector<geometry::Landmark> landmarks;
+  const auto add = [&landmarks](const std::string& name, const Vector3d& p) {
+    landmarks.push_back({name, p, 1.0, ""});
+  };
+  const auto reference = [&shape](double x, double y, double z) -> Vector3d {
+    return {shape.scaled(x), shape.scaled(y), shape.scaled(z)};
+  };
+  for (const bool left : {true, false}) {
+    const double side = left ? 1 : -1;
+    const std::string suffix = left ? "_L" : "_R";
+    const BodyShape::Axis breast = shape.breast_axis(left);
+    const Vector3d bust_point = shape.exit_point(breast.origin, breast.direction);
+    add("bust_point" + suffix, bust_point);
+    add("underbust" + suffix, fold_below(shape, bust_point.y(), bust_point.z()).point);
+    add("fold_lowest" + suffix, lowest_fold(shape, bust_point));
+    add("shoulder" + suffix,
+        shape.exit_point(shape.upper_arm_axis(left).origin, Vector3d(-0.50, side * 0.46, 0.75).normalized()));
+    add("neck_side" + suffix, shape.exit_point(reference(0.028, 0, 1.443), side * Vector3d::UnitY()));
+    add("axilla" + suffix, axilla(shape, side));
+    add("buttock" + suffix, rearmost(shape, side));
+  }
+  add("neck_front", shape.exit_point(reference(0.02, 0, 1.424), Vector3d::UnitX()));
+  add("neck_back", shape.exit_point(reference(0.02, 0, 1.422), -Vector3d::UnitX()));
+  add("navel", shape.exit_point(reference(0.05, 0, 1.050), Vector3d::UnitX()));
+  add("crotch", crotch(shape));
+  return landmarks;
+}
+
+}  // namespace tensegric_fit::booth

@@ -1,0 +1,18 @@
+/// Landmarks of the parametric body from its function, not from its mesh.
+#pragma once
+
+#include <vector>
+
+#include "booth/body_shape.hpp"
+#include "geometry/body_measures.hpp"
+
+namespace tensegric_fit::booth {
+
+/// Body frame, all on the skin, confidence 1: the usual names and fold_lowest_L/R. Definitions:
+/// bust point: tip of the nipple; underbust: most concave point of the sagittal profile under the bust point;
+/// fold_lowest: lowest such point from there to 55 mm towards the middle; shoulder: over the outer end of the
+/// collarbone; axilla: where trunk and arm part; crotch: lowest skin point of the mid-plane; buttock:
+/// rearmost point of either half.
+std::vector<geometry::Landmark> find_body_landmarks(const BodyShape& shape);
+
+}  // namespace tensegric_fit::booth

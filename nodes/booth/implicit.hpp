@@ -1,0 +1,49 @@
+/// Building blocks of implicit shapes: functions that are negative inside, zero on the surface and close to
+/// the distance in metres near it.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace tensegric_fit::booth {
+
+/// Union of two shapes whose crease is rounded over a distance of about `k` metres (cubic, twice
+/// differentiable). Where the two differ by k or more it is the plain minimum. Commutative bit for bit. \pre
+/// k > 0
+double smooth_union(double a, double b, double k);
+
+/// Intersection, rounded alike. \pre k > 0
+double smooth_intersection(double a, double b, double k);
+
+/// Ellipsoid round the origin with half axes `radii`. \pre all positive
+double ellipsoid(const Eigen::Vector3d& p, const Eigen::Vector3d& radii);
+
+/// Ball of radius `radius_a` at `a` rolled into one of radius `radius_b` at `b`.
+double tapered_capsule(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                       double radius_a, double radius_b);
+
+/// A superellipse in the plane at height z: |x - cx|^n / rx^n + |y - cy|^n / ry^n = 1.
+struct Section {
+  double z;
+  double back, front;   ///< least and greatest x
+  double right, left;   ///< least and greatest y
+  double exponent = 2;  ///< n: 2 is an ellipse, more is boxier
+};
+
+/// A body through horizontal sections, smooth in between, ending with an edge rounded over `rounding` metres.
+class Loft {
+ public:
+  /// \pre two sections or more, z ascending, every extent positive
+  Loft(const std::vector<Section>& sections, double rounding);
+  double operator()(const Eigen::Vector3d& p) const;
+
+ private:
+  using Values = Eigen::Array<double, 5, 1>;  // cx, cy, rx, ry, n
+  void at(double z, Values& value, Values& slope) const;
+
+  std::vector<double> z_;
+  std::vector<Values> value_, slope_;
+  double rounding_;
+};
+
+}  // namespace tensegric_fit::booth

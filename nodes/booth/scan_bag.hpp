@@ -1,0 +1,21 @@
+/// Scans in bags (ROS).
+#pragma once
+
+#include <pcl/PCLPointCloud2.h>
+#include <ros/time.h>
+
+#include <string>
+
+#include "geometry/point_cloud.hpp"
+
+namespace tensegric_fit::booth {
+
+/// The first sensor_msgs/PointCloud2 of a bag: on the topic scan/points (in any namespace) if there is one,
+/// else on any. \throw Refusal broken_file: not there, truncated, not a bag, or without a point cloud
+pcl::PCLPointCloud2 read_bag_scan(const std::string& path);
+
+/// One message on /scan/points, x y z as float32. Same arguments, same bytes. \throw std::runtime_error
+void write_bag_scan(const std::string& path, const geometry::PointCloud& cloud, const std::string& frame_id,
+                    const ros::Time& stamp);
+
+}  // namespace tensegric_fit::booth

@@ -1,0 +1,42 @@
+/// A parametric female body with known landmarks, heights and girths: what the virtual booth scans.
+#pragma once
+
+#include <string>
+
+#include "geometry/body_measures.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::booth {
+
+/// Field defaults are the parameters' defaults: a slim, symmetric woman of 1.70 m. Lengths in metres, angles
+/// in radians.
+struct BodyParameters {
+  double stature = 1.70;    ///< 1.40 to 2.00; the whole body scales with it
+  double bust = 1.0;        ///< 0.75 to 1.35, size of the breasts as a length, relative to the default
+  double firmness = 0.8;    ///< 0 to 1; less lets the breasts sag towards their folds
+  double asymmetry = 0.0;   ///< -0.3 to 0.3; by how much the left breast is larger than the right
+  double waist = 1.0;       ///< 0.85 to 1.40, thickness of the trunk at the waist, relative to the default
+  double hip = 1.0;         ///< 0.90 to 1.25, thickness of hips and upper thighs, relative to the default
+  double arm_angle = 0.40;  ///< 0.25 to 0.80, between the upper arms and the vertical
+  double yaw = 0.0;         ///< -pi to pi, her facing in the scan's frame, from x towards y
+  double tilt = 0.0;        ///< -0.26 to 0.26 (15 degrees), her lean forward
+};
+
+/// \throw Refusal bad_option naming the parameter, its value and its range
+void check_parameters(const BodyParameters& parameters);
+
+/// The mesh is closed, manifold and outward, about 110,000 triangles, in the scan's frame, soles on z = 0.
+/// With asymmetry, yaw and tilt 0 it is its own mirror image in y, bit for bit.
+struct VirtualBody {
+  geometry::TriangleMesh mesh;
+  /// All confidences are 1. Besides the usual names: heights waist_ruler, hip_max_girth, bust_max; girths
+  /// bust_max, waist_ruler, hip_max; landmarks fold_lowest_L/R.
+  geometry::BodyMeasures truth;
+  std::string waist_method;  ///< how the waist's height was chosen: by the girth's minimum, or "ruler level"
+                             ///< without one
+};
+
+/// \throw Refusal bad_option
+VirtualBody make_body(const BodyParameters& parameters);
+
+}  // namespace tensegric_fit::booth

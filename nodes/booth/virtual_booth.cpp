@@ -1,0 +1,76 @@
+/// virtual_booth: makes a body and scans it. Writes scan.ply, scan.bag, body.ply and truth.json; same
+/// arguments, same bytes.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+
+#include "booth/scan_bag.hpp"
+#include "booth/truth_file.hpp"
+#include "booth/virtual_body.hpp"
+#include "booth/virtual_scanner.hpp"
+#include "geometry/ply.hpp"
+#include "geometry/status.hpp"
+
+namespace {
+
+using namespace tensegric_fit;
+
+constexpr int kUsage = 2, kRefused = 3;
+
+void run(const booth::BodyParameters& body, const booth::ScannerOptions& scanner,
+         const std::filesystem::path& out) {
+  const booth::VirtualBody subject = booth::make_body(body);
+  const booth::VirtualScan scan = booth::scan_body(subject.mesh, scanner);
+  std::filesystem::create_directories(out);
+  geometry::write_ply_mesh(out / "body.ply", subject.mesh);
+  geometry::write_ply_mesh(out / "scan.ply", {scan.cloud.points, {}});
+  // Any fixed time will do, as long as no two seeds share one.
+  const ros::Time stamp(static_cast<std::uint32_t>(1000000000 + scanner.seed % 1000000000), 0);
+  booth::write_bag_scan(out / "scan.bag", scan.cloud, "booth", stamp);
+  booth::write_truth(out / "truth.json", subject, body, scanner);
+  std::cout << fmt::format("{}: {} points of a body of {} triangles\n", out.string(),
+                           scan.cloud.points.size(), subject.mesh.triangles.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  booth::BodyParameters body;
+  booth::ScannerOptions scanner;
+  std::string out = "virtual_booth";
+  CLI::App app("Scans a parametric body with virtual depth sensors. Metres, radians.");
+  app.option_defaults()->always_capture_default();
+  app.add_option("--out", out, "directory for scan.ply, scan.bag, body.ply and truth.json");
+  app.add_option("--stature", body.stature, "height of the body");
+  app.add_option("--bust", body.bust, "size of the breasts, as a length relative to the default");
+  app.add_option("--firmness", body.firmness, "of the breasts, 0 to 1");
+  app.add_option("--asymmetry", body.asymmetry, "by how much the left breast is larger than the right");
+  app.add_option("--waist", body.waist, "thickness at the waist relative to the default");
+  app.add_option("--hip", body.hip, "thickness at the hips relative to the default");
+  app.add_option("--arm-angle", body.arm_angle, "between the upper arms and the vertical");
+  app.add_option("--yaw", body.yaw, "her facing in the scan's frame, from x towards y");
+  app.add_option("--tilt", body.tilt, "her lean forward");
+  app.add_option("--seed", scanner.seed, "of noise, outliers, misregistration and point order");
+  app.add_option("--points", scanner.points, "of the scan");
+  app.add_option("--noise", scanner.noise, "standard deviation along the ray");
+  app.add_option("--outliers", scanner.outliers, "share of points that lie off the surface");
+  app.add_option("--misregistration", scanner.misregistration, "standard deviation of each column's shift");
+  app.add_flag("--floor", scanner.floor, "let the sensors see the floor");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsage;
+  }
+  try {
+    run(body, scanner, out);
+  } catch (const geometry::Refusal& refusal) {
+    std::cerr << "virtual_booth: " << refusal.code() << ": " << refusal.what() << '\n';
+    return kRefused;
+  } catch (const std::exception& error) {
+    std::cerr << "virtual_booth: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

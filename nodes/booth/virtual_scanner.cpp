@@ -1,0 +1,135 @@
+#include "booth/virtual_scanner.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "booth/depth_image.hpp"
+#include "booth/random.hpp"
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::booth {
+namespace {
+
+using Eigen::Vector3d;
+
+void check(const char* name, double value, double low, double high) {
+  if (value >= low && value <= high) return;  // false for NaN
+  throw geometry::Refusal(
+      geometry::refusal::kBadOption,
+      fmt::format("scanner option '{}' is {}; it must lie in [{}, {}]", name, value, low, high));
+}
+
+void check_options(const ScannerOptions& options) {
+  check("columns", options.columns, 2, 12);
+  check("sensors_per_column", options.sensors_per_column, 1, 6);
+  check("distance", options.distance, 1.0, 4.0);
+  check("points", options.points, 1000, 2000000);
+  check("noise", options.noise, 0, 0.01);
+  check("outliers", options.outliers, 0, 0.2);
+  check("misregistration", options.misregistration, 0, 0.01);
+  check("grazing", options.grazing, 0, 0.9);
+  check("floor_radius", options.floor_radius, 0.1, 3.0);
+}
+
+// Each sensor sees its share of the height, and half as much again for overlap.
+std::vector<Sensor> sensors(const ScannerOptions& options, double height) {
+  constexpr double kHalfWidth = 0.75;  // metres to either side of the axis: room for arms held out
+  std::vector<Sensor> result;
+  const double share = height / options.sensors_per_column;
+  for (int column = 0; column < options.columns; ++column) {
+    const double angle = M_PI / 4 + 2 * M_PI * column / options.columns;
+    const Vector3d outward(std::cos(angle), std::sin(angle), 0);
+    for (int i = 0; i < options.sensors_per_column; ++i) {
+      Sensor sensor;
+      sensor.position = options.distance * outward + Vector3d(0, 0, (i + 0.5) * share);
+      sensor.axes << Vector3d::UnitZ().cross(outward).transpose(), Vector3d::UnitZ().transpose(),
+          -outward.transpose();
+      sensor.half_width = kHalfWidth / options.distance;
+      sensor.half_height = 0.75 * share / options.distance;
+      result.push_back(sensor);
+    }
+  }
+  return result;
+}
+
+std::vector<Hit> look(const Sensor& sensor, const geometry::TriangleMesh& body, const ScannerOptions& options,
+                      double pixels_per_unit) {
+  const auto pixels = [pixels_per_unit](double half) {
+    return std::max(8, static_cast<int>(2 * half * pixels_per_unit));
+  };
+  DepthImage image(sensor, pixels(sensor.half_height), pixels(sensor.half_width));
+  image.draw(body);
+  if (options.floor) image.draw_floor(options.floor_radius);
+  return image.hits();
+}
+
+// Share of rays that return from a surface met at this cosine of incidence.
+double return_share(double incidence, double grazing) {
+  return grazing == 0 ? 1 : std::clamp(incidence / grazing - 1, 0.0, 1.0);
+}
+
+// Resolution at which somewhat more rays return than points are wanted.
+double resolution(const std::vector<Sensor>& all, const geometry::TriangleMesh& body,
+                  const ScannerOptions& options) {
+  constexpr double kTrial = 100, kMargin = 1.03;
+  double returns = 0;
+  for (const Sensor& sensor : all)
+    for (const Hit& hit : look(sensor, body, options, kTrial))
+      returns += return_share(hit.incidence, options.grazing);
+  if (returns == 0) throw geometry::Refusal(geometry::refusal::kNotABody, "the sensors see no surface");
+  return kTrial * std::sqrt(kMargin * options.points / returns);
+}
+
+// How far off a column is believed to stand.
+Eigen::Isometry3d column_error(Random& random, double deviation) {
+  constexpr double kLever = 1.0;  // metres: a turn moves points that far away as much as the shift does
+  const auto triple = [&random]() {
+    const double x = random.normal(), y = random.normal(), z = random.normal();
+    return Vector3d(x, y, z);
+  };
+  const Vector3d shift = deviation * triple(), turn = deviation / kLever / std::sqrt(3.0) * triple();
+  const Vector3d middle(0, 0, kLever);
+  const double angle = turn.norm();
+  const Eigen::AngleAxisd rotation(angle, angle > 0 ? Vector3d(turn / angle) : Vector3d::UnitX());
+  return Eigen::Translation3d(middle + shift) * rotation * Eigen::Translation3d(-middle);
+}
+
+}  // namespace
+
+VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& options) {
+  check_options(options);
+  geometry::check_mesh(body);
+  const double height = body.vertices.empty() ? 0 : geometry::bounding_box(body.vertices)[1].z();
+  check("height of the body over z = 0", height, 0.1, 3.0);
+  const std::vector<Sensor> all = sensors(options, height);
+  const double pixels_per_unit = resolution(all, body, options);
+
+  Random random(options.seed);
+  std::vector<std::pair<Vector3d, int>> points;
+  Eigen::Isometry3d error = Eigen::Isometry3d::Identity();
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    if (s % options.sensors_per_column == 0) error = column_error(random, options.misregistration);
+    for (const Hit& hit : look(all[s], body, options, pixels_per_unit)) {
+      if (random.uniform() >= return_share(hit.incidence, options.grazing)) continue;
+      const Vector3d ray = (hit.point - all[s].position).normalized();
+      constexpr double kFarthestOutlier = 0.050;
+      const double off = random.uniform() < options.outliers ? kFarthestOutlier * (2 * random.uniform() - 1)
+                                                             : options.noise * random.normal();
+      points.emplace_back(error * Vector3d(hit.point + off * ray), static_cast<int>(s));
+    }
+  }
+  random.shuffle(points);
+  points.resize(std::min(points.size(), static_cast<std::size_t>(options.points)));
+
+  VirtualScan scan;
+  for (const auto& [point, sensor] : points) {
+    scan.cloud.points.push_back(point);
+    scan.sensor.push_back(sensor);
+  }
+  return scan;
+}
+
+}  // namespace tensegric_fit::booth

@@ -1,0 +1,38 @@
+/// Depth sensors on columns round a body: what a scan booth would see of it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/point_cloud.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::booth {
+
+/// Field defaults are the parameters' defaults. Metres, radians.
+struct ScannerOptions {
+  int columns = 4;  ///< 2 to 12, evenly round the z axis, the first at 45 degrees from x
+  int sensors_per_column =
+      3;                   ///< 1 to 6, evenly spread over the body's height, each looking level at the z axis
+  double distance = 1.40;  ///< 1.0 to 4.0, of the columns from the z axis
+  int points = 180000;     ///< 1000 to 2000000, of body and floor together
+  double noise = 0.0008;   ///< 0 to 0.01, standard deviation along the ray
+  double outliers = 0.001;  ///< 0 to 0.2, share of points that lie up to 50 mm off along their ray
+  double misregistration =
+      0.0005;             ///< 0 to 0.01, deviation of each column's shift; its turn fits it 1 m away
+  double grazing = 0.15;  ///< 0 to 0.9, cosine of incidence below which no point returns; twice that, all do
+  bool floor = false;     ///< whether the floor z = 0 is seen, as a disc
+  double floor_radius = 0.60;  ///< 0.1 to 3.0
+  std::uint64_t seed = 1;
+};
+
+struct VirtualScan {
+  geometry::PointCloud cloud;  ///< no normals, shuffled
+  std::vector<int> sensor;     ///< of each point: column * sensors_per_column + sensor, the lowest first
+};
+
+/// Every point is where a ray meets the first surface on its way, so occlusion is real. Same arguments, same
+/// bits. \throw Refusal bad_option naming the option and its range
+VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& options);
+
+}  // namespace tensegric_fit::booth
