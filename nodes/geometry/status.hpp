@@ -22,6 +22,7 @@ inline constexpr char kBadGarment[] = "bad_garment";        ///< garment YAML: u
 inline constexpr char kUnknownLine[] = "unknown_line";      ///< a line or node that the control mesh does not have
 inline constexpr char kBadTemplate[] = "bad_template";      ///< control mesh template YAML
 inline constexpr char kBadOption[] = "bad_option";          ///< an option or parameter out of range
+inline constexpr char kNothingYet[] = "nothing_yet";        ///< asked for a result before there is one
 }  // namespace refusal
 
 /// Bad input, refused by name. Thrown by the cores; `fit` turns it into exit code 3 and `reason`, a node into

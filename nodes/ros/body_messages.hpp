@@ -1,0 +1,37 @@
+/// Messages of the body and of its control mesh <-> core types.
+#pragma once
+
+#include <tensegric_fit/ControlMesh.h>
+#include <tensegric_fit/Landmarks.h>
+#include <tensegric_fit/TriangleMesh.h>
+
+#include <vector>
+
+#include "geometry/body_measures.hpp"
+#include "geometry/control_mesh.hpp"
+#include "geometry/triangle_mesh.hpp"
+#include "ros/scan_tag.hpp"
+
+namespace tensegric_fit::node {
+
+/// `filled` is empty or has one flag a vertex. Coordinates are rounded to float32.
+TriangleMesh to_message(const ScanTag& tag, const geometry::TriangleMesh& mesh,
+                        const std::vector<char>& filled);
+
+/// \throw Refusal bad_mesh, non_finite: arrays that do not fit each other, as check_mesh
+geometry::TriangleMesh mesh_in(const TriangleMesh& message);
+
+/// One flag a vertex, or empty. \throw Refusal bad_mesh: another number of flags
+std::vector<char> filled_in(const TriangleMesh& message);
+
+Landmarks to_message(const ScanTag& tag, const geometry::BodyMeasures& measures);
+
+/// \throw Refusal non_finite, bad_mesh: a transform that is none
+geometry::BodyMeasures measures_in(const Landmarks& message);
+
+ControlMesh to_message(const ScanTag& tag, const geometry::ControlMesh& control);
+
+/// \throw Refusal bad_mesh, non_finite, as check_control_mesh
+geometry::ControlMesh control_in(const ControlMesh& message);
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,165 @@
+#include "ros/fit_messages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/status.hpp"
+#include "ros/flat.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+using tensegric::TensionLaw;
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void refuse(const GarmentLine& line, const std::string& what) {
+  throw geometry::Refusal(geometry::refusal::kBadGarment, fmt::format("line '{}': {}", line.name, what));
+}
+
+bool ascending(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }) &&
+         std::is_sorted(values.begin(), values.end());
+}
+
+TensionLaw law_in(const GarmentLine& line) {
+  TensionLaw law;
+  if (line.law.empty() || line.law == GarmentLine::RIGID) return law;
+  if (line.law == GarmentLine::STIFFNESS) {
+    if (!(line.stiffness > 0) || !std::isfinite(line.stiffness)) refuse(line, "stiffness must be above 0");
+    law.kind = TensionLaw::Kind::stiffness;
+    law.stiffness = line.stiffness;
+    return law;
+  }
+  if (line.law != GarmentLine::TABLE)
+    refuse(line, fmt::format("law '{}' is not one of: rigid, stiffness, table", line.law));
+  if (line.stretch.size() < 2 || line.stretch.size() != line.tension.size())
+    refuse(line, "a table needs two rows or more, and a tension for each stretch");
+  if (!ascending(line.stretch) || !ascending(line.tension)) refuse(line, "stretch and tension must ascend");
+  law.kind = TensionLaw::Kind::table;
+  for (std::size_t i = 0; i < line.stretch.size(); ++i)
+    law.table.emplace_back(line.stretch[i], line.tension[i]);
+  return law;
+}
+
+tensegric::GarmentLine line_in(const GarmentLine& message) {
+  tensegric::GarmentLine line;
+  line.name = message.name;
+  if (message.name.empty()) refuse(message, "a line needs a name");
+  if (!(message.ratio > 0) || !std::isfinite(message.ratio)) refuse(message, "ratio must be above 0");
+  line.ratio = message.ratio;
+  line.law = law_in(message);
+  if (!(message.tension_limit >= 0)) refuse(message, "tension_limit must not be negative");
+  line.tension_limit = message.tension_limit == 0 ? kNoLimit : message.tension_limit;
+  line.through = message.through;
+  line.taut = message.taut;
+  return line;
+}
+
+GarmentLine line_of(const tensegric::GarmentLine& line) {
+  GarmentLine message;
+  message.name = line.name;
+  message.ratio = line.ratio;
+  switch (line.law.kind) {
+    case TensionLaw::Kind::rigid:
+      message.law = GarmentLine::RIGID;
+      break;
+    case TensionLaw::Kind::stiffness:
+      message.law = GarmentLine::STIFFNESS;
+      break;
+    case TensionLaw::Kind::table:
+      message.law = GarmentLine::TABLE;
+      break;
+  }
+  message.stiffness = line.law.stiffness;
+  for (const auto& [stretch, tension] : line.law.table) {
+    message.stretch.push_back(stretch);
+    message.tension.push_back(tension);
+  }
+  message.tension_limit = line.tension_limit == kNoLimit ? 0 : line.tension_limit;
+  message.through = line.through;
+  message.taut = line.taut;
+  return message;
+}
+
+FitState named(const FitName& name) {
+  FitState message;
+  message.header = name.tag.header;
+  message.scan_id = name.tag.scan_id;
+  message.garment = name.garment;
+  message.solver = to_string(name.solver);
+  return message;
+}
+
+}  // namespace
+
+Garment to_message(const std_msgs::Header& header, const GarmentRequest& request) {
+  Garment message;
+  message.header = header;
+  message.name = request.garment.name;
+  message.regions = request.garment.regions;
+  for (const tensegric::GarmentLine& line : request.garment.lines) message.lines.push_back(line_of(line));
+  message.solver = request.solver;
+  return message;
+}
+
+GarmentRequest request_in(const Garment& message) {
+  GarmentRequest request;
+  request.garment.name = message.name;
+  request.garment.regions = message.regions;
+  for (const GarmentLine& line : message.lines) request.garment.lines.push_back(line_in(line));
+  if (!message.solver.empty()) tensegric::solver_from(message.solver);
+  request.solver = message.solver;
+  return request;
+}
+
+FitState to_message(const FitName& name, const tensegric::Solution& solution, double milliseconds) {
+  FitState message = named(name);
+  message.status = to_string(solution.status);
+  message.iteration = static_cast<std::uint32_t>(solution.iterations);
+  message.residual = solution.residual;
+  message.milliseconds = milliseconds;
+  message.note = solution.note;
+  message.outer = flat<double>(solution.outer);
+  message.inner = flat<double>(solution.inner);
+  for (const tensegric::LineResult& line : solution.lines) {
+    LineResult result;
+    result.name = line.name;
+    result.nodes.assign(line.nodes.begin(), line.nodes.end());
+    result.initial = line.initial;
+    result.neutral = line.neutral;
+    result.final = line.final;
+    result.request = line.request;
+    result.ratio = line.final / line.initial;
+    result.tension = line.tension;
+    message.line_ratios.push_back(result.ratio);
+    message.lines.push_back(std::move(result));
+  }
+  for (const tensegric::RegionResult& region : solution.regions) {
+    RegionResult result;
+    result.name = region.name;
+    result.volume_before = region.volume_before;
+    result.volume_after = region.volume_after;
+    message.volume_errors.push_back(region.volume_after / region.volume_before - 1);
+    message.regions.push_back(std::move(result));
+  }
+  return message;
+}
+
+FitState to_message(const FitName& name, const tensegric::Iterate& iterate,
+                    const std::vector<Eigen::Vector3d>& outer, double milliseconds) {
+  FitState message = named(name);
+  message.status = FitState::SOLVING;
+  message.iteration = static_cast<std::uint32_t>(iterate.iteration);
+  message.residual = iterate.residual;
+  message.milliseconds = milliseconds;
+  message.outer = flat<double>(outer);
+  message.line_ratios = iterate.line_ratios;
+  message.volume_errors = iterate.volume_errors;
+  return message;
+}
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,43 @@
+/// Messages of the garment and of the fit <-> core types.
+#pragma once
+
+#include <tensegric_fit/DeformedMesh.h>
+#include <tensegric_fit/FitState.h>
+#include <tensegric_fit/Garment.h>
+
+#include <string>
+#include <vector>
+
+#include "ros/scan_tag.hpp"
+#include "tensegric/garment.hpp"
+#include "tensegric/solver.hpp"
+
+namespace tensegric_fit::node {
+
+/// A garment with the solver that it asks for, empty for the node's own.
+struct GarmentRequest {
+  tensegric::Garment garment;
+  std::string solver;
+};
+
+Garment to_message(const std_msgs::Header& header, const GarmentRequest& request);
+
+/// \throw Refusal bad_garment: values out of range or arrays that do not fit each other; bad_option: unknown
+/// solver
+GarmentRequest request_in(const Garment& message);
+
+/// What a fit is called on the way: which scan, which garment, which solver.
+struct FitName {
+  ScanTag tag;
+  std::string garment;
+  tensegric::SolverName solver;
+};
+
+/// A fit that has ended.
+FitState to_message(const FitName& name, const tensegric::Solution& solution, double milliseconds);
+
+/// A fit on its way: status `solving`.
+FitState to_message(const FitName& name, const tensegric::Iterate& iterate,
+                    const std::vector<Eigen::Vector3d>& outer, double milliseconds);
+
+}  // namespace tensegric_fit::node

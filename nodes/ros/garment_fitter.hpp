@@ -1,0 +1,47 @@
+/// Fits garment after garment to one control mesh after the other.
+#pragma once
+
+#include <tensegric_fit/ControlMesh.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "ros/fit_messages.hpp"
+#include "tensegric/model.hpp"
+#include "tensegric/solver.hpp"
+
+namespace tensegric_fit::node {
+
+/// Keeps the model of the newest control mesh, and the last solution on it for a warm start.
+class GarmentFitter {
+ public:
+  GarmentFitter(const tensegric::ModelOptions& model, const tensegric::SolverOptions& solver);
+
+  /// Whether the garment can be laid on the newest model; any garment can where there is none yet. For any
+  /// thread. \throw Refusal unknown_line, bad_garment
+  void check(const tensegric::Garment& garment) const;
+
+  /// The solver that a request is for.
+  tensegric::SolverName solver_of(const GarmentRequest& request) const;
+
+  /// For one thread. `from_rest`: without a warm start. \throw Refusal as build_model and solve
+  tensegric::Solution fit(const ControlMesh::ConstPtr& control, const GarmentRequest& request, bool from_rest,
+                          const tensegric::Progress& progress);
+
+  /// The newest model; null where there is none.
+  std::shared_ptr<const tensegric::Model> model() const;
+
+ private:
+  void take(const ControlMesh::ConstPtr& control);
+
+  tensegric::ModelOptions model_options_;
+  tensegric::SolverOptions solver_options_;
+  ControlMesh::ConstPtr control_;
+  std::optional<tensegric::Solution> last_;
+
+  mutable std::mutex mutex_;
+  std::shared_ptr<const tensegric::Model> model_;
+};
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,61 @@
+/// Messages that are made only when someone listens, and kept for whoever joins later.
+#pragma once
+
+#include <ros/ros.h>
+
+#include <functional>
+#include <mutex>
+#include <string>
+#include <utility>
+
+namespace tensegric_fit::node {
+
+/// Like a latched topic, with two differences: the message is made on the first demand, and others may pass
+/// on the same topic without being kept. Someone who joins in the very moment of an offer can get the message
+/// twice.
+template <typename Message>
+class KeptPublisher {
+ public:
+  using Make = std::function<typename Message::ConstPtr()>;
+
+  KeptPublisher(ros::NodeHandle node, const std::string& topic) {
+    publisher_ = node.advertise<Message>(
+        topic, 4, [this](const ros::SingleSubscriberPublisher& newcomer) { welcome(newcomer); });
+  }
+
+  /// Takes the place of what was kept; made and published now if someone listens.
+  void offer(Make make) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    make_ = std::move(make);
+    made_.reset();
+    if (publisher_.getNumSubscribers() != 0) publisher_.publish(made());
+  }
+
+  /// Nothing is kept any more.
+  void forget() {
+    std::lock_guard<std::mutex> lock(mutex_);
+    make_ = nullptr;
+    made_.reset();
+  }
+
+  /// Published to those who listen now, not kept.
+  void pass(const Message& message) { publisher_.publish(message); }
+
+ private:
+  void welcome(const ros::SingleSubscriberPublisher& newcomer) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    if (make_) newcomer.publish(*made());
+  }
+
+  const typename Message::ConstPtr& made() {
+    if (!made_) made_ = make_();
+    return made_;
+  }
+
+  std::mutex mutex_;
+  Make make_;
+  typename Message::ConstPtr made_;
+  ros::Publisher publisher_;
+};
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,26 @@
+/// The main function of every stage node.
+#pragma once
+
+#include <ros/ros.h>
+
+#include <string>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::node {
+
+/// Exit codes are those of `fit`: 0 shut down, 2 a parameter or file of its own was refused.
+template <typename Node>
+int run_node(int argc, char** argv, const std::string& name) {
+  ros::init(argc, argv, name);
+  try {
+    Node node(ros::NodeHandle{}, ros::NodeHandle{"~"});
+    ros::spin();
+    return 0;
+  } catch (const geometry::Refusal& refusal) {
+    ROS_FATAL("%s: %s: %s", name.c_str(), refusal.code().c_str(), refusal.what());
+    return 2;
+  }
+}
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,47 @@
+/// Brings the messages of one scan together.
+#pragma once
+
+#include <boost/shared_ptr.hpp>
+
+#include <functional>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace tensegric_fit::node {
+
+/// Keeps the newest message of each topic. Each `Trigger` completes the join once, as soon as the newest
+/// message of every other topic carries the same scan_id; messages of two scans never meet. Context that
+/// comes again does not complete it again. For one thread.
+template <typename Trigger, typename... Context>
+class ScanJoin {
+ public:
+  using Complete = std::function<void(const boost::shared_ptr<const Trigger>&,
+                                      const boost::shared_ptr<const Context>&...)>;
+
+  explicit ScanJoin(Complete complete) : complete_(std::move(complete)) {}
+
+  template <typename Message>
+  void add(const boost::shared_ptr<const Message>& message) {
+    if constexpr (std::is_same_v<Message, Trigger>)
+      trigger_ = message;
+    else
+      std::get<boost::shared_ptr<const Message>>(context_) = message;
+    if (!trigger_ || !(holds<Context>() && ...)) return;
+    const auto trigger = std::exchange(trigger_, nullptr);
+    std::apply([&](const auto&... context) { complete_(trigger, context...); }, context_);
+  }
+
+ private:
+  template <typename Message>
+  bool holds() const {
+    const auto& message = std::get<boost::shared_ptr<const Message>>(context_);
+    return message && message->scan_id == trigger_->scan_id;
+  }
+
+  Complete complete_;
+  boost::shared_ptr<const Trigger> trigger_;
+  std::tuple<boost::shared_ptr<const Context>...> context_;
+};
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,151 @@
+#include "ros/stage.hpp"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <diagnostic_msgs/KeyValue.h>
+#include <fmt/format.h>
+
+#include <chrono>
+
+namespace tensegric_fit::node {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+diagnostic_msgs::KeyValue fact(const std::string& key, const std::string& value) {
+  diagnostic_msgs::KeyValue pair;
+  pair.key = key;
+  pair.value = value;
+  return pair;
+}
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+Stage::Stage(std::string name, const ros::NodeHandle& node) : name_(std::move(name)) {
+  ros::NodeHandle handle(node);
+  diagnostics_ = handle.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 16);
+  heartbeat_ = handle.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
+    std::lock_guard<std::mutex> lock(report_mutex_);
+    report();
+  });
+  worker_ = std::thread([this] { serve(); });
+}
+
+Stage::~Stage() {
+  {
+    std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  wake_.notify_one();
+  worker_.join();
+}
+
+void Stage::begin(const std::string& scan_id) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  newest_scan_ = scan_id;
+}
+
+void Stage::post(const std::string& scan_id, Work work) {
+  {
+    std::lock_guard<std::mutex> lock(mutex_);
+    waiting_ = Job{scan_id, std::move(work)};
+  }
+  wake_.notify_one();
+}
+
+bool Stage::superseded(const std::string& scan_id) const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return stopping_ || newest_scan_ != scan_id;
+}
+
+void Stage::refuse(const std::string& scan_id, const geometry::Refusal& refusal) {
+  fail(scan_id, "refused", refusal.code(), refusal.what());
+}
+
+void Stage::serve() {
+  while (true) {
+    Job job;
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      wake_.wait(lock, [this] { return stopping_ || waiting_.has_value(); });
+      if (stopping_) return;
+      job = std::move(*waiting_);
+      waiting_.reset();
+    }
+    run(job);
+  }
+}
+
+void Stage::run(const Job& job) {
+  if (superseded(job.scan_id)) return;
+  {
+    std::lock_guard<std::mutex> lock(report_mutex_);
+    state_.word = "working";
+    state_.message = "working on scan " + job.scan_id;
+    state_.scan_id = job.scan_id;
+    state_.level = DiagnosticStatus::OK;
+    report();
+  }
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    const Result result = job.work();
+    finish(job, result, milliseconds_since(start));
+  } catch (const geometry::Refusal& refusal) {
+    fail(job.scan_id, "refused", refusal.code(), refusal.what());
+  } catch (const std::exception& error) {
+    fail(job.scan_id, "failed", "internal_error", error.what());
+  }
+}
+
+void Stage::finish(const Job& job, const Result& result, double milliseconds) {
+  const bool dropped = superseded(job.scan_id);
+  if (!dropped) result.publish();
+  std::lock_guard<std::mutex> lock(report_mutex_);
+  state_.word = dropped ? "superseded" : "done";
+  state_.message = dropped ? "dropped scan " + job.scan_id + ", a newer one came" : "done";
+  state_.milliseconds = milliseconds;
+  state_.facts = result.facts;
+  report();
+  ROS_INFO("%s: scan %s %s in %.1f ms", name_.c_str(), job.scan_id.c_str(), state_.word.c_str(),
+           milliseconds);
+}
+
+void Stage::fail(const std::string& scan_id, const std::string& word, const std::string& code,
+                 const std::string& message) {
+  std::lock_guard<std::mutex> lock(report_mutex_);
+  state_.word = word;
+  state_.message = code + ": " + message;
+  state_.scan_id = scan_id;
+  state_.level = DiagnosticStatus::ERROR;
+  state_.last_error = code;
+  state_.last_error_message = message;
+  state_.last_error_scan_id = scan_id;
+  report();
+  ROS_ERROR("%s: scan %s %s: %s: %s", name_.c_str(), scan_id.c_str(), word.c_str(), code.c_str(),
+            message.c_str());
+}
+
+void Stage::report() {
+  DiagnosticStatus status;
+  status.level = state_.level;
+  status.name = ros::this_node::getName().substr(1) + ": " + name_;
+  status.message = state_.message;
+  status.hardware_id = "tensegric_fit";
+  status.values = {fact("state", state_.word),
+                   fact("scan_id", state_.scan_id),
+                   fact("milliseconds", fmt::format("{:.3f}", state_.milliseconds)),
+                   fact("last_error", state_.last_error),
+                   fact("last_error_message", state_.last_error_message),
+                   fact("last_error_scan_id", state_.last_error_scan_id)};
+  for (const auto& [key, value] : state_.facts) status.values.push_back(fact(key, value));
+
+  diagnostic_msgs::DiagnosticArray array;
+  array.header.stamp = ros::Time::now();
+  array.status.push_back(std::move(status));
+  diagnostics_.publish(array);
+}
+
+}  // namespace tensegric_fit::node

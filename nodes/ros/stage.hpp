@@ -1,0 +1,88 @@
+/// What all stage nodes share: one worker, one mailbox, and /diagnostics.
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+#include <ros/ros.h>
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::node {
+
+/// Runs the work of a stage in a thread of its own. One piece of work waits at most: the newest. What a piece
+/// of work found is published only if no newer scan was begun meanwhile. A Refusal or another exception ends
+/// that piece of work alone: it is named on /diagnostics and in the log, and nothing is published.
+class Stage {
+ public:
+  using Facts = std::vector<std::pair<std::string, std::string>>;
+
+  /// What work ends with: how to publish it, and what to say of it on /diagnostics.
+  struct Result {
+    std::function<void()> publish;
+    Facts facts;
+  };
+  using Work = std::function<Result()>;
+
+  /// `name` is the stage's name in diagnostics and log.
+  Stage(std::string name, const ros::NodeHandle& node);
+  ~Stage();
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  /// A new scan has come: what is found for any other is dropped from now on.
+  void begin(const std::string& scan_id);
+
+  /// Work for that scan, in place of any that waits.
+  void post(const std::string& scan_id, Work work);
+
+  /// True once another scan was begun. For work that can stop half way.
+  bool superseded(const std::string& scan_id) const;
+
+  /// Says that an input was refused before any work began.
+  void refuse(const std::string& scan_id, const geometry::Refusal& refusal);
+
+ private:
+  struct Job {
+    std::string scan_id;
+    Work work;
+  };
+  struct State {
+    std::string word = "waiting", message = "waiting for input", scan_id;
+    std::uint8_t level = diagnostic_msgs::DiagnosticStatus::OK;
+    std::string last_error, last_error_message, last_error_scan_id;
+    double milliseconds = 0;
+    Facts facts;
+  };
+
+  void serve();
+  void run(const Job& job);
+  void fail(const std::string& scan_id, const std::string& word, const std::string& code,
+            const std::string& message);
+  void finish(const Job& job, const Result& result, double milliseconds);
+  void report();
+
+  const std::string name_;
+  ros::Publisher diagnostics_;
+  ros::WallTimer heartbeat_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::string newest_scan_;
+  std::optional<Job> waiting_;
+  bool stopping_ = false;
+
+  std::mutex report_mutex_;  // guards state_, and the order of what is said
+  State state_;
+
+  std::thread worker_;  // last: it uses all of the above
+};
+
+}  // namespace tensegric_fit::node
