@@ -11,8 +11,8 @@ namespace tensegric_fit::landmarks {
 /// Field defaults are the parameters' defaults.
 struct Options {};
 
-/// `filled` is empty or has one flag a vertex: 1 where the scan saw nothing; landmarks there are less certain.
-/// \throw Refusal not_a_body, wrong_unit, missing_part:<part>
+/// `filled` is empty or has one flag a vertex: 1 where the scan saw nothing; landmarks there are less
+/// certain. \throw Refusal not_a_body, wrong_unit, missing_part:<part>
 geometry::BodyMeasures find_landmarks(const geometry::TriangleMesh& body, const std::vector<char>& filled,
                                       const Options& options);
 

@@ -1,0 +1,25 @@
+/// What every search for landmarks looks at: the body in its own frame, with its sections.
+#pragma once
+
+#include <vector>
+
+#include "landmarks/body_levels.hpp"
+
+namespace tensegric_fit::landmarks {
+
+/// x forward, y left, z up, floor at 0.
+struct BodyShape {
+  explicit BodyShape(geometry::TriangleMesh body_in_its_frame);
+
+  geometry::TriangleMesh mesh;
+  std::vector<Eigen::Vector3d> normals;  ///< area-weighted, unit, one a vertex
+  SlicedMesh sliced;
+  BodyLevels levels;
+  double stature;  ///< the unit of all search windows
+};
+
+enum Side { kLeft = 0, kRight = 1 };
+inline constexpr double kSign[2] = {1, -1};  ///< of y
+inline constexpr const char* kSuffix[2] = {"_L", "_R"};
+
+}  // namespace tensegric_fit::landmarks

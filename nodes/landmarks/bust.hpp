@@ -1,0 +1,30 @@
+/// Bust points and the fold under the breasts.
+#pragma once
+
+#include <string>
+
+#include "landmarks/trunk.hpp"
+
+namespace tensegric_fit::landmarks {
+
+struct BustPoint {
+  Eigen::Vector3d point;
+  double confidence;
+  std::string reason;
+};
+
+/// Tip of the breast: the bulge of the half chest that stands out most in a vertical profile, and on it the
+/// point that reaches furthest along the mean normal of the skin around (the nipple, where there is one).
+BustPoint find_bust_point(const BodyShape& body, const Trunk& trunk, Side side);
+
+struct Fold {
+  Eigen::Vector3d below_bust_point;  ///< most hollow point of the profile through the bust point
+  Eigen::Vector3d lowest;            ///< lowest point of the fold from there to 55 mm medial
+  double confidence;
+  std::string reason;
+};
+
+/// Inframammary fold: the most hollow point of the sagittal profile under the breast.
+Fold find_fold(const BodyShape& body, const Eigen::Vector3d& bust_point, Side side);
+
+}  // namespace tensegric_fit::landmarks

@@ -1,0 +1,191 @@
+#include "landmarks/find_landmarks.hpp"
+
+#include <algorithm>
+
+#include "geometry/status.hpp"
+#include "landmarks/body_frame.hpp"
+#include "landmarks/bust.hpp"
+#include "landmarks/girth_levels.hpp"
+#include "landmarks/lower_trunk.hpp"
+#include "landmarks/neck.hpp"
+#include "landmarks/shoulders.hpp"
+#include "landmarks/trunk.hpp"
+
+namespace tensegric_fit::landmarks {
+namespace {
+
+using Eigen::Vector3d;
+using geometry::BodyMeasures;
+using geometry::TriangleMesh;
+
+constexpr double kUnderbustBelowFold = 0.003;  // the tape lies just under the fold
+constexpr double kWaistAboveHip = 0.10, kWaistBelowUnderbust = 0.015;
+
+TriangleMesh in_frame(const TriangleMesh& mesh, const Eigen::Isometry3d& frame) {
+  TriangleMesh result = mesh;
+  for (Vector3d& v : result.vertices) v = frame * v;
+  return result;
+}
+
+// Collects results in the body's frame and gives them out in the scan's.
+class Record {
+ public:
+  Record(const BodyShape& body, const std::vector<char>& filled, const Eigen::Isometry3d& body_from_scan)
+      : body_(body), filled_(filled), scan_from_body_(body_from_scan.inverse()) {
+    measures_.body_from_scan = body_from_scan;
+  }
+
+  void landmark(const std::string& name, const Vector3d& point, double confidence = 0.9,
+                std::string reason = "") {
+    if (unseen(point) && confidence > 0.45) {
+      confidence = 0.45;
+      reason = "the scan did not see the skin there";
+    }
+    measures_.landmarks.push_back({name, scan_from_body_ * point, confidence, std::move(reason)});
+  }
+
+  void height(const std::string& name, double metres, double confidence = 0.9, std::string reason = "") {
+    measures_.heights.push_back({name, metres, confidence, std::move(reason)});
+  }
+
+  void girth(const std::string& name, const std::vector<Vector3d>& tape, double confidence = 0.9,
+             std::string reason = "") {
+    if (tape.size() < 3) return;
+    measures_.girths.push_back({name, geometry::length_of(tape, true), confidence, std::move(reason)});
+    geometry::GirthLoop loop{name, {}};
+    for (const Vector3d& p : tape) loop.points.push_back(scan_from_body_ * p);
+    measures_.loops.push_back(std::move(loop));
+  }
+
+  BodyMeasures take() { return std::move(measures_); }
+
+ private:
+  // The nearest vertex is one of a filled hole.
+  bool unseen(const Vector3d& point) const {
+    if (filled_.empty()) return false;
+    std::size_t nearest = 0;
+    for (std::size_t v = 1; v < filled_.size(); ++v)
+      if ((body_.mesh.vertices[v] - point).squaredNorm() <
+          (body_.mesh.vertices[nearest] - point).squaredNorm())
+        nearest = v;
+    return filled_[nearest] != 0;
+  }
+
+  const BodyShape& body_;
+  const std::vector<char>& filled_;
+  Eigen::Isometry3d scan_from_body_;
+  BodyMeasures measures_;
+};
+
+double lower_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
+  const double crotch = body.levels.crotch;
+  record.landmark("crotch", find_crotch(body));
+  record.height("crotch", crotch);
+
+  double sum = 0;
+  int found = 0;
+  for (Side side : {kLeft, kRight}) {
+    Vector3d point;
+    if (!find_buttock(body, side, point)) continue;
+    record.landmark(std::string("buttock") + kSuffix[side], point);
+    sum += point.z();
+    ++found;
+  }
+  const double hip = found > 0 ? sum / found : crotch + 0.05 * body.stature;
+  record.height("hip", hip, found > 0 ? 0.9 : 0.3,
+                found > 0 ? "" : "no buttock stands out; a level by proportion");
+  record.girth("hip", tape_loop(trunk.outline_at(hip)));
+  return hip;
+}
+
+double bust(const BodyShape& body, const Trunk& trunk, Record& record) {
+  double height = 0, confidence = 1, underbust = 1e9, fold_confidence = 1;
+  std::string reason, fold_reason;
+  for (Side side : {kLeft, kRight}) {
+    const BustPoint tip = find_bust_point(body, trunk, side);
+    record.landmark(std::string("bust_point") + kSuffix[side], tip.point, tip.confidence, tip.reason);
+    height += tip.point.z() / 2;
+    if (tip.confidence < confidence) {
+      confidence = tip.confidence;
+      reason = tip.reason;
+    }
+    const Fold fold = find_fold(body, tip.point, side);
+    record.landmark(std::string("underbust") + kSuffix[side], fold.below_bust_point, fold.confidence,
+                    fold.reason);
+    underbust = std::min(underbust, fold.lowest.z());
+    if (fold.confidence < fold_confidence) {
+      fold_confidence = fold.confidence;
+      fold_reason = fold.reason;
+    }
+  }
+  record.height("bust", height, confidence, reason);
+  record.girth("bust", tape_loop(trunk.outlines_with_breasts_at(height)), confidence, reason);
+  record.height("underbust", underbust, fold_confidence, fold_reason);
+  record.girth("underbust", tape_loop(trunk.outline_at(underbust - kUnderbustBelowFold)), fold_confidence,
+               fold_reason);
+  return underbust;
+}
+
+void waist(const BodyShape& body, const Trunk& trunk, double hip, double underbust, Record& record) {
+  const WaistLevel level = find_waist(body, trunk, hip + kWaistAboveHip, underbust - kWaistBelowUnderbust);
+  record.height("waist", level.height, level.confidence, level.reason);
+  record.girth("waist", tape_loop(trunk.outline_at(level.height)), level.confidence, level.reason);
+
+  const double navel = navel_height(body);
+  const std::vector<Outline> outline = trunk.outline_at(navel);
+  if (outline.empty()) return;
+  Vector3d front = outline.front().points.front();
+  for (const Vector3d& p : outline.front().points) {
+    const bool nearer =
+        std::abs(p.y() - outline.front().centroid.y()) < std::abs(front.y() - outline.front().centroid.y());
+    if (p.x() > outline.front().centroid.x() && (nearer || front.x() < outline.front().centroid.x()))
+      front = p;
+  }
+  record.landmark("navel", front, 0.4, "its level is by proportion");
+}
+
+void upper_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
+  for (Side side : {kLeft, kRight})
+    if (trunk.axilla(side).found)
+      record.landmark(std::string("axilla") + kSuffix[side], trunk.axilla(side).point);
+  const Neck neck = find_neck(body, trunk);
+  if (neck.found) {
+    record.landmark("neck_front", neck.front);
+    record.landmark("neck_back", find_neck_back(body, neck));
+    for (Side side : {kLeft, kRight})
+      record.landmark(std::string("neck_side") + kSuffix[side], find_neck_side(body, neck, side));
+    record.height("neck", neck.origin.z());
+    record.girth("neck", neck.tape);
+  }
+  const Shoulders shoulders = find_shoulders(body, trunk, neck);
+  if (shoulders.found)
+    for (Side side : {kLeft, kRight})
+      record.landmark(std::string("shoulder") + kSuffix[side], shoulders.points[side]);
+  if (body.levels.has_head) {
+    record.height("stature", body.stature);
+  } else {
+    record.height("stature", body.stature, 0.3, "no head; estimated from the length of the legs");
+  }
+}
+
+}  // namespace
+
+BodyMeasures find_landmarks(const TriangleMesh& mesh, const std::vector<char>& filled, const Options&) {
+  geometry::check_mesh(mesh);
+  if (mesh.triangles.empty())
+    throw geometry::Refusal(geometry::refusal::kNotABody, "not a standing body: the mesh has no triangles");
+  if (!filled.empty() && filled.size() != mesh.vertices.size())
+    throw geometry::Refusal(geometry::refusal::kBadMesh, "one flag a vertex is needed to tell filled holes");
+
+  const BodyFrame frame = find_body_frame(mesh);
+  const BodyShape body(in_frame(mesh, frame.body_from_scan));
+  const Trunk trunk(body);
+  Record record(body, filled, frame.body_from_scan);
+  const double hip = lower_trunk(body, trunk, record);
+  const double underbust = bust(body, trunk, record);
+  waist(body, trunk, hip, underbust, record);
+  upper_trunk(body, trunk, record);
+  return record.take();
+}
+
+}  // namespace tensegric_fit::landmarks

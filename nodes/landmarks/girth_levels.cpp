@@ -1,0 +1,52 @@
+#include "landmarks/girth_levels.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace tensegric_fit::landmarks {
+namespace {
+
+constexpr double kApart = 0.0025;
+constexpr int kFit = 8;  // levels each way, 20 mm, over which a parabola takes the noise out of the minimum
+
+}  // namespace
+
+double navel_height(const BodyShape& body) {
+  // Women's navel: 0.60 to 0.62 of stature, 0.14 of stature above the crotch; each errs with the proportion
+  // of the legs.
+  return (0.608 * body.stature + body.levels.crotch + 0.14 * body.stature) / 2;
+}
+
+WaistLevel find_waist(const BodyShape& body, const Trunk& trunk, double lowest, double highest) {
+  std::vector<double> heights, girths;
+  for (double z = lowest; z <= highest; z += kApart) {
+    const std::vector<Outline> outline = trunk.outline_at(z);
+    if (outline.empty()) continue;
+    heights.push_back(z);
+    girths.push_back(tape_length(outline));
+  }
+  const WaistLevel by_proportion{
+      navel_height(body), 0.4,
+      "the girth has no minimum between hips and bust; level of the navel by proportion"};
+  const int count = static_cast<int>(girths.size());
+  if (count < 2 * kFit) return by_proportion;
+  // Inner: the girth grows again on both sides, by more than the noise.
+  const int least = static_cast<int>(std::min_element(girths.begin(), girths.end()) - girths.begin());
+  const double noise = 0.0005;
+  if (girths.front() < girths[least] + noise || girths.back() < girths[least] + noise) return by_proportion;
+
+  const int first = std::max(0, least - kFit), last = std::min(count - 1, least + kFit);
+  Eigen::MatrixXd terms(last - first + 1, 3);
+  Eigen::VectorXd values(last - first + 1);
+  for (int i = first; i <= last; ++i) {
+    const double d = heights[i] - heights[least];
+    terms.row(i - first) << 1, d, d * d;
+    values[i - first] = girths[i];
+  }
+  const Eigen::Vector3d c = terms.colPivHouseholderQr().solve(values);
+  const double shift = c[2] > 0 ? -c[1] / (2 * c[2]) : 0;
+  return {heights[least] + std::clamp(shift, -kFit * kApart, kFit * kApart), 0.9, ""};
+}
+
+}  // namespace tensegric_fit::landmarks

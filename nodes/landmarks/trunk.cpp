@@ -1,0 +1,117 @@
+#include "landmarks/trunk.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "landmarks/arm_cut.hpp"
+
+namespace tensegric_fit::landmarks {
+namespace {
+
+constexpr double kAxillaShare = 0.75;  // of stature, where no arm tells
+
+// The outline at a height that is the trunk of the nearest level, or -1.
+int trunk_among(const std::vector<Outline>& outlines, const BodyLevels& levels, double height) {
+  const Level& level = levels.levels[levels.nearest(height)];
+  if (level.trunk < 0) return -1;
+  const Eigen::Vector2d& middle = level.outlines[level.trunk].centroid;
+  for (std::size_t i = 0; i < outlines.size(); ++i)
+    if (contains(outlines[i], middle)) return static_cast<int>(i);
+  return -1;
+}
+
+double reach(const Outline& outline, Side side) {
+  return side == kLeft ? outline.high.y() : -outline.low.y();
+}
+
+}  // namespace
+
+BodyShape::BodyShape(geometry::TriangleMesh body_in_its_frame)
+    : mesh(std::move(body_in_its_frame)),
+      normals(geometry::vertex_normals(mesh.vertices, mesh.triangles)),
+      sliced(mesh),
+      levels(find_levels(sliced)),
+      stature(levels.stature) {}
+
+Trunk::Trunk(const BodyShape& body) : body_(body) {
+  for (Side side : {kLeft, kRight}) axillae_[side] = find_axilla(side);
+}
+
+std::vector<Outline> Trunk::outline_at(double height) const {
+  const std::vector<Outline> outlines = body_.sliced.outlines_at(height);
+  const int trunk = trunk_among(outlines, body_.levels, height);
+  if (trunk < 0) return {};
+  return {without_arms(outlines[trunk], body_.stature)};
+}
+
+std::vector<Outline> Trunk::outlines_with_breasts_at(double height) const {
+  std::vector<Outline> result = outline_at(height);
+  if (result.empty()) return result;
+  const Outline trunk = result.front();
+  for (const Outline& other : body_.sliced.outlines_at(height)) {
+    const bool in_front = other.low.x() > trunk.centroid.x() && other.high.x() > trunk.high.x();
+    const bool beside = other.centroid.y() > trunk.high.y() || other.centroid.y() < trunk.low.y();
+    if (in_front && !beside) result.push_back(other);
+  }
+  return result;
+}
+
+double Trunk::axilla_height() const {
+  if (axillae_[0].found && axillae_[1].found) return (axillae_[0].point.z() + axillae_[1].point.z()) / 2;
+  for (const Axilla& axilla : axillae_)
+    if (axilla.found) return axilla.point.z();
+  return kAxillaShare * body_.stature;
+}
+
+Axilla Trunk::find_axilla(Side side) const {
+  // Going up, the trunk's section suddenly takes in the arm; the last such place is the axilla (a hand or an
+  // elbow that touches the body comes before).
+  const std::vector<Level>& levels = body_.levels.levels;
+  const double jump = 0.02 * body_.stature;  // half the breadth of a slim arm
+  int below = -1;
+  for (int i = body_.levels.nearest(body_.levels.crotch + 0.08 * body_.stature);
+       i + 2 < static_cast<int>(levels.size()); ++i) {
+    if (levels[i].height > 0.9 * body_.stature) break;
+    if (levels[i].trunk < 0 || levels[i + 1].trunk < 0) continue;
+    const Outline &here = levels[i].outlines[levels[i].trunk],
+                  &above = levels[i + 1].outlines[levels[i + 1].trunk];
+    if (reach(above, side) - reach(here, side) > jump) below = i;
+  }
+  Axilla axilla;
+  if (below < 0) return axilla;
+
+  double low = levels[below].height, high = levels[below + 1].height;
+  Outline trunk = levels[below].outlines[levels[below].trunk];
+  const double narrow = reach(trunk, side);
+  for (int halving = 0; halving < 5; ++halving) {
+    const double z = (low + high) / 2;
+    std::vector<Outline> outlines = body_.sliced.outlines_at(z);
+    const int at = trunk_among(outlines, body_.levels, z);
+    if (at >= 0 && reach(outlines[at], side) - narrow < jump / 2) {
+      low = z;
+      trunk = std::move(outlines[at]);
+    } else {
+      high = z;
+    }
+  }
+  axilla.found = true;
+
+  // An arm that hangs meets the trunk across a gap; a raised one grows out of the trunk's side.
+  const Outline* arm = nullptr;
+  const std::vector<Outline> outlines = body_.sliced.outlines_at(low);
+  for (const Outline& outline : outlines) {
+    const double inner = side == kLeft ? outline.low.y() : -outline.high.y();
+    if (inner > narrow - jump && (arm == nullptr || inner < (side == kLeft ? arm->low.y() : -arm->high.y())))
+      arm = &outline;
+  }
+  if (arm != nullptr) {
+    axilla.point = meeting_point(trunk, *arm);
+  } else {
+    axilla.point = trunk.points.front();
+    for (const Eigen::Vector3d& p : trunk.points)
+      if (kSign[side] * p.y() > kSign[side] * axilla.point.y()) axilla.point = p;
+  }
+  return axilla;
+}
+
+}  // namespace tensegric_fit::landmarks

@@ -1,0 +1,38 @@
+/// The trunk without its arms.
+#pragma once
+
+#include "landmarks/body_shape.hpp"
+
+namespace tensegric_fit::landmarks {
+
+/// Where an arm leaves the trunk.
+struct Axilla {
+  bool found = false;
+  Eigen::Vector3d point;
+};
+
+class Trunk {
+ public:
+  explicit Trunk(const BodyShape& body);
+
+  /// The trunk's own loop at a height, arms cut off where they are fused with it; empty where there is no
+  /// trunk.
+  std::vector<Outline> outline_at(double height) const;
+
+  /// That loop and what else belongs to the trunk: breasts that hang free at this height.
+  std::vector<Outline> outlines_with_breasts_at(double height) const;
+
+  const Axilla& axilla(Side side) const { return axillae_[side]; }
+
+  /// Height at which the chest ends: mean of the axillae found, or a share of stature where there are no
+  /// arms.
+  double axilla_height() const;
+
+ private:
+  Axilla find_axilla(Side side) const;
+
+  const BodyShape& body_;
+  Axilla axillae_[2];
+};
+
+}  // namespace tensegric_fit::landmarks
