@@ -42,18 +42,18 @@ void find_near(const Eigen::Vector3d& q, const std::vector<Frame>& frames, doubl
   for (std::size_t t = 0; t < frames.size(); ++t) near[t] = nearness(q, frames[t], beta);
 }
 
-// A (1-z)^4 (4z+1), and past half the reach of every triangle more and more of the global A/z^4, so that no
-// vertex is left without weights and nothing jumps where the last local weight ends.
+// A (1-z)^4 (4z+1), and past half the reach of every triangle more and more of a global kernel in A/z^4, so
+// that no vertex is left without weights and nothing jumps where the last local weight ends.
 void kernels(const std::vector<Frame>& frames, const std::vector<Nearness>& near, std::vector<double>& k) {
-  double nearest = 1;
+  double nearest = near.front().z;
   for (const Nearness& triangle : near) nearest = std::min(nearest, triangle.z);
-  const double on = std::max(0.0, (nearest - kGlobalFrom) / (1 - kGlobalFrom));
+  const double on = std::clamp((nearest - kGlobalFrom) / (1 - kGlobalFrom), 0.0, 1.0);
   const double global = kGlobal * on * on * (3 - 2 * on);
   double sum = 0;
   for (std::size_t t = 0; t < near.size(); ++t) {
     const double z = near[t].z;
     k[t] = z < 1 ? square(square(1 - z)) * (4 * z + 1) : 0;
-    if (global > 0) k[t] += global / square(square(z));
+    if (global > 0) k[t] += global * square(square(nearest / z));
     k[t] *= frames[t].area;
     sum += k[t];
   }

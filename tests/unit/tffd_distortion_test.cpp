@@ -1,0 +1,85 @@
+#include "tffd/distortion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "geometry/status.hpp"
+#include "tffd_shapes.hpp"
+
+namespace tensegric_fit::tffd {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+Points mapped(const Points& points, const Eigen::Matrix3d& map) {
+  Points image;
+  for (const Eigen::Vector3d& p : points) image.push_back(map * p);
+  return image;
+}
+
+TEST(Distortion, IsExactlyOneAtRest) {
+  const geometry::ControlMesh control = patch();
+  const Binding binding(slab(41), control, {});
+  const std::vector<double> at_nodes = control_distortion(control, control.outer);
+  for (const double value : at_nodes) EXPECT_EQ(value, 1);
+  for (const double value : body_distortion(binding, at_nodes)) EXPECT_EQ(value, 1);
+}
+
+TEST(Distortion, OfAScaledPatchIsTheSquare) {
+  const geometry::ControlMesh control = patch();
+  for (const double scale : {0.5, 0.9, 1.3})
+    for (const double value :
+         control_distortion(control, mapped(control.outer, scale * Eigen::Matrix3d::Identity())))
+      EXPECT_NEAR(value, scale * scale, 1e-13);
+}
+
+TEST(Distortion, OnTheSkinStaysBetweenThatOfTheNodesAndOne) {
+  const geometry::TriangleMesh body = slab(61);
+  const geometry::ControlMesh control = patch();
+  const std::vector<double> at_nodes = control_distortion(control, squeezed(control, 0.02).outer);
+  const auto [least, most] = std::minmax_element(at_nodes.begin(), at_nodes.end());
+  ASSERT_LT(*least, 0.95);
+  ASSERT_GT(*most, 1.05);
+  for (const Setting setting : {Setting::standard, Setting::paper}) {
+    Options options;
+    options.setting = setting;
+    const Binding binding(body, control, options);
+    const std::vector<double> on_skin = body_distortion(binding, at_nodes);
+    for (int v = 0; v < static_cast<int>(on_skin.size()); ++v) {
+      EXPECT_GE(on_skin[v], *least - 1e-12);
+      EXPECT_LE(on_skin[v], *most + 1e-12);
+      if (!binding.reaches(v)) EXPECT_EQ(on_skin[v], 1);
+    }
+  }
+}
+
+TEST(Distortion, PrincipalStretchesAreThoseOfTheMap) {
+  geometry::ControlMesh control = patch();
+  for (Eigen::Vector3d& p : control.outer) p.z() = 0;
+  // A flat sheet drawn out to 1.2 along a slanted axis, narrowed to 0.8 across it, then turned in space.
+  const Eigen::AngleAxisd slant(0.4, Eigen::Vector3d::UnitZ()),
+      turn(1.1, Eigen::Vector3d(1, 2, -1).normalized());
+  const Eigen::Matrix3d map =
+      turn.matrix() * slant.matrix() * Eigen::Vector3d(1.2, 0.8, 1).asDiagonal() * slant.matrix().transpose();
+  for (const Stretch& stretch : principal_stretches(control, mapped(control.outer, map))) {
+    EXPECT_NEAR(stretch.most, 1.2, 1e-12);
+    EXPECT_NEAR(stretch.least, 0.8, 1e-12);
+  }
+  for (const Stretch& stretch :
+       principal_stretches(control, Points(control.outer.size(), Eigen::Vector3d::Zero()))) {
+    EXPECT_EQ(stretch.most, 0);  // collapsed to a point, and still a number
+    EXPECT_EQ(stretch.least, 0);
+  }
+}
+
+TEST(Distortion, RefusesOtherCounts) {
+  const geometry::ControlMesh control = patch();
+  EXPECT_THROW(control_distortion(control, {}), geometry::Refusal);
+  EXPECT_THROW(principal_stretches(control, {}), geometry::Refusal);
+  EXPECT_THROW(body_distortion(Binding(slab(21), control, {}), {1.0}), geometry::Refusal);
+}
+
+}  // namespace
+}  // namespace tensegric_fit::tffd
