@@ -11,7 +11,7 @@ namespace tensegric_fit::tensegric {
 namespace {
 
 constexpr int kMostSteps = 60;
-constexpr double kTolerance = 1e-13;  // largest net force at a free node / largest force of a part
+constexpr double kTolerance = 1e-13;  // largest net force at a free node / largest ideal force of a part
 
 // Nearest point w to the ideal (+-1, in multiples of each part's ideal density) with C w = 0 and w within its
 // bounds, by Newton steps on the dual: w = clamp(ideal + C^T y), and the dual's gradient is C w.
@@ -28,6 +28,7 @@ class NearestBalance {
       const bool lateral = m.b - m.a == static_cast<int>(model.control.outer.size());
       density_.push_back(m.strut || lateral ? units[i] : units[i] / std::sqrt(3.0));
       column_.push_back(density_.back() / mean * (rest[m.a] - rest[m.b]));
+      largest_ = std::max(largest_, column_.back().norm());
     }
   }
 
@@ -120,8 +121,8 @@ class NearestBalance {
     matrix_.add_to_diagonal(1e-9);  // a motion that no part resists needs no force either
   }
 
-  static bool balanced(const Eigen::VectorXd& force) {
-    return force.size() == 0 || force.cwiseAbs().maxCoeff() <= kTolerance;
+  bool balanced(const Eigen::VectorXd& force) const {
+    return force.size() == 0 || force.cwiseAbs().maxCoeff() <= kTolerance * largest_;
   }
 
   const Model& model_;
@@ -129,6 +130,7 @@ class NearestBalance {
   NodeMatrix matrix_;
   std::vector<double> ideal_, density_;
   std::vector<Eigen::Vector3d> column_;
+  double largest_ = 0;  // force of a part at its ideal density
 };
 
 }  // namespace
