@@ -5,6 +5,7 @@
 
 #include "control_mesh/grid.hpp"
 #include "control_mesh/inner_nodes.hpp"
+#include "control_mesh/match_skin.hpp"
 #include "control_mesh/placing.hpp"
 #include "control_mesh/relax.hpp"
 #include "control_mesh/skin.hpp"
@@ -36,18 +37,30 @@ std::vector<double> thickness_of(const Template& pattern) {
   return thickness;
 }
 
-/// Nodes that the template does not place, but for the rim.
-std::vector<char> movable(const Template& pattern) {
-  std::vector<char> may_move(static_cast<std::size_t>(pattern.rows) * pattern.columns, 1);
-  for (const Side side : {Side::left, Side::right}) {
+/// The nodes off the rim.
+std::vector<char> inside_rim(const geometry::ControlMesh& control) {
+  std::vector<char> inside(control.outer.size(), 1);
+  for (const geometry::Edge& edge : geometry::edges_of({control.outer, control.triangles}))
+    if (edge.right < 0) inside[edge.first] = inside[edge.second] = 0;
+  return inside;
+}
+
+/// Nodes that the template leaves to be spread between others.
+std::vector<char> spreadable(const Template& pattern, const geometry::ControlMesh& control) {
+  std::vector<char> may_move = inside_rim(control);
+  for (const Side side : {Side::left, Side::right})
     for (const TemplateNode& node : pattern.nodes)
-      if (node.placing != TemplateNode::Placing::between_others)
+      may_move[node_at(pattern, node.row, node.column, side)] = 0;
+  return may_move;
+}
+
+/// Nodes that need not lie exactly on the skin.
+std::vector<char> liftable(const Template& pattern, const geometry::ControlMesh& control) {
+  std::vector<char> may_move = inside_rim(control);
+  for (const Side side : {Side::left, Side::right})
+    for (const TemplateNode& node : pattern.nodes)
+      if (node.placing == TemplateNode::Placing::at_landmark)
         may_move[node_at(pattern, node.row, node.column, side)] = 0;
-    for (int row = 0; row < pattern.rows; ++row)
-      for (int column = 0; column <= pattern.middle(); ++column)
-        if (row == 0 || row == pattern.rows - 1 || column == 0)
-          may_move[node_at(pattern, row, column, side)] = 0;
-  }
   return may_move;
 }
 
@@ -97,20 +110,21 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
   geometry::check_mesh(body);
   if (body.triangles.empty()) throw Refusal(refusal::kNotABody, "the body mesh has no triangles");
 
-  // 1. Outer nodes on the skin.
+  // 1. Outer nodes on the skin, evenly spread between those that the template places.
   const Skin skin(in_body_frame(body, measures.body_from_scan));
   geometry::ControlMesh control = grid_of(pattern);
   control.outer = place_nodes(pattern, measures, skin);
   face_outward(control, trunk_axis(pattern, measures));
-  relax_on_skin(control, movable(pattern), grid_neighbours(pattern), skin);
+  relax_on_skin(control, spreadable(pattern, control), grid_neighbours(pattern), skin);
 
-  // 2. Inner nodes below them.
+  // 2. Inner nodes below them, and constraining lines over them.
   place_inner_nodes(control, thickness_of(pattern), skin);
-
-  // 3. Constraining lines, then finer triangles where they are asked for.
   add_lines(pattern, control);
+
+  // 3. Finer triangles where they are asked for; what is left between triangles and skin is evened out.
   while (control.triangles.size() < static_cast<std::size_t>(options.control_triangles))
     control = subdivide(control, skin);
+  match_skin(control, liftable(pattern, control), skin);
 
   // 4. Back to the scan's frame.
   const Eigen::Isometry3d scan_from_body = measures.body_from_scan.inverse();

@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 constexpr double kCell = 0.02;    // m; a few body triangles (about 7 mm) a cell
 constexpr double kOnEdge = 1e-9;  // barycentric: a ray in the plane of symmetry runs exactly along edges
 constexpr double kOnLoop = 1e-6;  // m; a point of the skin lies on a section through it
+constexpr double kAside = 0.06;   // m; how far the way between two nodes swings out of their box
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 struct Hit {
@@ -141,6 +142,12 @@ std::vector<int> Skin::triangles_near(const Vector3d& low, const Vector3d& high)
   return found;
 }
 
+geometry::TriangleMesh Skin::part_near(const Vector3d& low, const Vector3d& high) const {
+  std::vector<char> keep(surface_.triangles.size(), 0);
+  for (int t : triangles_near(low, high)) keep[t] = 1;
+  return geometry::submesh(surface_, keep);
+}
+
 std::optional<Vector3d> Skin::first_exit(const Vector3d& from, const Vector3d& direction,
                                          double reach) const {
   const Vector3d to = from + reach * direction;
@@ -193,7 +200,9 @@ std::vector<Vector3d> Skin::between(const Vector3d& a, const Vector3d& b, int co
   const Vector3d normal = (b - a).cross(outward);
   std::vector<Vector3d> way;
   if (normal.norm() > 0) {
-    for (const geometry::SectionLoop& loop : geometry::plane_section(surface_, a, normal.normalized())) {
+    const geometry::TriangleMesh part =
+        part_near(a.cwiseMin(b).array() - kAside, a.cwiseMax(b).array() + kAside);
+    for (const geometry::SectionLoop& loop : geometry::plane_section(part, a, normal.normalized())) {
       const PlaceOnLoop at_a = place_on(loop, a), at_b = place_on(loop, b);
       if (at_a.distance > kOnLoop || at_b.distance > kOnLoop) continue;
       std::vector<Vector3d> there = forward(loop, at_a, at_b), back = forward(loop, at_b, at_a);

@@ -35,6 +35,7 @@ class Skin {
  private:
   /// Triangles whose cells touch the box, ascending.
   std::vector<int> triangles_near(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
+  geometry::TriangleMesh part_near(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
   Eigen::Vector3i cell_of(const Eigen::Vector3d& point) const;
 
   geometry::TriangleMesh surface_;
