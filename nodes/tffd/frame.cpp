@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "geometry/status.hpp"
@@ -15,6 +17,29 @@ namespace {
 constexpr double kFlat = 1e-4;
 
 }  // namespace
+
+Eigen::Vector3d Frame::closest(const Eigen::Vector3d& q) const {
+  const Eigen::Vector2d uv = in_plane_from_offset * (q - corners[0]);
+  const Eigen::Vector3d inside(1 - uv[0] - uv[1], uv[0], uv[1]);
+  if (inside.minCoeff() >= 0) return inside;
+
+  // Not over the triangle: the closest point lies on one of the sides that q is beyond.
+  Eigen::Vector3d best = Eigen::Vector3d::Zero();
+  double best_distance = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    if (inside[k] >= 0) continue;
+    const int a = (k + 1) % 3, b = (k + 2) % 3;
+    const Eigen::Vector3d along = corners[b] - corners[a];
+    const double t = std::clamp(along.dot(q - corners[a]) / along.squaredNorm(), 0.0, 1.0);
+    const double distance = (q - corners[a] - t * along).squaredNorm();
+    if (distance >= best_distance) continue;
+    best_distance = distance;
+    best.setZero();
+    best[a] = 1 - t;
+    best[b] = t;
+  }
+  return best;
+}
 
 std::vector<Frame> frames_of(const geometry::ControlMesh& control, Axis axis) {
   std::vector<Frame> frames;
@@ -41,6 +66,8 @@ std::vector<Frame> frames_of(const geometry::ControlMesh& control, Axis axis) {
                                                                  std::to_string(frames.size()) +
                                                                  " lie in the plane of its outer nodes");
     }
+    const Eigen::Matrix3d plane = (Eigen::Matrix3d() << u, v, frame.normal).finished().inverse();
+    frame.in_plane_from_offset = plane.topRows<2>();
     frame.local_from_offset = (Eigen::Matrix3d() << u, v, w).finished().inverse();
     frames.push_back(frame);
   }

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "geometry/status.hpp"
-#include "tffd/closest_point.hpp"
 
 namespace tensegric_fit::tffd {
 namespace {
@@ -64,9 +63,8 @@ Closest closest_triangle(const Eigen::Vector3d& q, const Eigen::Vector3d* facing
     if (facing && !(facing->dot(frame.normal) > 0)) continue;
     const double least = frame.least_distance(q);
     if (least > best || least > reach * frame.radius) continue;
-    const Eigen::Vector3d barycentric = closest_barycentric(q, frame.corners);
-    const Eigen::Vector3d offset = q - barycentric[0] * frame.corners[0] - barycentric[1] * frame.corners[1] -
-                                   barycentric[2] * frame.corners[2];
+    const Eigen::Vector3d barycentric = frame.closest(q);
+    const Eigen::Vector3d offset = q - frame.at(barycentric);
     const double distance = offset.norm();
     if (distance >= best || distance > reach * frame.radius) continue;
     best = distance;
@@ -131,36 +129,46 @@ std::vector<Anchor> joined_to_nodes(const std::vector<Anchor>& anchors, const ge
   return kept;
 }
 
+// All vertices that the control mesh carries, whichever skin they belong to. `normals` is empty for a closed
+// control mesh.
+std::vector<Anchor> carried(const std::vector<Eigen::Vector3d>& vertices,
+                            const std::vector<Eigen::Vector3d>& normals, const geometry::ControlMesh& control,
+                            const Border& border, const std::vector<Frame>& frames, double reach) {
+  double widest = 0;
+  for (const Frame& frame : frames) widest = std::max(widest, reach * frame.radius);
+  auto [low, high] = geometry::bounding_box(control.outer);
+  low.array() -= widest;
+  high.array() += widest;
+  std::vector<Anchor> anchors;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const Eigen::Vector3d& q = vertices[v];
+    if ((q.array() < low.array()).any() || (q.array() > high.array()).any()) continue;
+    const Closest closest = closest_triangle(q, normals.empty() ? nullptr : &normals[v], frames, reach);
+    if (closest.triangle < 0) continue;
+    const double share = share_at(closest, control, border, frames[closest.triangle], reach);
+    if (share > 0) anchors.push_back({static_cast<int>(v), share});
+  }
+  return anchors;
+}
+
 }  // namespace
 
 std::vector<Anchor> reach_of(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
                              const std::vector<Frame>& frames, double reach) {
   const Border border = border_of(control);
-  if (border.open && body.triangles.empty())
-    throw geometry::Refusal(geometry::refusal::kBadMesh,
-                            "a control mesh with a border needs the body's triangles, and it has none");
-  std::vector<Eigen::Vector3d> normals;
-  double widest = 0;
   if (border.open) {
-    normals = geometry::vertex_normals(body.vertices, body.triangles);
-    for (const Frame& frame : frames) widest = std::max(widest, reach * frame.radius);
+    if (body.triangles.empty())
+      throw geometry::Refusal(geometry::refusal::kBadMesh,
+                              "a control mesh with a border needs the body's triangles, and it has none");
+    const auto normals = geometry::vertex_normals(body.vertices, body.triangles);
+    return joined_to_nodes(carried(body.vertices, normals, control, border, frames, reach), body, control,
+                           border);
   }
-  auto [low, high] = geometry::bounding_box(control.outer);
-  low.array() -= widest;
-  high.array() += widest;
-
-  std::vector<Anchor> anchors;
-  for (std::size_t v = 0; v < body.vertices.size(); ++v) {
-    const Eigen::Vector3d& q = body.vertices[v];
-    if (border.open && ((q.array() < low.array()).any() || (q.array() > high.array()).any())) continue;
-    const Closest closest =
-        border.open ? closest_triangle(q, &normals[v], frames, reach)
-                    : closest_triangle(q, nullptr, frames, std::numeric_limits<double>::infinity());
-    if (closest.triangle < 0) continue;
-    const double share = share_at(closest, control, border, frames[closest.triangle], reach);
-    if (share > 0) anchors.push_back({static_cast<int>(v), share});
-  }
-  return border.open ? joined_to_nodes(anchors, body, control, border) : anchors;
+  if (std::count(border.depth.begin(), border.depth.end(), 0) > 0)
+    return carried(body.vertices, {}, control, border, frames, std::numeric_limits<double>::infinity());
+  std::vector<Anchor> all;
+  for (std::size_t v = 0; v < body.vertices.size(); ++v) all.push_back({static_cast<int>(v), 1});
+  return all;
 }
 
 }  // namespace tensegric_fit::tffd

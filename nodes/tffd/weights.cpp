@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tffd/closest_point.hpp"
-
 namespace tensegric_fit::tffd {
 namespace {
 
@@ -24,9 +22,8 @@ struct Nearness {
 };
 
 Nearness nearness(const Eigen::Vector3d& q, const Frame& frame, double beta) {
-  const Eigen::Vector3d b = closest_barycentric(q, frame.corners);
-  const Eigen::Vector3d closest = b[0] * frame.corners[0] + b[1] * frame.corners[1] + b[2] * frame.corners[2];
-  return {(q - closest).norm() / (beta * frame.radius), b};
+  const Eigen::Vector3d barycentric = frame.closest(q);
+  return {(q - frame.at(barycentric)).norm() / (beta * frame.radius), barycentric};
 }
 
 // Of triangles that have no weight at q, only that they are out of reach: z = 1.
@@ -150,7 +147,7 @@ SparseRows paper_values(const std::vector<Eigen::Vector3d>& vertices, const geom
     weights.startVec(static_cast<Eigen::Index>(v));
     for (int i = bound.starts[v]; i < bound.starts[v + 1]; ++i) {
       const NormalTerm& term = bound.terms[i];
-      const Eigen::Vector3d b = closest_barycentric(vertices[v], frames[term.triangle].corners);
+      const Eigen::Vector3d b = frames[term.triangle].closest(vertices[v]);
       for (int j = 0; j < 3; ++j) row.add(control.triangles[term.triangle][j], term.weight * b[j]);
     }
     row.append_to(weights, static_cast<Eigen::Index>(v), 1);
