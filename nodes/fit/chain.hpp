@@ -63,13 +63,15 @@ Body take_mesh(geometry::TriangleMesh mesh);
 Body measure_mesh(geometry::TriangleMesh mesh, const Settings& settings, StageTimes& times);
 
 /// 3: landmarks -> control mesh -> model, and the binding of the body's vertices.
-Fitting prepare(const Body& body, const control_mesh::Template& pattern, const Settings& settings, StageTimes& times);
+Fitting prepare(const Body& body, const control_mesh::Template& pattern, const Settings& settings,
+                StageTimes& times);
 
 /// The same for a control mesh that is given (P1 §3.2).
 Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings& settings, StageTimes& times);
 
-/// 4 and 5: tensegric deformation -> t-FFD of the body -> distortion. `start`: an earlier fit on the same fitting, or null.
-Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& garment, const Settings& settings,
-         StageTimes& times, const tensegric::Solution* start = nullptr);
+/// 4 and 5: tensegric deformation -> t-FFD of the body -> distortion. `start`: an earlier fit on the same
+/// fitting, or null.
+Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& garment,
+         const Settings& settings, StageTimes& times, const tensegric::Solution* start = nullptr);
 
 }  // namespace tensegric_fit::fit

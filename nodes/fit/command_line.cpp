@@ -23,8 +23,9 @@ double number_from(const std::string& text, const std::string& option) {
 
 RatioRequest ratio_from(const std::string& text) {
   const std::size_t equals = text.find('=');
-  const RatioRequest request{equals == std::string::npos ? "" : text.substr(0, equals),
-                             number_from(equals == std::string::npos ? text : text.substr(equals + 1), "--ratio")};
+  const RatioRequest request{
+      equals == std::string::npos ? "" : text.substr(0, equals),
+      number_from(equals == std::string::npos ? text : text.substr(equals + 1), "--ratio")};
   if (equals == 0) throw CLI::ValidationError("--ratio", "'" + text + "' names no line");
   if (!(request.ratio > 0 && request.ratio <= 2))
     throw CLI::ValidationError("--ratio", "'" + text + "' is outside (0, 2]");
@@ -57,25 +58,37 @@ Eigen::Vector3d vector_from(const std::string& text, const std::string& option) 
 }  // namespace
 
 std::optional<int> parse(int argc, char** argv, CommandLine& line) {
-  CLI::App app("From a booth scan to the body that a garment would make of it. Exit: 0 done, 2 usage, 3 input refused.");
+  CLI::App app(
+      "From a booth scan to the body that a garment would make of it. Exit: 0 done, 2 usage, 3 input "
+      "refused.");
   std::vector<std::string> ratios;
   std::string band, gravity, solver = to_string(line.settings.solver.solver);
 
   auto* scan = app.add_option("--scan", line.scan, "Scan: FILE.ply, .pcd or .bag, metres");
   auto* mesh = app.add_option("--mesh", line.mesh, "Body mesh BODY.ply, taken as it is instead of a scan");
-  auto* garment = app.add_option("--garment", line.garment, "Shipped garment (B1 ...) or FILE.yaml; none: measure only");
-  app.add_option("--ratio", ratios, "Neutral length / length at rest: R for every line, or LINE=R; may be repeated")
+  auto* garment =
+      app.add_option("--garment", line.garment, "Shipped garment (B1 ...) or FILE.yaml; none: measure only");
+  app.add_option("--ratio", ratios,
+                 "Neutral length / length at rest: R for every line, or LINE=R; may be repeated")
       ->needs(garment);
   app.add_option("--band", band, "rigid, or the stiffness of every line")->needs(garment);
-  app.add_option("--solver", solver, "Solver", true)->check(CLI::IsMember({"equilibrium", "adaptive", "relaxation"}));
-  app.add_option("--control-triangles", line.settings.control_mesh.control_triangles, "Control triangles, at least", true)
+  app.add_option("--solver", solver, "Solver")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"equilibrium", "adaptive", "relaxation"}));
+  app.add_option("--control-triangles", line.settings.control_mesh.control_triangles,
+                 "Control triangles, at least")
+      ->capture_default_str()
       ->check(CLI::Range(1, 100000));
-  app.add_option("--body-triangles", line.settings.reconstruction.body_triangles, "Triangles of the body mesh", true)
+  app.add_option("--body-triangles", line.settings.reconstruction.body_triangles,
+                 "Triangles of the body mesh")
+      ->capture_default_str()
       ->check(CLI::Range(2000, 1000000))
       ->excludes(mesh);
-  app.add_option("--out", line.out, "Folder for the results", true);
-  auto* control = app.add_option("--control", line.control, "Control mesh CONTROL.ply for any shape")->needs(mesh);
-  auto* fixed = app.add_option("--fixed", line.fixed, "Fixed nodes of the shape's control mesh, NODES.yaml")->needs(mesh);
+  app.add_option("--out", line.out, "Folder for the results")->capture_default_str();
+  auto* control =
+      app.add_option("--control", line.control, "Control mesh CONTROL.ply for any shape")->needs(mesh);
+  auto* fixed = app.add_option("--fixed", line.fixed, "Fixed nodes of the shape's control mesh, NODES.yaml")
+                    ->needs(mesh);
   app.add_option("--gravity", gravity, "Pseudo force x,y,z on every outer node");
   app.add_flag("--quiet", line.quiet, "No progress");
   scan->excludes(mesh);

@@ -34,16 +34,18 @@ std::string garment_file(const std::string& word) {
   if (given.extension() == ".yaml" || given.has_parent_path()) return word;
   const fs::path file = shipped("garments") / (word + ".yaml");
   if (!fs::exists(file))
-    throw geometry::Refusal(geometry::refusal::kBadGarment,
-                            "no garment is called '" + word + "'; there are " + names_in(shipped("garments")));
+    throw geometry::Refusal(
+        geometry::refusal::kBadGarment,
+        "no garment is called '" + word + "'; there are " + names_in(shipped("garments")));
   return file.string();
 }
 
 std::string template_file(const std::string& region) {
   const fs::path file = shipped("templates") / (region + ".yaml");
   if (!fs::exists(file))
-    throw geometry::Refusal(geometry::refusal::kBadGarment, "no control mesh template covers the region '" + region +
-                                                                "'; there are " + names_in(shipped("templates")));
+    throw geometry::Refusal(geometry::refusal::kBadGarment, "no control mesh template covers the region '" +
+                                                                region + "'; there are " +
+                                                                names_in(shipped("templates")));
   return file.string();
 }
 

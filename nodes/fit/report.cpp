@@ -12,7 +12,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
+Json json_of(const Eigen::Vector3d& v) {
+  return Json::array({v.x(), v.y(), v.z()});
+}
 
 Json json_of(const Eigen::Isometry3d& pose) {
   Json rows = Json::array();
@@ -52,16 +54,20 @@ void add_measures(const geometry::BodyMeasures& measures, Json& report) {
   add("girths", measures.girths);
 }
 
-void add_fit(const Fitting& fitting, const Fit& fit, const Settings& settings, const StageTimes& times, Json& report) {
+void add_fit(const Fitting& fitting, const Fit& fit, const Settings& settings, const StageTimes& times,
+             Json& report) {
   const tensegric::Solution& solution = fit.solution;
   report["control"] = {{"nodes", fitting.control.outer.size()},
                        {"triangles", fitting.control.triangles.size()},
                        {"struts", fitting.model.struts()},
                        {"tensile_parts", fitting.model.tensile_parts()},
                        {"free_nodes", fitting.model.free_nodes()}};
-  report["solver"] = {{"name", to_string(settings.solver.solver)}, {"status", to_string(solution.status)},
-                      {"iterations", solution.iterations},         {"residual", solution.residual},
-                      {"ms", times.tensegric},                     {"note", solution.note}};
+  report["solver"] = {{"name", to_string(settings.solver.solver)},
+                      {"status", to_string(solution.status)},
+                      {"iterations", solution.iterations},
+                      {"residual", solution.residual},
+                      {"ms", times.tensegric},
+                      {"note", solution.note}};
   report["lines"] = Json::array();
   for (const auto& line : solution.lines) {
     report["lines"].push_back({{"name", line.name},
@@ -88,8 +94,8 @@ void add_fit(const Fitting& fitting, const Fit& fit, const Settings& settings, c
 
 }  // namespace
 
-Json report_of(const Source& source, const Body& body, const Fitting* fitting, const Fit* fit, const Settings& settings,
-               const StageTimes& times) {
+Json report_of(const Source& source, const Body& body, const Fitting* fitting, const Fit* fit,
+               const Settings& settings, const StageTimes& times) {
   Json report;
   report["scan"] = {{"file", source.file},
                     {"points", source.points},
@@ -125,7 +131,8 @@ std::string history_csv(const Body& body, const Fitting& fitting, const tensegri
     text += std::to_string(row.iteration);
     for (double ratio : row.line_ratios) text += fmt::format(",{:.12g}", ratio);
     for (double error : row.volume_errors) text += fmt::format(",{:.6g}", error);
-    for (const auto& point : row.tracked) text += fmt::format(",{:.9g}", (body.measures.body_from_scan * point).z());
+    for (const auto& point : row.tracked)
+      text += fmt::format(",{:.9g}", (body.measures.body_from_scan * point).z());
     text += fmt::format(",{:.6g}\n", row.residual);
   }
   return text;

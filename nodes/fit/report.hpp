@@ -20,8 +20,8 @@ struct Source {
 inline constexpr double kOverConstricted = 0.8;
 
 /// The report of a run that went through; `fitting` and `fit` are null where only measured.
-nlohmann::ordered_json report_of(const Source& source, const Body& body, const Fitting* fitting, const Fit* fit,
-                                 const Settings& settings, const StageTimes& times);
+nlohmann::ordered_json report_of(const Source& source, const Body& body, const Fitting* fitting,
+                                 const Fit* fit, const Settings& settings, const StageTimes& times);
 
 /// The report of a refused run.
 nlohmann::ordered_json report_of(const Source& source, const geometry::Refusal& refusal);

@@ -19,8 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kResults[] = {"report.json", "body.ply",  "control.ply", "control_deformed.ply", "deformed.ply",
-                                    "history.csv", "front.png", "side.png",    "distortion.png"};
+constexpr const char* kResults[] = {"report.json",   "body.ply",    "control.ply", "control_deformed.ply",
+                                    "deformed.ply",  "history.csv", "front.png",   "side.png",
+                                    "distortion.png"};
 
 class Run {
  public:
@@ -68,7 +69,8 @@ class Run {
       say("reading the mesh");
       geometry::TriangleMesh mesh = geometry::read_ply_mesh(line_.mesh);
       source_.points = mesh.vertices.size();
-      body_ = line_.is_shape() ? take_mesh(std::move(mesh)) : measure_mesh(std::move(mesh), settings_, times_);
+      body_ =
+          line_.is_shape() ? take_mesh(std::move(mesh)) : measure_mesh(std::move(mesh), settings_, times_);
       return;
     }
     source_.file = line_.scan;
@@ -92,9 +94,26 @@ class Run {
       return prepare(body_, control_mesh::control_from_shape(control, fixing), settings_, times_);
     }
     if (garment.regions.size() != 1)
-      throw geometry::Refusal(geometry::refusal::kBadGarment, "garment " + garment.name + " must name one region");
+      throw geometry::Refusal(geometry::refusal::kBadGarment,
+                              "garment " + garment.name + " must name one region");
     const auto pattern = control_mesh::load_template(template_file(garment.regions.front()));
     return prepare(body_, pattern, settings_, times_);
+  }
+
+  void save_pictures(const Fitting& fitting, const Fit& fit) const {
+    inspect::FitScene scene{
+        body_.mesh.mesh, fit.deformed, fit.distortion, body_.measures, fitting.control.outer, {}, {}};
+    for (const auto& line : fit.solution.lines) {
+      auto& before = scene.lines_before.emplace_back();
+      auto& after = scene.lines_after.emplace_back();
+      for (int node : line.nodes) {
+        before.push_back(fitting.control.outer[node]);
+        after.push_back(fit.solution.outer[node]);
+      }
+    }
+    save_picture("front.png", inspect::front_picture(scene));
+    save_picture("side.png", inspect::side_picture(scene));
+    save_picture("distortion.png", inspect::distortion_picture(scene));
   }
 
   void write_fit(const Fitting& fitting, const Fit& fit) {
@@ -103,11 +122,13 @@ class Run {
     write_mesh("control_deformed.ply", {fit.solution.outer, fitting.control.triangles});
     write_mesh("deformed.ply", {fit.deformed, body_.mesh.mesh.triangles});
     write_text(path("history.csv"), history_csv(body_, fitting, fit.solution));
+    save_pictures(fitting, fit);
     write_report(&fitting, &fit);
   }
 
   void write_report(const Fitting* fitting, const Fit* fit) const {
-    write_text(path("report.json"), report_of(source_, body_, fitting, fit, settings_, times_).dump(1) + "\n");
+    write_text(path("report.json"),
+               report_of(source_, body_, fitting, fit, settings_, times_).dump(1) + "\n");
   }
 
   const CommandLine& line_;
@@ -123,14 +144,16 @@ int run(const CommandLine& line) {
   Run chain(line);
   try {
     fs::create_directories(line.out);
-    for (const char* name : kResults) fs::remove(fs::path(line.out) / name);  // an old result is never taken for a new one
+    for (const char* name : kResults)
+      fs::remove(fs::path(line.out) / name);  // an old result is never taken for a new one
     chain();
     return 0;
   } catch (const geometry::Refusal& refusal) {
     fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());
     try {
       for (const char* name : kResults) fs::remove(fs::path(line.out) / name);
-      write_text((fs::path(line.out) / "report.json").string(), report_of(chain.source(), refusal).dump(1) + "\n");
+      write_text((fs::path(line.out) / "report.json").string(),
+                 report_of(chain.source(), refusal).dump(1) + "\n");
     } catch (const std::exception& error) {
       fmt::print(stderr, "fit: {}\n", error.what());
     }
