@@ -30,11 +30,12 @@ class Placer {
       for (const TemplateNode& node : pattern_.nodes)
         if (node.placing != TemplateNode::Placing::between_others)
           set(node.row, node.column, side, position(node, side));
-    for (const Side side : {Side::left, Side::right}) {
+    // Both sides' rows before any column: the columns fill the middle one, which belongs to both.
+    for (const Side side : {Side::left, Side::right})
       for (int row = 0; row < pattern_.rows; ++row)
         if (known(row, 0, side) && known(row, pattern_.middle(), side)) fill_row(row, side);
+    for (const Side side : {Side::left, Side::right})
       for (int column = 0; column <= pattern_.middle(); ++column) fill_column(column, side);
-    }
     return positions_;
   }
 
