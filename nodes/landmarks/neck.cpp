@@ -14,7 +14,19 @@ using Eigen::Vector3d;
 constexpr double kDegree = 3.14159265358979323846 / 180;
 // In statures. The neck's girth is taken a little above its base: 40 mm above the notch at the throat.
 constexpr double kPlaneAboveNotch = 0.0236;
-constexpr double kRadius = 0.085;  // a thick neck is within, shoulders and chin are not
+constexpr double kHighest = 0.93;    // of stature: the mouth; a neck is lower
+constexpr double kNeckToHead = 0.7;  // a neck's section is smaller than this share of the head's
+constexpr double kRadius = 0.085;    // a thick neck is within, shoulders and chin are not
+
+// Area of the trunk's section: the median of five levels, since at lips and ears one section can fall into
+// pieces.
+double steady_area(const std::vector<Level>& levels, int at) {
+  std::vector<double> areas;
+  for (int i = std::max(0, at - 2); i <= std::min(static_cast<int>(levels.size()) - 1, at + 2); ++i)
+    areas.push_back(levels[i].trunk < 0 ? 0 : levels[i].outlines[levels[i].trunk].area);
+  std::nth_element(areas.begin(), areas.begin() + areas.size() / 2, areas.end());
+  return areas[areas.size() / 2];
+}
 
 // The level between axillae and head at which trunk and neck are thinnest, or -1.
 int thinnest_level(const BodyShape& body, const Trunk& trunk) {
@@ -23,15 +35,14 @@ int thinnest_level(const BodyShape& body, const Trunk& trunk) {
   int thinnest = -1;
   double least = 1e9, widest_above = 0;
   for (int i = static_cast<int>(levels.size()) - 1; i > 0 && levels[i].height > trunk.axilla_height(); --i) {
-    if (levels[i].trunk < 0) continue;
-    const double area = levels[i].outlines[levels[i].trunk].area;
+    const double area = steady_area(levels, i);
     widest_above = std::max(widest_above, area);
-    if (area > 0.6 * widest_above) continue;  // still the head
-    if (levels[i].height > 0.93 * body.stature) continue;
-    if (area < least) {
-      least = area;
-      thinnest = i;
-    }
+    if (levels[i].trunk < 0 || levels[i].height > kHighest * body.stature ||
+        area > kNeckToHead * widest_above)
+      continue;
+    if (area >= least) continue;
+    least = area;
+    thinnest = i;
   }
   return thinnest;
 }

@@ -50,11 +50,9 @@ std::vector<Vector3d> smoothed(const std::vector<Vector3d>& line) {
 double Profile::hollowness(int at, int reach) const {
   if (at < reach || at + reach >= static_cast<int>(points.size())) return 0;
   const Vector3d before = points[at] - points[at - reach], after = points[at + reach] - points[at];
-  // The outward side of a line that runs down is on its left, seen with outward to the right: a hollow turns
-  // towards it.
-  const Vector3d outward = before.cross(after);
-  const double turn = std::atan2(outward.norm(), before.dot(after));
-  return (outward.dot(sideways) > 0 ? turn : -turn) / (reach * step);
+  const Vector3d axis = before.cross(after);  // a line that runs down turns outward about -sideways
+  const double turn = std::atan2(axis.norm(), before.dot(after));
+  return (axis.dot(sideways) < 0 ? turn : -turn) / (reach * step);
 }
 
 std::vector<geometry::SectionLoop> cut(const BodyShape& body, const std::vector<int>& triangles,
