@@ -10,9 +10,8 @@
 
 namespace tensegric_fit::node {
 
-/// Like a latched topic, with two differences: the message is made on the first demand, and others may pass
-/// on the same topic without being kept. Someone who joins in the very moment of an offer can get the message
-/// twice.
+/// Like a latched topic whose message is made on the first demand. Someone who joins in the very moment of an
+/// offer can get it twice.
 template <typename Message>
 class KeptPublisher {
  public:
@@ -30,16 +29,6 @@ class KeptPublisher {
     made_.reset();
     if (publisher_.getNumSubscribers() != 0) publisher_.publish(made());
   }
-
-  /// Nothing is kept any more.
-  void forget() {
-    std::lock_guard<std::mutex> lock(mutex_);
-    make_ = nullptr;
-    made_.reset();
-  }
-
-  /// Published to those who listen now, not kept.
-  void pass(const Message& message) { publisher_.publish(message); }
 
  private:
   void welcome(const ros::SingleSubscriberPublisher& newcomer) {

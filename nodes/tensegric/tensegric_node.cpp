@@ -57,8 +57,9 @@ class TensegricNode {
         wardrobe_(setup_.garment_directory),
         worn_(wardrobe_.take(setup_.garment)),
         fitter_(setup_.model, setup_.solver),
-        fit_(node, "control/deformed"),
-        garment_(node, "garment"),
+        node_(node),
+        fit_(node.advertise<FitState>("control/deformed", 4, true)),
+        progress_(node.advertise<FitState>("control/deformed", 4)),
         display_(private_node),
         stage_("tensegric", node) {
     announce();
@@ -80,7 +81,7 @@ class TensegricNode {
     if (event.getPublisherName() == ros::this_node::getName()) return;
     try {
       put_on(request_in(*event.getMessage()), false);
-      garment_.forget();  // its publisher keeps it for late joiners
+      garment_.shutdown();  // late joiners get theirs, not ours
     } catch (const geometry::Refusal& refusal) {
       stage_.refuse(control_ ? control_->scan_id : "", refusal);
     }
@@ -124,7 +125,8 @@ class TensegricNode {
   void announce() {
     std_msgs::Header header;
     header.stamp = ros::Time::now();
-    garment_.offer([message = boost::make_shared<Garment>(to_message(header, worn_))] { return message; });
+    if (!garment_) garment_ = node_.advertise<Garment>("garment", 1, true);
+    garment_.publish(to_message(header, worn_));
   }
 
   void fit(bool from_rest) {
@@ -141,7 +143,7 @@ class TensegricNode {
     const auto progress = [&](const tensegric::Iterate& iterate, const std::vector<Eigen::Vector3d>& outer) {
       const double now = milliseconds_since(start);
       if (now - told >= 1000 * setup_.progress_period) {
-        fit_.pass(to_message(name, iterate, outer, now));
+        progress_.publish(to_message(name, iterate, outer, now));
         told = now;
       }
       return !stage_.superseded(control->scan_id);
@@ -153,7 +155,7 @@ class TensegricNode {
     const auto message =
         boost::make_shared<FitState>(to_message(name, worn->solution, milliseconds_since(start)));
     return {[this, message, worn] {
-              fit_.offer([message] { return message; });
+              fit_.publish(message);
               show(worn);
             },
             {{"garment", message->garment},
@@ -189,8 +191,9 @@ class TensegricNode {
   GarmentRequest worn_;
   ControlMesh::ConstPtr control_;
   GarmentFitter fitter_;
-  KeptPublisher<FitState> fit_;
-  KeptPublisher<Garment> garment_;
+  ros::NodeHandle node_;
+  ros::Publisher fit_, progress_;  // one topic: how a fit ended is kept for late joiners, how it went is not
+  ros::Publisher garment_;
   Display display_;
   ros::Subscriber control_in_, garment_in_;
   ros::ServiceServer set_garment_, reset_;

@@ -1,0 +1,278 @@
+/// Good scans through the launched chain.
+#include <gtest/gtest.h>
+#include <pcl_msgs/PolygonMesh.h>
+#include <sensor_msgs/Image.h>
+#include <std_srvs/Trigger.h>
+#include <tensegric_fit/ExportFit.h>
+#include <tensegric_fit/Garment.h>
+#include <tensegric_fit/SetGarment.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "chain_client.hpp"
+
+namespace tensegric_fit::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+double height_of(const Landmarks& landmarks, const std::string& name) {
+  for (const Measure& height : landmarks.heights)
+    if (height.name == name) return height.value;
+  return 0;
+}
+
+double extent_of(const std::vector<float>& vertices) {
+  float low = vertices.at(2), high = low;
+  for (std::size_t i = 2; i < vertices.size(); i += 3) {
+    low = std::min(low, vertices[i]);
+    high = std::max(high, vertices[i]);
+  }
+  return high - low;
+}
+
+double ratio_of(const FitState& fit, const std::string& line) {
+  for (const LineResult& result : fit.lines)
+    if (result.name == line) return result.ratio;
+  return 0;
+}
+
+class PipelineTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    client_ = std::make_unique<ChainClient>();
+    ASSERT_TRUE(client_->ready()) << "the chain did not come up";
+    scan_id_ = client_->fit(booth_scan("a"));
+    ASSERT_NE(scan_id_, "") << "no deformed body came out";
+  }
+  static void TearDownTestSuite() { client_.reset(); }
+
+  static SetGarment::Response set_garment(const SetGarment::Request& request) {
+    SetGarment::Response response;
+    SetGarment::Request copy = request;
+    EXPECT_TRUE(ros::service::call("set_garment", copy, response));
+    return response;
+  }
+
+  static SetGarment::Request b1_at(double ratio) {
+    SetGarment::Request request;
+    request.name = "B1";
+    request.lines = {"chest"};
+    request.ratios = {ratio};
+    return request;
+  }
+
+  static std::unique_ptr<ChainClient> client_;
+  static std::string scan_id_;
+};
+
+std::unique_ptr<ChainClient> PipelineTest::client_;
+std::string PipelineTest::scan_id_;
+
+TEST_F(PipelineTest, EveryTopicOnceWithOneScanId) {
+  listen(1);  // for any that come twice
+  EXPECT_EQ(client_->bodies.size(), 1u);
+  EXPECT_EQ(client_->landmarks.size(), 1u);
+  EXPECT_EQ(client_->controls.size(), 1u);
+  EXPECT_EQ(client_->fits.size(), 1u);
+  EXPECT_EQ(client_->deformed.size(), 1u);
+  EXPECT_EQ(count_of(client_->bodies, scan_id_), 1);
+  EXPECT_EQ(count_of(client_->landmarks, scan_id_), 1);
+  EXPECT_EQ(count_of(client_->controls, scan_id_), 1);
+  EXPECT_EQ(count_of(client_->fits, scan_id_), 1);
+  EXPECT_EQ(client_->deformed.front()->header.stamp, client_->bodies.front()->header.stamp);
+  EXPECT_EQ(client_->deformed.front()->header.frame_id, "booth");
+  EXPECT_EQ(client_->deformed.front()->vertices.size(), client_->bodies.front()->vertices.size());
+  EXPECT_EQ(client_->deformed.front()->distortion.size() * 3, client_->bodies.front()->vertices.size());
+  EXPECT_EQ(client_->fits.front()->outer.size(), client_->controls.front()->outer.size());
+  EXPECT_EQ(client_->fits.front()->status, FitState::CONVERGED);
+}
+
+TEST_F(PipelineTest, StagesSayWhatTheyDid) {
+  ASSERT_TRUE(wait_for([] {
+    return std::all_of(client_->diagnostics.begin(), client_->diagnostics.end(),
+                       [](const auto& stage) { return stage.second.at("state") == "done"; });
+  }));
+  for (const auto& [stage, facts] : client_->diagnostics) {
+    EXPECT_EQ(facts.at("scan_id"), scan_id_) << stage;
+    EXPECT_EQ(facts.at("last_error"), "") << stage;
+    EXPECT_GT(std::stod(facts.at("milliseconds")), 0) << stage;
+  }
+}
+
+TEST_F(PipelineTest, WhoJoinsLateGetsEverything) {
+  client_.reset();  // a second subscriber in one process would be served by roscpp, not by the nodes
+  client_ = std::make_unique<ChainClient>();
+  EXPECT_TRUE(wait_for([] { return !client_->deformed.empty() && !client_->fits.empty(); }));
+  ASSERT_TRUE(client_->ready());
+  EXPECT_EQ(count_of(client_->bodies, scan_id_), 1);
+  EXPECT_EQ(count_of(client_->landmarks, scan_id_), 1);
+  EXPECT_EQ(count_of(client_->controls, scan_id_), 1);
+  EXPECT_EQ(count_of(client_->fits, scan_id_), 1);
+  EXPECT_EQ(count_of(client_->deformed, scan_id_), 1);
+}
+
+TEST_F(PipelineTest, MarkersMeshesAndPicturesForWhoeverListens) {
+  ros::NodeHandle node;
+  std::map<std::string, visualization_msgs::MarkerArray::ConstPtr> markers;
+  std::map<std::string, sensor_msgs::Image::ConstPtr> images;
+  std::map<std::string, pcl_msgs::PolygonMesh::ConstPtr> meshes;
+  std::vector<ros::Subscriber> subscribers;
+  const std::vector<std::string> stages = {"reconstruction", "landmarks", "control_mesh", "tensegric",
+                                           "tffd"};
+  for (const std::string& stage : stages) {
+    const boost::function<void(const visualization_msgs::MarkerArray::ConstPtr&)> on_markers =
+        [&markers, stage](const visualization_msgs::MarkerArray::ConstPtr& message) {
+          markers[stage] = message;
+        };
+    const boost::function<void(const sensor_msgs::Image::ConstPtr&)> on_image =
+        [&images, stage](const sensor_msgs::Image::ConstPtr& message) { images[stage] = message; };
+    const boost::function<void(const pcl_msgs::PolygonMesh::ConstPtr&)> on_mesh =
+        [&meshes, stage](const pcl_msgs::PolygonMesh::ConstPtr& message) { meshes[stage] = message; };
+    subscribers.push_back(node.subscribe<visualization_msgs::MarkerArray>(stage + "/markers", 1, on_markers));
+    subscribers.push_back(node.subscribe<sensor_msgs::Image>(stage + "/image", 1, on_image));
+    subscribers.push_back(node.subscribe<pcl_msgs::PolygonMesh>(stage + "/polygon_mesh", 1, on_mesh));
+  }
+  ASSERT_TRUE(wait_for([&] { return markers.size() == 5 && images.size() == 5 && meshes.size() == 5; }));
+
+  const std::size_t corners = client_->bodies.back()->triangles.size();
+  const visualization_msgs::Marker& body = markers["tffd"]->markers.back();
+  EXPECT_EQ(body.points.size(), corners);
+  ASSERT_EQ(body.colors.size(), corners);
+  const auto [darkest, brightest] = std::minmax_element(
+      body.colors.begin(), body.colors.end(), [](const auto& a, const auto& b) { return a.g < b.g; });
+  EXPECT_LT(darkest->g, 0.7 * brightest->g) << "no light is baked in: rviz would show a flat shape";
+  EXPECT_EQ(meshes["tffd"]->polygons.size() * 3, corners);
+  for (const std::string& stage : stages) {
+    const auto& pixels = images[stage]->data;
+    EXPECT_LT(*std::min_element(pixels.begin(), pixels.end()), 128) << stage << ": an empty picture";
+  }
+}
+
+TEST_F(PipelineTest, AnotherGarmentNeedsNoOtherScan) {
+  client_->forget();
+  EXPECT_TRUE(set_garment(b1_at(0.97)).accepted);
+  ASSERT_TRUE(wait_for([] { return !client_->deformed.empty(); }));
+  EXPECT_TRUE(client_->bodies.empty());
+  EXPECT_TRUE(client_->controls.empty());
+  EXPECT_EQ(client_->deformed.back()->scan_id, scan_id_);
+  EXPECT_EQ(client_->deformed.back()->garment, "B1");
+  EXPECT_NEAR(ratio_of(*client_->fits.back(), "chest"), 0.97,
+              1e-4);  // the bound on a feasible request
+}
+
+TEST_F(PipelineTest, AGarmentFromTheTopicIsWornToo) {
+  client_->forget();
+  ros::NodeHandle node;
+  ros::Publisher publisher = node.advertise<Garment>("garment", 1);
+  ASSERT_TRUE(wait_for([&] { return publisher.getNumSubscribers() != 0; }));
+  Garment garment;
+  garment.name = "from the panel";
+  garment.regions = {"bust"};
+  garment.lines.resize(1);
+  garment.lines[0].name = "chest";
+  garment.lines[0].ratio = 0.98;
+  publisher.publish(garment);
+  ASSERT_TRUE(wait_for([] { return !client_->deformed.empty(); }));
+  EXPECT_EQ(client_->deformed.back()->garment, "from the panel");
+  EXPECT_NEAR(ratio_of(*client_->fits.back(), "chest"), 0.98, 1e-4);
+}
+
+TEST_F(PipelineTest, ARefusedGarmentLeavesTheOldOneOn) {
+  client_->forget();
+  SetGarment::Request request = b1_at(0.9);
+  request.lines = {"no_such_line"};
+  SetGarment::Response response = set_garment(request);
+  EXPECT_FALSE(response.accepted);
+  EXPECT_EQ(response.code, "unknown_line");
+
+  SetGarment::Request own;
+  own.garment.name = "mine";
+  own.garment.regions = {"bust"};
+  own.garment.lines.resize(1);
+  own.garment.lines[0].name = "astray";
+  own.garment.lines[0].ratio = 0.9;
+  own.garment.lines[0].through = {"no_such_node", "sternum"};
+  response = set_garment(own);
+  EXPECT_FALSE(response.accepted);
+  EXPECT_EQ(response.code, "unknown_line");
+  listen(1);
+  EXPECT_TRUE(client_->fits.empty());
+}
+
+TEST_F(PipelineTest, ResetGoesBackToTheFirstGarment) {
+  client_->forget();
+  std_srvs::Trigger trigger;
+  ASSERT_TRUE(ros::service::call("reset", trigger));
+  EXPECT_TRUE(trigger.response.success);
+  ASSERT_TRUE(wait_for([] { return !client_->deformed.empty(); }));
+  EXPECT_EQ(client_->deformed.back()->garment, "B1");
+}
+
+TEST_F(PipelineTest, AnExportIsWholeAndNeverOverwritten) {
+  const fs::path folder = fs::path(TENSEGRIC_FIT_SCANS) / "exported";
+  fs::remove_all(folder);
+  ExportFit request;
+  request.request.directory = folder.string();
+  ASSERT_TRUE(ros::service::call("export_fit", request));
+  EXPECT_TRUE(request.response.exported) << request.response.message;
+  EXPECT_EQ(request.response.files.size(), 5u);
+  for (const std::string& file : request.response.files) EXPECT_GT(fs::file_size(file), 0u) << file;
+  ASSERT_TRUE(ros::service::call("export_fit", request));
+  EXPECT_FALSE(request.response.exported);
+  EXPECT_EQ(request.response.code, "bad_option");
+  request.request.directory = "somewhere/relative";
+  ASSERT_TRUE(ros::service::call("export_fit", request));
+  EXPECT_EQ(request.response.code, "bad_option");
+}
+
+TEST_F(PipelineTest, TwoScansInARowNeverMix) {
+  client_->forget();
+  const std::string a = client_->send(booth_scan("a"));
+  const std::string b = client_->fit(booth_scan("b"));
+  ASSERT_NE(b, "");
+  listen(1);
+  EXPECT_EQ(client_->deformed.back()->scan_id, b);  // the newest has the last word
+  EXPECT_EQ(count_of(client_->deformed, b), 1);
+
+  // Body b is 0.1 m and more taller than body a: nothing under one id may have the size of the other.
+  for (const Landmarks::ConstPtr& landmarks : client_->landmarks) {
+    const double wanted = landmarks->scan_id == b ? 1.78 : 1.65;
+    EXPECT_NEAR(height_of(*landmarks, "stature"), wanted, 0.06) << landmarks->scan_id;
+  }
+  for (const TriangleMesh::ConstPtr& body : client_->bodies) {
+    for (const DeformedMesh::ConstPtr& deformed : client_->deformed) {
+      if (deformed->scan_id != body->scan_id) continue;
+      EXPECT_EQ(deformed->vertices.size(), body->vertices.size());
+      EXPECT_NEAR(extent_of(deformed->vertices), extent_of(body->vertices),
+                  0.001);  // a bust garment moves no sole
+    }
+  }
+  EXPECT_LE(count_of(client_->deformed, a), 1);
+}
+
+TEST_F(PipelineTest, TheSameScanTwiceIsFittedTwice) {
+  const sensor_msgs::PointCloud2 scan = booth_scan("a");
+  ASSERT_NE(client_->fit(scan), "");
+  client_->forget();
+  const std::string again = client_->fit(scan);
+  ASSERT_NE(again, "");
+  listen(1);
+  EXPECT_EQ(count_of(client_->bodies, again), 1);
+  EXPECT_EQ(count_of(client_->fits, again), 1);
+  EXPECT_EQ(count_of(client_->deformed, again), 1);
+}
+
+}  // namespace
+}  // namespace tensegric_fit::tests
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "pipeline_test");
+  ros::NodeHandle node;  // keeps ROS up between clients
+  return RUN_ALL_TESTS();
+}

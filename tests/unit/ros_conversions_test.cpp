@@ -1,0 +1,326 @@
+/// Messages <-> core types, and what the ROS layer decides without a master.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "ros/body_messages.hpp"
+#include "ros/fit_messages.hpp"
+#include "ros/scan_join.hpp"
+#include "ros/scan_tag.hpp"
+#include "ros/wardrobe.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+using geometry::Refusal;
+
+const std::string kGarments = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/garments";
+
+ScanTag some_tag() {
+  ScanTag tag;
+  tag.header.stamp = ros::Time(12, 34);
+  tag.header.frame_id = "booth";
+  tag.scan_id = "12.000000034-0badcafe";
+  return tag;
+}
+
+geometry::TriangleMesh tetrahedron() {
+  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+}
+
+geometry::ControlMesh small_control_mesh() {
+  geometry::ControlMesh control;
+  control.outer = {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 1.0 / 3}};
+  control.inner = {{0, 0, -0.01}, {0.1, 0, -0.01}, {0.1, 0.1, -0.01}, {0, 0.1, 0.3}};
+  control.triangles = {{0, 1, 2}, {0, 2, 3}};
+  control.outer_fixed = {1, 0, 0, 1};
+  control.inner_fixed = {1, 1, 1, 1};
+  control.names = {"side_L", "", "sternum", ""};
+  control.regions = {{"bust", {0, 1}}};
+  control.lines = {{"chest", {0, 2}}};
+  return control;
+}
+
+template <typename Call>
+std::string code_of(Call call) {
+  try {
+    call();
+  } catch (const Refusal& refusal) {
+    return refusal.code();
+  }
+  return "accepted";
+}
+
+TEST(BodyMessages, MeshComesBackAsItWas) {
+  const geometry::TriangleMesh mesh = tetrahedron();
+  const TriangleMesh message = to_message(some_tag(), mesh, {0, 1, 0, 1});
+  EXPECT_EQ(message.scan_id, some_tag().scan_id);
+  EXPECT_EQ(message.header.stamp, ros::Time(12, 34));
+  const geometry::TriangleMesh back = mesh_in(message);
+  EXPECT_EQ(back.triangles, mesh.triangles);
+  EXPECT_EQ(filled_in(message), (std::vector<char>{0, 1, 0, 1}));
+  ASSERT_EQ(back.vertices.size(), mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    EXPECT_LE((back.vertices[i] - mesh.vertices[i]).norm(), 1e-7);  // float32 at 1 m
+}
+
+TEST(BodyMessages, BrokenMeshesAreRefusedByName) {
+  const TriangleMesh good = to_message(some_tag(), tetrahedron(), {});
+  TriangleMesh bad = good;
+  bad.vertices.pop_back();
+  EXPECT_EQ(code_of([&] { mesh_in(bad); }), "bad_mesh");
+  bad = good;
+  bad.triangles[0] = 4;
+  EXPECT_EQ(code_of([&] { mesh_in(bad); }), "bad_mesh");
+  bad = good;
+  bad.triangles[0] = 4000000000u;
+  EXPECT_EQ(code_of([&] { mesh_in(bad); }), "bad_mesh");
+  bad = good;
+  bad.vertices[3] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(code_of([&] { mesh_in(bad); }), "non_finite");
+  bad = good;
+  bad.filled.pop_back();
+  EXPECT_EQ(code_of([&] { filled_in(bad); }), "bad_mesh");
+}
+
+TEST(BodyMessages, MeasuresComeBackBitForBit) {
+  geometry::BodyMeasures measures;
+  measures.body_from_scan.linear() =
+      Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  measures.body_from_scan.translation() << 0.1, -1.0 / 3, 2;
+  measures.landmarks = {{"navel", {0.1, 0.2, 1.0 / 3}, 0.9, ""}, {"crotch", {0, 0, 0.8}, 0.2, "unseen"}};
+  measures.heights = {{"bust", 1.2, 0.8, ""}};
+  measures.girths = {{"waist", 0.7, 0.4, "no inner minimum"}};
+  measures.loops = {{"waist", {{0, 0, 1}, {0.1, 0, 1}, {0.1, 0.1, 1}}}};
+
+  const geometry::BodyMeasures back = measures_in(to_message(some_tag(), measures));
+  EXPECT_EQ(back.body_from_scan.matrix(), measures.body_from_scan.matrix());
+  ASSERT_EQ(back.landmarks.size(), 2u);
+  EXPECT_EQ(back.landmarks[0].position, measures.landmarks[0].position);
+  EXPECT_EQ(back.landmarks[1].name, "crotch");
+  EXPECT_EQ(back.landmarks[1].confidence, 0.2);
+  EXPECT_EQ(back.landmarks[1].reason, "unseen");
+  EXPECT_EQ(back.heights.at(0).metres, 1.2);
+  EXPECT_EQ(back.girths.at(0).reason, "no inner minimum");
+  EXPECT_EQ(back.loops.at(0).points, measures.loops[0].points);
+}
+
+TEST(BodyMessages, ATransformThatIsNoneIsRefused) {
+  Landmarks message = to_message(some_tag(), geometry::BodyMeasures());
+  message.body_from_scan[0] = 2;
+  EXPECT_EQ(code_of([&] { measures_in(message); }), "bad_mesh");
+}
+
+TEST(BodyMessages, ControlMeshComesBackBitForBit) {
+  const geometry::ControlMesh control = small_control_mesh();
+  const geometry::ControlMesh back = control_in(to_message(some_tag(), control));
+  EXPECT_EQ(back.outer, control.outer);
+  EXPECT_EQ(back.inner, control.inner);
+  EXPECT_EQ(back.triangles, control.triangles);
+  EXPECT_EQ(back.outer_fixed, control.outer_fixed);
+  EXPECT_EQ(back.inner_fixed, control.inner_fixed);
+  EXPECT_EQ(back.names, control.names);
+  EXPECT_EQ(back.regions.at(0).name, "bust");
+  EXPECT_EQ(back.regions.at(0).triangles, control.regions[0].triangles);
+  EXPECT_EQ(back.lines.at(0).name, "chest");
+  EXPECT_EQ(back.lines.at(0).nodes, control.lines[0].nodes);
+}
+
+TEST(FitMessages, GarmentComesBackAsItWas) {
+  GarmentRequest request;
+  request.garment.name = "mine";
+  request.garment.regions = {"bust"};
+  tensegric::GarmentLine rigid, elastic, table;
+  rigid.name = "chest";
+  rigid.ratio = 0.9;
+  rigid.through = {"side_L", "sternum", "side_R"};
+  elastic.name = "strap";
+  elastic.law.kind = tensegric::TensionLaw::Kind::stiffness;
+  elastic.law.stiffness = 2.5;
+  elastic.tension_limit = 7;
+  elastic.taut = true;
+  table.name = "cradle";
+  table.law.kind = tensegric::TensionLaw::Kind::table;
+  table.law.table = {{1, 0}, {1.2, 3}};
+  request.garment.lines = {rigid, elastic, table};
+  request.solver = "relaxation";
+
+  const GarmentRequest back = request_in(to_message(std_msgs::Header(), request));
+  EXPECT_EQ(back.solver, "relaxation");
+  EXPECT_EQ(back.garment.name, "mine");
+  EXPECT_EQ(back.garment.regions, request.garment.regions);
+  ASSERT_EQ(back.garment.lines.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto &was = request.garment.lines[i], &is = back.garment.lines[i];
+    EXPECT_EQ(is.name, was.name);
+    EXPECT_EQ(is.ratio, was.ratio);
+    EXPECT_EQ(is.law.kind, was.law.kind);
+    EXPECT_EQ(is.law.stiffness, was.law.stiffness);
+    EXPECT_EQ(is.law.table, was.law.table);
+    EXPECT_EQ(is.tension_limit, was.tension_limit);
+    EXPECT_EQ(is.through, was.through);
+    EXPECT_EQ(is.taut, was.taut);
+  }
+}
+
+TEST(FitMessages, ImpossibleGarmentsAreRefusedByName) {
+  Garment good;
+  good.name = "mine";
+  good.lines.resize(1);
+  good.lines[0].name = "chest";
+  good.lines[0].ratio = 0.9;
+  EXPECT_EQ(code_of([&] { request_in(good); }), "accepted");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double ratio : {0.0, -1.0, nan}) {
+    Garment bad = good;
+    bad.lines[0].ratio = ratio;
+    EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment") << ratio;
+  }
+  Garment bad = good;
+  bad.lines[0].law = "sticky";
+  EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment");
+  bad = good;
+  bad.lines[0].law = GarmentLine::TABLE;
+  bad.lines[0].stretch = {1, 1.2};
+  bad.lines[0].tension = {3, 1};  // descends
+  EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment");
+  bad = good;
+  bad.lines[0].tension_limit = nan;
+  EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment");
+  bad = good;
+  bad.solver = "magic";
+  EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_option");
+}
+
+TEST(FitMessages, ResultsKeepTheirValues) {
+  tensegric::Solution solution;
+  solution.outer = {{0.1, 0.2, 1.0 / 3}};
+  solution.inner = {{0.1, 0.2, 0.3}};
+  tensegric::LineResult line;
+  line.name = "chest";
+  line.nodes = {3, 1, 4};
+  line.initial = 0.5;
+  line.neutral = line.final = 0.45;
+  line.request = 0.9;
+  line.tension = 1.5;
+  solution.lines = {line};
+  solution.regions = {{"bust", 0.004, 0.0041}};
+  solution.status = tensegric::Status::infeasible;
+  solution.iterations = 7;
+  solution.residual = 1e-9;
+  const FitName name{some_tag(), "B1", tensegric::SolverName::equilibrium};
+
+  const FitState state = to_message(name, solution, 12.5);
+  EXPECT_EQ(state.scan_id, some_tag().scan_id);
+  EXPECT_EQ(state.status, FitState::INFEASIBLE);
+  EXPECT_EQ(state.solver, "equilibrium");
+  EXPECT_EQ(state.outer, (std::vector<double>{0.1, 0.2, 1.0 / 3}));
+  EXPECT_EQ(state.lines.at(0).nodes, (std::vector<std::uint32_t>{3, 1, 4}));
+  EXPECT_DOUBLE_EQ(state.lines.at(0).ratio, 0.9);
+  EXPECT_NEAR(state.volume_errors.at(0), 0.025, 1e-15);  // rounding of one division
+  EXPECT_EQ(state.milliseconds, 12.5);
+  EXPECT_EQ(to_message(name, tensegric::Iterate(), solution.outer, 1).status, FitState::SOLVING);
+}
+
+TEST(ScanTag, SameScanSameIdAndAnyChangeAnother) {
+  sensor_msgs::PointCloud2 scan;
+  scan.header.stamp = ros::Time(5, 6);
+  scan.width = 3;
+  scan.height = 1;
+  scan.data = {1, 2, 3};
+  const ScanTag tag = tag_of(scan);
+  EXPECT_EQ(tag.scan_id.substr(0, 12), "5.000000006-");
+  EXPECT_EQ(tag.scan_id.size(), 20u);
+  EXPECT_EQ(tag.header.frame_id, "scan");
+  scan.header.seq = 99;  // set anew by every publisher
+  EXPECT_EQ(tag_of(scan).scan_id, tag.scan_id);
+  sensor_msgs::PointCloud2 other = scan;
+  other.data[2] = 4;
+  EXPECT_NE(tag_of(other).scan_id, tag.scan_id);
+  other = scan;
+  other.header.stamp.nsec = 7;
+  EXPECT_NE(tag_of(other).scan_id, tag.scan_id);
+}
+
+class ScanJoinTest : public testing::Test {
+ protected:
+  template <typename Message>
+  void arrive(const std::string& scan_id) {
+    const auto message = boost::make_shared<Message>();
+    message->scan_id = scan_id;
+    join_.add(boost::shared_ptr<const Message>(message));
+  }
+  std::vector<std::string> joined_;
+  ScanJoin<FitState, TriangleMesh, ControlMesh> join_{
+      [this](const auto& fit, const auto& mesh, const auto& control) {
+        EXPECT_EQ(fit->scan_id, mesh->scan_id);
+        EXPECT_EQ(fit->scan_id, control->scan_id);
+        joined_.push_back(fit->scan_id);
+      }};
+};
+
+TEST_F(ScanJoinTest, CompletesInAnyOrderOfArrival) {
+  arrive<FitState>("A");
+  arrive<ControlMesh>("A");
+  EXPECT_TRUE(joined_.empty());
+  arrive<TriangleMesh>("A");
+  EXPECT_EQ(joined_, std::vector<std::string>{"A"});
+}
+
+TEST_F(ScanJoinTest, NeverMixesTwoScans) {
+  arrive<TriangleMesh>("A");
+  arrive<ControlMesh>("A");
+  arrive<TriangleMesh>("B");
+  arrive<FitState>("A");  // late: its body is gone
+  arrive<ControlMesh>("B");
+  EXPECT_TRUE(joined_.empty());
+  arrive<FitState>("B");
+  EXPECT_EQ(joined_, std::vector<std::string>{"B"});
+}
+
+TEST_F(ScanJoinTest, EachTriggerCompletesOnce) {
+  arrive<TriangleMesh>("A");
+  arrive<ControlMesh>("A");
+  arrive<FitState>("A");
+  arrive<TriangleMesh>("A");  // the same scan played again: its fit is still to come
+  arrive<ControlMesh>("A");
+  EXPECT_EQ(joined_.size(), 1u);
+  arrive<FitState>("A");
+  arrive<FitState>("A");  // another garment
+  EXPECT_EQ(joined_.size(), 3u);
+}
+
+TEST(Wardrobe, PutsRatiosIntoShippedGarments) {
+  const Wardrobe wardrobe(kGarments);
+  SetGarment::Request request;
+  request.name = "B1";
+  request.lines = {"chest"};
+  request.ratios = {0.87};
+  const GarmentRequest asked = wardrobe.take(request);
+  EXPECT_EQ(asked.garment.name, "B1");
+  EXPECT_EQ(asked.garment.lines.at(0).ratio, 0.87);
+  request.lines = {""};  // every line
+  request.ratios = {0.91};
+  for (const tensegric::GarmentLine& line : wardrobe.take(request).garment.lines) EXPECT_EQ(line.ratio, 0.91);
+}
+
+TEST(Wardrobe, RefusesByName) {
+  const Wardrobe wardrobe(kGarments);
+  SetGarment::Request request;
+  EXPECT_EQ(code_of([&] { wardrobe.take(request); }), "bad_garment");  // nothing asked for
+  request.name = "no_such_garment";
+  EXPECT_EQ(code_of([&] { wardrobe.take(request); }), "bad_garment");
+  request.name = "B1";
+  request.lines = {"no_such_line"};
+  request.ratios = {0.9};
+  EXPECT_EQ(code_of([&] { wardrobe.take(request); }), "unknown_line");
+  request.lines = {"chest"};
+  request.ratios = {-0.9};
+  EXPECT_EQ(code_of([&] { wardrobe.take(request); }), "bad_garment");
+  request.ratios = {};
+  EXPECT_EQ(code_of([&] { wardrobe.take(request); }), "bad_garment");
+}
+
+}  // namespace
+}  // namespace tensegric_fit::node
