@@ -84,16 +84,17 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   TriangleMesh mesh = one_closed_surface(poisson_surface(body, options.poisson_depth));
   fit_to_points(mesh, body);
   for (Eigen::Vector3d& v : mesh.vertices) v.z() = std::max(v.z(), 0.0);
-  // 5. As many triangles as asked for, and what of them nobody saw.
+  // 5. As many triangles as asked for; what of the surface nobody saw.
   BodyMesh result;
   result.mesh = with_triangles(mesh, options.body_triangles);
-  body.points.resize(seen);
   result.points_used = seen;
+  body.points.resize(seen);
   result.filled = filled_vertices(result.mesh, body.points, options.support_distance);
+  result.holes = holes_of(mesh, filled_vertices(mesh, body.points, options.support_distance));
   // 6. Back to the scan's frame.
   const Eigen::Isometry3d to_scan = from_scan.inverse();
   for (Eigen::Vector3d& v : result.mesh.vertices) v = to_scan * v;
-  result.holes = holes_of(result.mesh, result.filled);
+  for (Hole& hole : result.holes) hole.centre = to_scan * hole.centre;
   return result;
 }
 

@@ -113,6 +113,8 @@ geometry::PointCloud usable_points(const geometry::PointCloud& scan, const Optio
 }
 
 void check_shape(const std::vector<Eigen::Vector3d>& body, const Options& options) {
+  if (body.size() < static_cast<std::size_t>(options.min_points) / 10)
+    throw Refusal(refusal::kNotABody, "nothing stands out of the floor and the stray points of the scan");
   if (body.size() < static_cast<std::size_t>(options.min_points))
     throw Refusal(refusal::kTooFewPoints,
                   fmt::format("the largest thing in the scan has {} points, {} are needed", body.size(),
