@@ -130,7 +130,8 @@ std::string measure_girths(const BodyShape& shape, const geometry::TriangleMesh&
 
   girth("bust", tape.round_trunk(bust));
   girth("bust_max", tape.round_trunk(bust_max));
-  girth("underbust", tape.round_nearest({0.05, 0, underbust - 0.003}, Vector3d::UnitZ(), Part::trunk));
+  girth("underbust",
+        tape.round_nearest({shape.scaled(0.05), 0, underbust - 0.003}, Vector3d::UnitZ(), Part::trunk));
   girth("waist", tape.round_trunk(waist));
   girth("waist_ruler", tape.round_trunk(ruler));
   girth("hip", tape.round_trunk(hip));
@@ -141,7 +142,8 @@ std::string measure_girths(const BodyShape& shape, const geometry::TriangleMesh&
     const BodyShape::Axis arm = shape.upper_arm_axis(left);
     girth("upper_arm" + suffix,
           tape.round_nearest(arm.origin + shape.scaled(0.14) * arm.direction, arm.direction, Part::arm));
-    girth("thigh" + suffix, tape.round_nearest({0.05, shape.scaled(left ? 0.1 : -0.1), crotch - 0.03},
+    girth("thigh" + suffix, tape.round_nearest({shape.scaled(0.05), shape.scaled(left ? 0.1 : -0.1),
+                                                crotch - shape.scaled(0.03)},
                                                Vector3d::UnitZ(), Part::trunk));
   }
   return narrowest ? "interior minimum of the hull girth" : "no interior minimum: ruler level";

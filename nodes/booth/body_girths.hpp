@@ -15,7 +15,7 @@ namespace tensegric_fit::booth {
 /// loops of the trunk at the mean height of the bust points; underbust: the trunk's loop 3 mm below the
 /// lowest fold; waist: interior minimum between hip + 100 mm and underbust - 15 mm, else the navel's level;
 /// hip: mean height of the buttock points; neck: in the plane across the neck's axis; upper arm across its
-/// axis, thigh 30 mm below the crotch.
+/// axis, thigh just below the crotch.
 std::string measure_girths(const BodyShape& shape, const geometry::TriangleMesh& mesh,
                            geometry::BodyMeasures& measures);
 

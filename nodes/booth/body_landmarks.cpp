@@ -17,6 +17,7 @@ struct Fold {
 Fold fold_below(const BodyShape& shape, double y, double bust_height) {
   constexpr double kStep = 0.001;
   constexpr int kSteps = 150, kWindow = 4;  // curvature over 8 mm, less than a fold's width
+  constexpr int kNipple = 18;               // steps to leave the hollow round the nipple behind
   const Vector3d in_plane(1, 0, 1);
   Vector3d p = shape.exit_point({shape.scaled(0.05), y, bust_height}, Vector3d::UnitX());
   std::vector<Vector3d> profile;
@@ -28,7 +29,7 @@ Fold fold_below(const BodyShape& shape, double y, double bust_height) {
     p = shape.project(p + kStep * Vector3d(g.z(), 0, -g.x()), in_plane);
   }
   Fold fold{profile.front(), 0};
-  for (int i = kWindow; i + kWindow < kSteps; ++i) {
+  for (int i = kNipple; i + kWindow < kSteps; ++i) {
     const double curvature = (turn[i + kWindow] - turn[i - kWindow]) / (2 * kWindow * kStep);
     if (curvature > fold.curvature) fold = {profile[i], curvature};
   }
@@ -76,6 +77,16 @@ Vector3d crotch(const BodyShape& shape) {
     if (p.z() < lowest.z()) lowest = p;
   }
   return lowest;
+}
+
+// The notch at the throat: where the front of the neck is farthest back.
+Vector3d throat(const BodyShape& shape) {
+  Vector3d deepest(std::numeric_limits<double>::infinity(), 0, 0);
+  for (double z = 1.390; z < 1.460; z += 0.0005) {
+    const Vector3d p = shape.exit_point({shape.scaled(0.02), 0, shape.scaled(z)}, Vector3d::UnitX());
+    if (p.x() < deepest.x()) deepest = p;
+  }
+  return deepest;
 }
 
 // At this height, the way from front to back between trunk and arm that stays farthest out of the body; by
@@ -134,8 +145,8 @@ std::vector<geometry::Landmark> find_body_landmarks(const BodyShape& shape) {
     add("axilla" + suffix, axilla(shape, side));
     add("buttock" + suffix, rearmost(shape, side));
   }
-  add("neck_front", shape.exit_point(reference(0.02, 0, 1.424), Vector3d::UnitX()));
-  add("neck_back", shape.exit_point(reference(0.02, 0, 1.422), -Vector3d::UnitX()));
+  add("neck_front", throat(shape));
+  add("neck_back", shape.exit_point(reference(0.02, 0, 1.430), -Vector3d::UnitX()));
   add("navel", shape.exit_point(reference(0.05, 0, 1.050), Vector3d::UnitX()));
   add("crotch", crotch(shape));
   return landmarks;

@@ -14,11 +14,12 @@ constexpr double kUpperArm = 0.270;  // shoulder joint to elbow
 constexpr double kElbowFlexion = 0.45;
 const Vector3d kShoulderJoint(0.008, 0.165, 1.330);
 const Vector3d kBreastCentre(0.100, 0.088, 1.236);
-const Vector3d kBreastReach(0.075, 0.055, 0.062);  // forward, sideways, down
+const Vector3d kBreastReach(0.080, 0.056, 0.062);  // forward, sideways, down
 constexpr double kBreastUp = 0.100;                // reach upwards: a drop, not a ball
 constexpr double kBreastOutward = 0.28;            // radians
 constexpr double kBreastSlope = 0.60;              // how fast its upper half recedes towards the collarbone
-constexpr double kNippleHeight = 0.005, kNippleWidth = 0.005;
+constexpr double kBreastSag = 0.045;               // how far the tip sinks without any firmness
+constexpr double kNippleHeight = 0.005, kNippleWidth = 0.006;
 
 std::vector<Section> torso_sections() {
   // z, back, front, right, left, exponent: from between the thighs to the neck inside the head
@@ -27,9 +28,9 @@ std::vector<Section> torso_sections() {
           {0.960, -0.060, 0.130, -0.160, 0.160, 2.4}, {1.000, -0.045, 0.135, -0.148, 0.148, 2.4},
           {1.040, -0.030, 0.138, -0.133, 0.133, 2.4}, {1.080, -0.023, 0.140, -0.121, 0.121, 2.5},
           {1.120, -0.024, 0.144, -0.121, 0.121, 2.6}, {1.160, -0.028, 0.148, -0.126, 0.126, 2.7},
-          {1.200, -0.035, 0.148, -0.133, 0.133, 2.7}, {1.240, -0.046, 0.144, -0.139, 0.139, 2.7},
-          {1.280, -0.055, 0.134, -0.145, 0.145, 2.6}, {1.320, -0.058, 0.117, -0.151, 0.151, 2.6},
-          {1.355, -0.056, 0.100, -0.156, 0.156, 2.6}, {1.385, -0.050, 0.083, -0.146, 0.146, 2.5},
+          {1.200, -0.039, 0.148, -0.134, 0.134, 2.7}, {1.240, -0.051, 0.144, -0.142, 0.142, 2.7},
+          {1.280, -0.060, 0.134, -0.149, 0.149, 2.6}, {1.320, -0.063, 0.117, -0.153, 0.153, 2.6},
+          {1.355, -0.060, 0.100, -0.157, 0.157, 2.6}, {1.385, -0.053, 0.083, -0.146, 0.146, 2.5},
           {1.410, -0.042, 0.070, -0.117, 0.117, 2.3}, {1.430, -0.035, 0.065, -0.082, 0.082, 2.1},
           {1.450, -0.027, 0.068, -0.058, 0.058, 2.0}, {1.470, -0.019, 0.075, -0.051, 0.051, 2.0},
           {1.500, -0.010, 0.084, -0.048, 0.048, 2.0}, {1.550, 0.000, 0.100, -0.048, 0.048, 2.0}};
@@ -93,18 +94,10 @@ BodyShape::BodyShape(const BodyParameters& parameters)
     breast.sag = 1 - parameters.firmness;
     breast.centre = kBreastCentre - Vector3d(0, 0, 0.020 * breast.sag + 0.06 * (breast.size - 1));
     breast.local = Eigen::AngleAxisd(-kBreastOutward, Vector3d::UnitZ()).toRotationMatrix();
-    breast.nipple = Vector3d::Zero();
-  }
-  for (Breast& breast : breasts_) {
-    double inside = 0, outside = 0.2;
-    const Vector3d forward = breast.local.row(0);
-    const double drop = 0.05 * breast.sag * breast.size;  // of the tip, by the sag
-    const Vector3d tip = breast.centre - Vector3d(0, 0, drop);
-    for (int i = 0; i < 60; ++i) {
-      const double middle = (inside + outside) / 2;
-      (breast.value(tip + middle * forward) < 0 ? inside : outside) = middle;
-    }
-    breast.nipple = tip + inside * forward;
+    // The mound's tip: as far forward as the reach, as far down as the sag takes it there
+    breast.nipple =
+        breast.centre + breast.local.transpose() * Vector3d(breast.size * kBreastReach.x(), 0,
+                                                            -kBreastSag * breast.sag * breast.size);
   }
   const Eigen::Isometry3d shoulder =
       Eigen::Translation3d(kShoulderJoint) *
@@ -118,7 +111,7 @@ BodyShape::BodyShape(const BodyParameters& parameters)
 double BodyShape::Breast::value(const Vector3d& p) const {
   Vector3d q = local * (p - centre);
   const double forward = std::max(q.x(), 0.0) / (size * kBreastReach.x());
-  q.z() += 0.05 * sag * size * forward * forward;
+  q.z() += kBreastSag * sag * size * forward * forward;
   Vector3d radii = size * kBreastReach;
   if (q.z() > 0) {
     radii.z() = size * kBreastUp;
@@ -142,7 +135,7 @@ double BodyShape::trunk(const Vector3d& p) const {
   };
   double d = smooth_union(torso_(q), legs, 0.035);
   d = smooth_union(d, smooth_union(buttock(1), buttock(-1), 0.012), 0.040);
-  d -= 0.003 * bell((q - Vector3d(-0.036, 0, 1.422)).norm() / 0.014);  // the spine's lowest neck vertebra
+  d -= 0.003 * bell((q - Vector3d(-0.035, 0, 1.430)).norm() / 0.014);  // the spine's lowest neck vertebra
   d += 0.006 * bell((q - Vector3d(0.139, 0, 1.050)).norm() / 0.009);   // navel
   d *= girth;
   // A crease under the breast, a gentle slope above it
@@ -242,7 +235,7 @@ BodyShape::Axis BodyShape::upper_arm_axis(bool left) const {
 }
 
 BodyShape::Axis BodyShape::neck_axis() const {
-  return {scale_ * Vector3d(0.030, 0, 1.465), Vector3d(0.373, 0, 0.928).normalized()};
+  return {scale_ * Vector3d(0.033, 0, 1.471), Vector3d(0.373, 0, 0.928).normalized()};
 }
 
 }  // namespace tensegric_fit::booth

@@ -35,6 +35,8 @@ Loft::Loft(const std::vector<Section>& sections, double rounding) : rounding_(ro
     value << (s.front + s.back) / 2, (s.left + s.right) / 2, (s.front - s.back) / 2, (s.left - s.right) / 2,
         s.exponent;
     value_.push_back(value);
+    box_.extend(Eigen::Vector3d(s.back, s.right, s.z));
+    box_.extend(Eigen::Vector3d(s.front, s.left, s.z));
   }
   // Tangents of the parabola through each section and its neighbours
   const std::size_t count = z_.size();
@@ -62,6 +64,9 @@ void Loft::at(double z, Values& value, Values& slope) const {
 }
 
 double Loft::operator()(const Eigen::Vector3d& p) const {
+  constexpr double kFar = 0.1;
+  const double outside = box_.exteriorDistance(p);
+  if (outside > kFar) return outside;
   Values v, d;
   at(std::clamp(p.z(), z_.front(), z_.back()), v, d);
   const double dx = p.x() - v[0], dy = p.y() - v[1], distance = std::hypot(dx, dy);

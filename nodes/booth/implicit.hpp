@@ -2,7 +2,7 @@
 /// the distance in metres near it.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 namespace tensegric_fit::booth {
@@ -31,6 +31,7 @@ struct Section {
 };
 
 /// A body through horizontal sections, smooth in between, ending with an edge rounded over `rounding` metres.
+/// Farther than 0.1 m from the box round its sections the value is the distance from that box.
 class Loft {
  public:
   /// \pre two sections or more, z ascending, every extent positive
@@ -44,6 +45,7 @@ class Loft {
   std::vector<double> z_;
   std::vector<Values> value_, slope_;
   double rounding_;
+  Eigen::AlignedBox3d box_;
 };
 
 }  // namespace tensegric_fit::booth

@@ -42,9 +42,9 @@ Eigen::Isometry3d pose(const BodyParameters& parameters, const geometry::Triangl
 
 void check_parameters(const BodyParameters& parameters) {
   check("stature", parameters.stature, 1.40, 2.00);
-  check("bust", parameters.bust, 0.75, 1.35);
-  check("firmness", parameters.firmness, 0, 1);
-  check("asymmetry", parameters.asymmetry, -0.3, 0.3);
+  check("bust", parameters.bust, 0.75, 1.30);
+  check("firmness", parameters.firmness, 0.2, 1);
+  check("asymmetry", parameters.asymmetry, -0.2, 0.2);
   check("waist", parameters.waist, 0.85, 1.40);
   check("hip", parameters.hip, 0.90, 1.25);
   check("arm_angle", parameters.arm_angle, 0.25, 0.80);

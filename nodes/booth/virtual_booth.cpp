@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", out, "directory for scan.ply, scan.bag, body.ply and truth.json");
   app.add_option("--stature", body.stature, "height of the body");
   app.add_option("--bust", body.bust, "size of the breasts, as a length relative to the default");
-  app.add_option("--firmness", body.firmness, "of the breasts, 0 to 1");
+  app.add_option("--firmness", body.firmness, "of the breasts, 0.2 to 1");
   app.add_option("--asymmetry", body.asymmetry, "by how much the left breast is larger than the right");
   app.add_option("--waist", body.waist, "thickness at the waist relative to the default");
   app.add_option("--hip", body.hip, "thickness at the hips relative to the default");

@@ -1,0 +1,183 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "booth/virtual_body.hpp"
+#include "booth/virtual_scanner.hpp"
+#include "geometry/status.hpp"
+
+namespace {
+
+using namespace tensegric_fit;
+using booth::ScannerOptions;
+using booth::VirtualScan;
+using Eigen::Vector3d;
+
+const booth::VirtualBody& body() {
+  static const booth::VirtualBody made = booth::make_body({});
+  return made;
+}
+
+// A ball whose distance is known exactly; its chords are less than 0.02 mm off.
+constexpr double kRadius = 0.4;
+const Vector3d kCentre(0, 0, 0.5);
+
+const geometry::TriangleMesh& ball() {
+  static const geometry::TriangleMesh mesh = [] {
+    constexpr int rings = 150, sectors = 300;
+    geometry::TriangleMesh m;
+    for (int i = 0; i <= rings; ++i)
+      for (int j = 0; j < sectors; ++j) {
+        const double a = M_PI * (i + 0.5) / (rings + 1), b = 2 * M_PI * j / sectors;
+        m.vertices.push_back(
+            kCentre + kRadius * Vector3d(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)));
+      }
+    for (int i = 0; i < rings; ++i)
+      for (int j = 0; j < sectors; ++j) {
+        const int a = i * sectors + j, b = i * sectors + (j + 1) % sectors;
+        m.triangles.emplace_back(a, a + sectors, b);
+        m.triangles.emplace_back(b, a + sectors, b + sectors);
+      }
+    return m;
+  }();
+  return mesh;
+}
+
+ScannerOptions perfect() {
+  ScannerOptions options;
+  options.points = 20000;
+  options.noise = options.outliers = options.misregistration = 0;
+  return options;
+}
+
+double off_ball(const Vector3d& p) {
+  return (p - kCentre).norm() - kRadius;
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+double nearest(const VirtualScan& scan, const Vector3d& p) {
+  double distance = std::numeric_limits<double>::infinity();
+  for (const Vector3d& q : scan.cloud.points) distance = std::min(distance, (p - q).norm());
+  return distance;
+}
+
+TEST(VirtualScannerTest, SameSeedSameBitsOtherSeedOtherPoints) {
+  ScannerOptions options;
+  const VirtualScan a = booth::scan_body(body().mesh, options), b = booth::scan_body(body().mesh, options);
+  EXPECT_EQ(a.cloud.points, b.cloud.points);
+  EXPECT_EQ(a.sensor, b.sensor);
+  EXPECT_EQ(a.cloud.points.size(), 180000u);
+  EXPECT_EQ(a.sensor.size(), a.cloud.points.size());
+  EXPECT_EQ(std::set<int>(a.sensor.begin(), a.sensor.end()).size(), 12u);  // 4 columns of 3
+  options.seed = 2;
+  EXPECT_NE(a.cloud.points, booth::scan_body(body().mesh, options).cloud.points);
+}
+
+TEST(VirtualScannerTest, WithoutErrorsPointsLieOnTheSurfaceFacingTheirSensor) {
+  const ScannerOptions options = perfect();
+  const VirtualScan scan = booth::scan_body(ball(), options);
+  for (std::size_t i = 0; i < scan.cloud.points.size(); ++i) {
+    const Vector3d& p = scan.cloud.points[i];
+    ASSERT_LT(std::abs(off_ball(p)), 0.00005);  // chords
+    const double angle = M_PI / 4 + M_PI / 2 * (scan.sensor[i] / 3);
+    const Vector3d sensor(1.40 * std::cos(angle), 1.40 * std::sin(angle),
+                          0.9 / 3 * (scan.sensor[i] % 3 + 0.5));
+    const double incidence = (p - kCentre).normalized().dot((sensor - p).normalized());
+    ASSERT_GT(incidence, options.grazing - 0.03);  // the faces' normals are up to 0.02 rad off the ball's
+  }
+}
+
+TEST(VirtualScannerTest, NoiseHasTheStatedDeviationAlongTheRay) {
+  ScannerOptions options = perfect();
+  options.noise = 0.002;
+  options.grazing = 0.8;  // steep rays alone: there the distance is 0.8 to 1 of the error along the ray
+  std::vector<double> distances;
+  for (const Vector3d& p : booth::scan_body(ball(), options).cloud.points)
+    distances.push_back(std::abs(off_ball(p)));
+  const double median = quantile(distances, 0.5),
+               expected = 0.6745 * options.noise;  // of a normal distribution
+  EXPECT_GT(median, 0.80 * expected);
+  EXPECT_LT(median, 1.02 * expected);
+  EXPECT_GT(quantile(distances, 0.999),
+            2.4 * options.noise);  // tails are there: 3.3 deviations at incidence 0.8 to 1
+}
+
+TEST(VirtualScannerTest, OutliersHaveTheStatedShare) {
+  ScannerOptions options = perfect();
+  options.outliers = 0.05;
+  int off = 0;
+  for (const Vector3d& p : booth::scan_body(ball(), options).cloud.points)
+    off += std::abs(off_ball(p)) > 0.001;
+  // 1000 wanted; a few per cent of them fall within 1 mm; three deviations of a count are 95
+  EXPECT_NEAR(off, 960, 130);
+}
+
+TEST(VirtualScannerTest, MisregistrationShiftsWholeColumns) {
+  ScannerOptions options = perfect();
+  options.misregistration = 0.003;
+  const VirtualScan scan = booth::scan_body(ball(), options);
+  std::vector<std::vector<double>> of_column(4);
+  for (std::size_t i = 0; i < scan.sensor.size(); ++i)
+    of_column[scan.sensor[i] / 3].push_back(off_ball(scan.cloud.points[i]));
+  double spread = 0;
+  for (const auto& distances : of_column) spread = std::max(spread, std::abs(quantile(distances, 0.5)));
+  EXPECT_GT(spread,
+            0.0005);  // four normal shifts of 3 mm, all nearly along the surface: never with this seed
+  EXPECT_LT(spread, 0.0120);  // four deviations
+}
+
+TEST(VirtualScannerTest, HiddenSkinHasNoPoints) {
+  ScannerOptions options;
+  options.outliers = 0;
+  const VirtualScan scan = booth::scan_body(body().mesh, options);
+  for (const char* name : {"crotch", "axilla_L", "axilla_R"})
+    EXPECT_GT(nearest(scan, body().truth.landmark(name)), 0.004)
+        << name;                                       // points are 3 mm apart where skin is seen
+  EXPECT_GT(nearest(scan, {0.09, 0.11, 0.0}), 0.010);  // sole
+  for (const char* name : {"bust_point_L", "bust_point_R", "buttock_L", "navel", "neck_front"})
+    EXPECT_LT(nearest(scan, body().truth.landmark(name)), 0.006) << name;
+}
+
+TEST(VirtualScannerTest, FloorIsThereOnRequestOnly) {
+  const auto floor_points = [](const VirtualScan& scan) {
+    return std::count_if(scan.cloud.points.begin(), scan.cloud.points.end(), [](const Vector3d& p) {
+      return std::abs(p.z()) < 0.005 && p.head<2>().norm() > 0.35;  // beyond the feet
+    });
+  };
+  ScannerOptions options;
+  EXPECT_EQ(floor_points(booth::scan_body(body().mesh, options)), 0);
+  options.floor = true;
+  const VirtualScan scan = booth::scan_body(body().mesh, options);
+  EXPECT_GT(floor_points(scan), 10000);
+  for (const Vector3d& p : scan.cloud.points) ASSERT_LT(p.head<2>().norm(), options.floor_radius + 0.2);
+}
+
+TEST(VirtualScannerTest, OptionsOutOfRangeAreRefusedByName) {
+  const auto refused = [](ScannerOptions options) {
+    try {
+      booth::scan_body(ball(), options);
+    } catch (const geometry::Refusal& refusal) {
+      return refusal.code() + " " + refusal.what();
+    }
+    return std::string("accepted");
+  };
+  ScannerOptions options;
+  options.columns = 1;
+  EXPECT_NE(refused(options).find("bad_option scanner option 'columns'"), std::string::npos);
+  options = {};
+  options.noise = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(refused(options).find("bad_option scanner option 'noise'"), std::string::npos);
+  options = {};
+  options.points = -5;
+  EXPECT_NE(refused(options).find("bad_option scanner option 'points'"), std::string::npos);
+  EXPECT_THROW(booth::scan_body({}, ScannerOptions()), geometry::Refusal);
+}
+
+}  // namespace
