@@ -15,10 +15,13 @@ struct Tolerance {
 constexpr Tolerance kExact{1e-10, 1e-12, 1e-11};  // what is aimed at
 constexpr Tolerance kWanted{1e-8, 1e-9, 1e-8};  // what counts as balanced (DESIGN §7 asks for 1e-6 in length)
 constexpr Tolerance kOnTheWay{5e-2, 1e-4, 1e-4};  // at a load between rest and the request
-constexpr double kHighestTension = 20;            // where a line has no limit of its own; times k
+// This near to a balance that is no minimum the model has nothing to tell one way down from the other: a
+// symmetric one stays symmetric.
+constexpr Tolerance kAtSaddle{1e-5, 1e-6, 1e-6};
+constexpr double kHighestTension = 20;    // where a line has no limit of its own; times k
 constexpr double kFirstRatioStep = 0.03;  // change of a neutral length in the first load step, relative
 constexpr double kShortestLoadStep = 1.0 / 1024;
-constexpr int kMostIterations = 300, kMostPerLoad = 12, kMostAtEnd = 40, kMostHoldChanges = 20;
+constexpr int kMostIterations = 300, kMostPerLoad = 30, kMostAtEnd = 80, kMostHoldChanges = 20;
 
 bool within(const Defect& d, const Tolerance& t) {
   return d.residual <= t.residual && d.volume_error <= t.volume && d.length_error <= t.length &&
@@ -111,7 +114,6 @@ class LoadPath {
       const double next = std::min(1.0, share + load_step);
       const int before = iteration_;
       if (balance(at, load_at(next), next < 1 ? kOnTheWay : kExact, next < 1 ? kMostPerLoad : kMostAtEnd)) {
-        if (!minimum_) branch_near_ = true;
         share = next;
         settled = at;
         if (iteration_ - before <= 4) load_step *= 2;
@@ -140,8 +142,8 @@ class LoadPath {
         stopped_ = iteration_ >= most_iterations_;
         return within(defect, kWanted);
       }
-      const Step step = kkt_.step(at, load, defect);
-      minimum_ = step.minimum;
+      const Step step = kkt_.step(at, load, defect, within(defect, kAtSaddle));
+      branch_near_ = branch_near_ || !step.minimum;
       if (!step.move.allFinite() || !step.multipliers.allFinite()) return false;
       if (!advance(at, load, defect, step)) return within(defect, kWanted);
       if (!recorder_.record(++iteration_, at.x, kkt_.defect(at, load).residual)) {
@@ -259,7 +261,7 @@ class LoadPath {
   Load first_;
   double longest_move_;
   int iteration_ = 0, most_iterations_;
-  bool stopped_ = false, settled_ = false, minimum_ = true, branch_near_ = false, at_limit_ = false;
+  bool stopped_ = false, settled_ = false, branch_near_ = false, at_limit_ = false;
   Eigen::VectorXd penalties_;
 };
 

@@ -9,6 +9,8 @@
 namespace tensegric_fit::tensegric {
 namespace {
 
+constexpr int kMostRaises = 16;
+
 std::vector<std::pair<int, int>> coupled_nodes(const Problem& problem) {
   std::vector<std::pair<int, int>> pairs;
   const auto couple = [&](int a, int b) {
@@ -43,6 +45,8 @@ Kkt::Kkt(const Problem& problem)
     : problem_(problem),
       regions_(static_cast<int>(problem.volumes.size())),
       bands_(static_cast<int>(problem.bands.size())),
+      least_raise_(1e-3 * spring(problem.model, problem.model.members.back())),
+      raise_(least_raise_),
       hessian_(problem.free_nodes, coupled_nodes(problem)) {
   factor_.analyzePattern(hessian_.lower());
 }
@@ -97,15 +101,11 @@ void Kkt::jacobian(const Positions& x) {
     add_length_gradient(problem_.bands[b], x, problem_.free_index, 1, jacobian_.col(regions_ + b));
 }
 
-void Kkt::assemble(const Balance& at, bool convex) {
+void Kkt::assemble(const Balance& at) {
   hessian_.clear();
-  add_member_hessian(problem_.model, at.x, problem_.free_index, convex, hessian_);
+  add_member_hessian(problem_.model, at.x, problem_.free_index, hessian_);
   for (int b = 0; b < bands_; ++b)
     add_length_hessian(problem_.bands[b], at.x, problem_.free_index, std::max(0.0, at.tensions[b]), hessian_);
-  if (convex) {
-    hessian_.add_to_diagonal(1e-3 * problem_.force_scale / problem_.model.members.front().rest);
-    return;
-  }
   for (int r = 0; r < regions_; ++r)
     add_volume_hessian(problem_.volumes[r], at.x, problem_.free_index,
                        -at.pressures[r] / problem_.volumes[r].area, hessian_);
@@ -148,14 +148,18 @@ bool Kkt::factorise(const Balance& at, const Load& load) {
   return (eigen.eigenvalues().array() < 0).count() == negative;
 }
 
-Step Kkt::step(const Balance& at, const Load& load, const Defect& defect) {
+Step Kkt::step(const Balance& at, const Load& load, const Defect& defect, bool to_saddle) {
   Step result;
   jacobian(at.x);
-  assemble(at, false);
+  assemble(at);
   result.minimum = factorise(at, load);
-  if (!result.minimum) {
-    assemble(at, true);
-    factorise(at, load);
+  if (!result.minimum && !to_saddle) {
+    raise_ = std::max(least_raise_, raise_ / 8);
+    hessian_.add_to_diagonal(raise_);
+    for (int tries = 0; tries < kMostRaises && !factorise(at, load); ++tries) {
+      hessian_.add_to_diagonal(2 * raise_);
+      raise_ *= 3;
+    }
   }
   const Eigen::VectorXd free_move = factor_.solve(defect.gradient);
   result.multipliers =

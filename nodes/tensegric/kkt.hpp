@@ -55,9 +55,9 @@ class Kkt {
 
   Defect defect(const Balance& at, const Load& load) const;
 
-  /// Newton's step. Where the second derivative is no minimum's, each member's positive semi-definite part
-  /// serves.
-  Step step(const Balance& at, const Load& load, const Defect& defect);
+  /// Newton's step. Where the second derivative is no minimum's, its diagonal is raised until it is one's, so
+  /// that the step leads downhill; with `to_saddle` it is left as it is.
+  Step step(const Balance& at, const Load& load, const Defect& defect, bool to_saddle);
 
   /// A move of least effort that takes `conditions` to zero, by the matrix of the last step.
   Eigen::VectorXd correction(const Eigen::VectorXd& conditions) const;
@@ -72,12 +72,13 @@ class Kkt {
   void guess_multipliers(Balance& at, const Load& load) const;
 
  private:
-  void assemble(const Balance& at, bool convex);
+  void assemble(const Balance& at);
   bool factorise(const Balance& at, const Load& load);
   void jacobian(const Positions& x);
 
   const Problem& problem_;
   int regions_, bands_;
+  double least_raise_, raise_;  // of the diagonal: the smallest tried, and the last that served
   NodeMatrix hessian_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
   Eigen::MatrixXd jacobian_, solved_;  // columns: gradients of volumes and lengths; the same, solved for

@@ -1,6 +1,5 @@
 #include "tensegric/members.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace tensegric_fit::tensegric {
@@ -28,7 +27,7 @@ void add_member_gradient(const Model& model, const Positions& x, const std::vect
 }
 
 void add_member_hessian(const Model& model, const Positions& x, const std::vector<int>& free_index,
-                        bool convex, NodeMatrix& hessian) {
+                        NodeMatrix& hessian) {
   for (const Member& m : model.members) {
     const int a = free_index[m.a], b = free_index[m.b];
     if (a < 0 && b < 0) continue;
@@ -37,7 +36,7 @@ void add_member_hessian(const Model& model, const Positions& x, const std::vecto
     const double force = tension(model, m, length);
     if (length == 0 || (force == 0 && !m.strut)) continue;
     const Eigen::Vector3d u = span / length;
-    const double across = convex ? std::max(0.0, force / length) : force / length;
+    const double across = force / length;
     Eigen::Matrix3d block = (spring(model, m) - across) * u * u.transpose();
     block.diagonal().array() += across;
     hessian.add(a, a, block);

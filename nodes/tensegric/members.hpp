@@ -29,8 +29,8 @@ double member_energy(const Model& model, const Positions& x);
 void add_member_gradient(const Model& model, const Positions& x, const std::vector<int>& free_index,
                          Eigen::VectorXd& gradient);
 
-/// Adds the energy's second derivative; with `convex` each member's positive semi-definite part only.
+/// Adds the energy's second derivative.
 void add_member_hessian(const Model& model, const Positions& x, const std::vector<int>& free_index,
-                        bool convex, NodeMatrix& hessian);
+                        NodeMatrix& hessian);
 
 }  // namespace tensegric_fit::tensegric
