@@ -186,7 +186,7 @@ BodyFrame find_body_frame(const TriangleMesh& body) {
   frame.confidence = feet_tell ? (feet * chest > 0 ? 0.95 : 0.6) : 0.4;
   if (!feet_tell) frame.reason = "the feet do not tell front from back; judged by the chest alone";
 
-  Vector2d origin = levels.levels[levels.nearest(levels.crotch)].outlines.front().centroid;
+  Vector2d origin = levels.parted().outlines.front().centroid;
   middle_of_legs(levels, 0.015, origin);
   Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
   turned.linear() =

@@ -139,25 +139,9 @@ BodyLevels find_levels(const SlicedMesh& body) {
   follow_legs_down(levels, split);
   follow_trunk_up(levels, middle);
 
-  // 3. Where exactly the legs meet.
-  const Outline trunk = levels[split + 1].outlines[levels[split + 1].trunk];
-  double low = levels[split].height, high = levels[split + 1].height;
-  for (int k = 0; k < 2; ++k) result.legs_below[k] = levels[split].outlines[levels[split].legs[k]];
-  for (int halving = 0; halving < 6; ++halving) {
-    const double z = (low + high) / 2;
-    const std::vector<Outline> outlines = body.outlines_at(z);
-    const std::array<int, 2> legs = legs_of(trunk, outlines);
-    if (legs[0] < 0) {
-      high = z;
-      continue;
-    }
-    low = z;
-    for (int k = 0; k < 2; ++k) result.legs_below[k] = outlines[legs[k]];
-  }
-  result.crotch = (low + high) / 2;
-
+  result.legs_part = levels[split].height;
   result.has_head = is_head_there(levels, middle);
-  result.stature = result.has_head ? height : (result.crotch - body.bottom()) / kCrotchShare;
+  result.stature = result.has_head ? height : (result.legs_part - body.bottom()) / kCrotchShare;
   check_proportions(result, middle);
   return result;
 }

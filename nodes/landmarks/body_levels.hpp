@@ -20,10 +20,13 @@ struct Level {
 struct BodyLevels {
   std::vector<Level> levels;  ///< evenly spaced, lowest first
   double step;                ///< metres between two
-  double crotch;              ///< height at which two legs become one trunk
-  Outline legs_below[2];      ///< the two legs just below it
-  double stature;             ///< top of the head; estimated from the legs where there is no head
+  double
+      legs_part;   ///< height under which the two legs are apart: the crotch, or below it where thighs touch
+  double stature;  ///< top of the head; estimated from the legs where there is no head
   bool has_head;
+
+  /// The two legs just below `legs_part`.
+  const Level& parted() const { return levels[nearest(legs_part)]; }
 
   /// Index of the level nearest to a height.
   int nearest(double height) const;

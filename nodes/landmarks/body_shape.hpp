@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "landmarks/body_levels.hpp"
+#include "landmarks/junction.hpp"
 
 namespace tensegric_fit::landmarks {
 
@@ -15,7 +16,8 @@ struct BodyShape {
   std::vector<Eigen::Vector3d> normals;  ///< area-weighted, unit, one a vertex
   SlicedMesh sliced;
   BodyLevels levels;
-  double stature;  ///< the unit of all search windows
+  Junction crotch;  ///< of the legs; at `levels.legs_part` or above
+  double stature;   ///< the unit of all search windows
 };
 
 enum Side { kLeft = 0, kRight = 1 };

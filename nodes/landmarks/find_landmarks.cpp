@@ -78,9 +78,13 @@ class Record {
 };
 
 double lower_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
-  const double crotch = body.levels.crotch;
-  record.landmark("crotch", find_crotch(body));
-  record.height("crotch", crotch);
+  const double crotch = body.crotch.height;
+  // Thighs that touch, or a gap that the scan did not see: 0.006 statures are 10 mm.
+  const bool hidden = crotch - body.levels.legs_part > 0.006 * body.stature;
+  const double certainty = hidden ? 0.45 : 0.9;
+  const std::string hiding = hidden ? "hidden between the thighs" : "";
+  record.landmark("crotch", find_crotch(body), certainty, hiding);
+  record.height("crotch", crotch, certainty, hiding);
 
   double sum = 0;
   int found = 0;

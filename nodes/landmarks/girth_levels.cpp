@@ -15,7 +15,7 @@ constexpr int kFit = 8;  // levels each way, 20 mm, over which a parabola takes 
 double navel_height(const BodyShape& body) {
   // Women's navel: 0.60 to 0.62 of stature, 0.14 of stature above the crotch; each errs with the proportion
   // of the legs.
-  return (0.608 * body.stature + body.levels.crotch + 0.14 * body.stature) / 2;
+  return (0.608 * body.stature + body.crotch.height + 0.14 * body.stature) / 2;
 }
 
 WaistLevel find_waist(const BodyShape& body, const Trunk& trunk, double lowest, double highest) {

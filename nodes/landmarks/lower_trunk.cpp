@@ -5,9 +5,15 @@
 #include "landmarks/surface_point.hpp"
 
 namespace tensegric_fit::landmarks {
+namespace {
+
+constexpr double kBehindPubis =
+    0.65;  // of the way from the pubis to the cleft of the buttocks lies the perineum's middle
+
+}  // namespace
 
 bool find_buttock(const BodyShape& body, Side side, Eigen::Vector3d& point) {
-  const double s = body.stature, crotch = body.levels.crotch;
+  const double s = body.stature, crotch = body.crotch.height;
   const double near = kSign[side] * 0.01 * s,
                far = kSign[side] * 0.10 * s;  // beside the cleft, within the hips
   const Level& level = body.levels.levels[body.levels.nearest(crotch + 0.05 * s)];
@@ -24,8 +30,8 @@ bool find_buttock(const BodyShape& body, Side side, Eigen::Vector3d& point) {
 }
 
 Eigen::Vector3d find_crotch(const BodyShape& body) {
-  const Eigen::Vector3d middle = meeting_point(body.levels.legs_below[0], body.levels.legs_below[1]);
-  return {middle.x(), middle.y(), body.levels.crotch};
+  const Bridge& bridge = body.crotch.above;
+  return {bridge.front + kBehindPubis * (bridge.back - bridge.front), bridge.y, body.crotch.height};
 }
 
 }  // namespace tensegric_fit::landmarks

@@ -79,21 +79,4 @@ double tape_length(const std::vector<Outline>& outlines) {
   return geometry::length_of(tape_loop(outlines), true);
 }
 
-Eigen::Vector3d meeting_point(const Outline& a, const Outline& b) {
-  double nearest = 1e9;
-  for (const Eigen::Vector3d& p : a.points)
-    for (const Eigen::Vector3d& q : b.points) nearest = std::min(nearest, (p - q).norm());
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double weight = 0;
-  for (const Eigen::Vector3d& p : a.points) {
-    for (const Eigen::Vector3d& q : b.points) {
-      const double w =
-          std::max(0.0, 1 - ((p - q).norm() - nearest) / 0.005);  // 5 mm: a few points of the mesh
-      sum += w * (p + q) / 2;
-      weight += w;
-    }
-  }
-  return sum / weight;
-}
-
 }  // namespace tensegric_fit::landmarks

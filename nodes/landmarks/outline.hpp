@@ -33,7 +33,4 @@ double tape_length(const std::vector<Outline>& outlines);
 /// The loop of that tape.
 std::vector<Eigen::Vector3d> tape_loop(const std::vector<Outline>& outlines);
 
-/// Middle of the narrowest place between two outlines.
-Eigen::Vector3d meeting_point(const Outline& a, const Outline& b);
-
 }  // namespace tensegric_fit::landmarks

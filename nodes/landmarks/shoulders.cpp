@@ -16,17 +16,23 @@ constexpr double kBeyondAxilla = 0.022;  // statures: the acromion is over the a
 constexpr double kBehindRidge = 0.0127;  // statures: acromia lie behind the ridge of the shoulder
 constexpr double kNearest = 0.06, kFurthest = 0.16;  // statures from the neck's middle
 
-// Top of the shoulder in the sagittal plane y.
+// Top of the shoulder in the sagittal plane y: the middle of its highest two millimetres, where noise moves
+// the highest point.
 bool ridge_at(const BodyShape& body, const std::vector<int>& skin, double y, Vector3d& ridge) {
-  bool found = false;
-  for (const geometry::SectionLoop& loop : cut(body, skin, {0, y, 0}, Vector3d::UnitY())) {
+  double top = -1;
+  const std::vector<geometry::SectionLoop> loops = cut(body, skin, {0, y, 0}, Vector3d::UnitY());
+  for (const geometry::SectionLoop& loop : loops)
+    for (const Vector3d& p : loop.points) top = std::max(top, p.z());
+  double back = 1e9, front = -1e9;
+  for (const geometry::SectionLoop& loop : loops) {
     for (const Vector3d& p : loop.points) {
-      if (found && p.z() <= ridge.z()) continue;
-      ridge = p;
-      found = true;
+      if (p.z() < top - 0.002) continue;
+      back = std::min(back, p.x());
+      front = std::max(front, p.x());
     }
   }
-  return found;
+  ridge = {(back + front) / 2, y, top};
+  return top > 0;
 }
 
 // Distance from the neck's middle at which the ridge turns down, or -1: an arm that is raised.

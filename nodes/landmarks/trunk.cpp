@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "landmarks/arm_cut.hpp"
+#include "landmarks/junction.hpp"
 
 namespace tensegric_fit::landmarks {
 namespace {
@@ -25,13 +26,6 @@ double reach(const Outline& outline, Side side) {
 }
 
 }  // namespace
-
-BodyShape::BodyShape(geometry::TriangleMesh body_in_its_frame)
-    : mesh(std::move(body_in_its_frame)),
-      normals(geometry::vertex_normals(mesh.vertices, mesh.triangles)),
-      sliced(mesh),
-      levels(find_levels(sliced)),
-      stature(levels.stature) {}
 
 Trunk::Trunk(const BodyShape& body) : body_(body) {
   for (Side side : {kLeft, kRight}) axillae_[side] = find_axilla(side);
@@ -69,7 +63,7 @@ Axilla Trunk::find_axilla(Side side) const {
   const std::vector<Level>& levels = body_.levels.levels;
   const double jump = 0.02 * body_.stature;  // half the breadth of a slim arm
   int below = -1;
-  for (int i = body_.levels.nearest(body_.levels.crotch + 0.08 * body_.stature);
+  for (int i = body_.levels.nearest(body_.crotch.height + 0.08 * body_.stature);
        i + 2 < static_cast<int>(levels.size()); ++i) {
     if (levels[i].height > 0.9 * body_.stature) break;
     if (levels[i].trunk < 0 || levels[i + 1].trunk < 0) continue;
@@ -105,7 +99,15 @@ Axilla Trunk::find_axilla(Side side) const {
       arm = &outline;
   }
   if (arm != nullptr) {
-    axilla.point = meeting_point(trunk, *arm);
+    // Skin that fills the armpit joins the arm too low; the axilla is where arm and trunk are one over the
+    // arm's depth.
+    const double sign = kSign[side], inner = sign * (narrow - 0.02 * body_.stature),
+                 outer = sign * (narrow + 0.02 * body_.stature);
+    const Junction junction = find_junction(
+        body_.sliced, {low - 0.01 * body_.stature, low + 0.06 * body_.stature, std::min(inner, outer),
+                       std::max(inner, outer), arm->high.x() - arm->low.x()});
+    axilla.point = {(junction.above.back + junction.above.front) / 2, junction.above.y, junction.height};
+    axilla.filled = junction.height - low > 0.006 * body_.stature;
   } else {
     axilla.point = trunk.points.front();
     for (const Eigen::Vector3d& p : trunk.points)

@@ -8,6 +8,8 @@ namespace tensegric_fit::landmarks {
 /// Where an arm leaves the trunk.
 struct Axilla {
   bool found = false;
+  bool filled =
+      false;  ///< arm and trunk are joined below it too: skin that touches, or a gap that was filled
   Eigen::Vector3d point;
 };
 

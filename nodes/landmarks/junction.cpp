@@ -1,0 +1,59 @@
+#include "landmarks/junction.hpp"
+
+#include <algorithm>
+
+namespace tensegric_fit::landmarks {
+namespace {
+
+constexpr int kPlaces = 13;  // lateral positions tried
+constexpr double kShareOfLimb =
+    0.4;  // of a limb's depth is one with the trunk at its root; fillings are shorter
+constexpr double kApart = 0.0025;  // between sections
+constexpr int kReach = 2;          // sections each way over which lengthening is taken: 5 mm
+
+}  // namespace
+
+Bridge narrowest_bridge(const std::vector<Outline>& outlines, double low_y, double high_y) {
+  Bridge narrowest;
+  for (int k = 0; k < kPlaces; ++k) {
+    const double y = low_y + (high_y - low_y) * k / (kPlaces - 1);
+    std::vector<double> crossings;
+    for (const Outline& outline : outlines) {
+      for (std::size_t i = 0; i < outline.points.size(); ++i) {
+        const Eigen::Vector3d &a = outline.points[i], &b = outline.points[(i + 1) % outline.points.size()];
+        if ((a.y() > y) != (b.y() > y))
+          crossings.push_back(a.x() + (b.x() - a.x()) * (y - a.y()) / (b.y() - a.y()));
+      }
+    }
+    if (crossings.size() < 2) return {0, y, 0, 0};
+    std::sort(crossings.begin(), crossings.end());
+    double length = 0;
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) length += crossings[i + 1] - crossings[i];
+    if (k == 0 || length < narrowest.length) narrowest = {length, y, crossings.front(), crossings.back()};
+  }
+  return narrowest;
+}
+
+Junction find_junction(const SlicedMesh& body, const JunctionSearch& search) {
+  std::vector<double> heights;
+  std::vector<Bridge> bridges;
+  for (double z = search.low; z <= search.high; z += kApart) {
+    heights.push_back(z);
+    bridges.push_back(narrowest_bridge(body.outlines_at(z), search.low_y, search.high_y));
+  }
+  Junction junction{search.low, {}};
+  double most = 0;
+  for (int i = kReach; i + kReach < static_cast<int>(bridges.size()); ++i) {
+    const double before = bridges[i - kReach].length, after = bridges[i + kReach].length;
+    if (after - before <= most || after < kShareOfLimb * search.limb_depth) continue;
+    most = after - before;
+    int crossing = i - kReach;  // where it is half way from the one to the other
+    while (bridges[crossing + 1].length < (before + after) / 2) ++crossing;
+    const double share = ((before + after) / 2 - bridges[crossing].length) /
+                         std::max(bridges[crossing + 1].length - bridges[crossing].length, 1e-9);
+    junction = {heights[crossing] + std::clamp(share, 0.0, 1.0) * kApart, bridges[i + kReach]};
+  }
+  return junction;
+}
+
+}  // namespace tensegric_fit::landmarks
