@@ -9,10 +9,12 @@ namespace tensegric_fit::tensegric {
 namespace {
 
 constexpr int kMostCycles = 2000;
-constexpr double kSettled = 1e-7;  // largest net force / mean tensile force at rest
-constexpr double kFarAway = 3;     // a node that moved this many sizes of the model has left it
-constexpr int kWindow = 60;        // cycles over which an oscillation is looked for
-constexpr double kSwing = 1e-3;    // smallest swing of a line ratio or volume error that counts as one
+constexpr double kSettled = 1e-7;    // largest net force / mean tensile force at rest
+constexpr double kGathering = 0.3;   // share of the missing push that adds up in a cycle
+constexpr double kLeastShare = 0.1;  // of the volume force when it is held back
+constexpr double kFarAway = 3;       // a node that moved this many sizes of the model has left it
+constexpr int kWindow = 60;          // cycles over which an oscillation is looked for
+constexpr double kSwing = 1e-3;      // smallest swing of a line ratio or volume error that counts as one
 
 class Relaxation {
  public:
@@ -37,7 +39,7 @@ class Relaxation {
       const Eigen::Vector3d span = x_[m.a] - x_[m.b];
       pushes_.push_back(-tension(model_, m, span.norm()) / span.norm() * span);
     }
-    pressures_.assign(problem.volumes.size(), 0);
+    gathered_.assign(problem.volumes.size(), 0);
     update_forces();
   }
 
@@ -110,10 +112,8 @@ class Relaxation {
   }
 
   void update_forces() {
+    const int outer = static_cast<int>(model_.control.outer.size());
     external_ = Eigen::VectorXd::Zero(3 * problem_.free_nodes);
-    for (std::size_t i = 0; i < model_.control.outer.size(); ++i)
-      if (problem_.free_index[i] >= 0)
-        external_.segment<3>(3 * problem_.free_index[i]) = problem_.options.gravity;
     tensions_.clear();
     for (const Band& band : problem_.bands) {
       const double stretch = smooth_length(band, x_) / band.neutral;
@@ -123,11 +123,25 @@ class Relaxation {
       tensions_.push_back(std::min(pull, band.tension_limit));
       add_length_gradient(band, x_, problem_.free_index, -tensions_.back(), external_);
     }
-    for (std::size_t r = 0; r < problem_.volumes.size(); ++r) {
-      const RegionVolume& region = problem_.volumes[r];
-      pressures_[r] = -problem_.options.volume_force * volume_error(region, x_);
-      add_volume_gradient(region, x_, problem_.free_index, pressures_[r] / node_area(region), external_);
-    }
+    const double line_force = external_.norm();
+    for (int i = 0; i < outer; ++i)
+      if (problem_.free_index[i] >= 0)
+        external_.segment<3>(3 * problem_.free_index[i]) += problem_.options.gravity;
+    for (std::size_t r = 0; r < problem_.volumes.size(); ++r) push_volume(r, line_force);
+  }
+
+  // P1 §3.4; adaptive, P2 §5: held back by as much as the line force is the greater, and what is still
+  // missing adds up from cycle to cycle, so that the volume comes back in the end.
+  void push_volume(std::size_t r, double line_force) {
+    const RegionVolume& region = problem_.volumes[r];
+    Eigen::VectorXd push = Eigen::VectorXd::Zero(external_.size());
+    add_volume_gradient(region, x_, problem_.free_index, 1 / node_area(region), push);
+    const double missing = -problem_.options.volume_force * volume_error(region, x_);
+    double share = 1;
+    if (adaptive_ && line_force > 0)
+      share = std::clamp(std::abs(missing + gathered_[r]) * push.norm() / line_force, kLeastShare, 1.0);
+    if (adaptive_) gathered_[r] += kGathering * share * missing;
+    external_ += (share * missing + gathered_[r]) * push;
   }
 
   // Mean size of the volume's gradient at a node, so that a pressure is the mean push at a node.
@@ -143,7 +157,7 @@ class Relaxation {
   std::vector<std::vector<int>> tensile_at_, struts_at_;
   std::vector<Eigen::Vector3d> pushes_;  // of each strut on its node a; the opposite on its node b
   Eigen::VectorXd external_;
-  std::vector<double> tensions_, pressures_;
+  std::vector<double> tensions_, gathered_;  // gathered: push that has added up, one a region
 };
 
 // A swing that does not die down: several reversals in the window, as wide in its later half as in its

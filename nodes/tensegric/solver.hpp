@@ -48,7 +48,7 @@ struct SolverOptions {
   int max_iterations = 0;                             ///< 0: the solver's own cap
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< pseudo force on each outer node, scan frame
   std::vector<int> track;                             ///< outer nodes whose way is written into the history
-  double line_force = 1;  ///< relaxation, adaptive: pull of a rigid line per stretch / k (P1 §3.5)
+  double line_force = 3;  ///< relaxation, adaptive: pull of a rigid line per stretch / k (P1 §3.5)
   double volume_force =
       1;  ///< relaxation, adaptive: mean push at a node per relative loss of volume / k (P1 §3.4)
 };
