@@ -9,15 +9,31 @@ using Eigen::Vector3d;
 constexpr double kShareOfBody = 0.4;  // of the way through the body: the inner node stays inside
 constexpr double kLeastShare =
     0.1;  // of the outer triangle's area that the inner one must keep, facing the same way
+constexpr int kSmoothingRounds = 2;
 constexpr double kShrink = 0.9;
 constexpr int kMostRounds = 40;
 constexpr double kThroughBody = 0.5;  // m
 constexpr double kBelowSkin = 1e-4;   // m; where the ray through the body starts
 
+/// Normals averaged with those around them: below a sharp fold the inner nodes spread out all the same.
+std::vector<Vector3d> smooth_normals(const geometry::ControlMesh& control) {
+  std::vector<Vector3d> normals = geometry::vertex_normals(control.outer, control.triangles);
+  const auto around = geometry::neighbours_of(control.outer.size(), control.triangles);
+  for (int round = 0; round < kSmoothingRounds; ++round) {
+    const std::vector<Vector3d> before = normals;
+    for (std::size_t v = 0; v < normals.size(); ++v) {
+      Vector3d mean = Vector3d::Zero();
+      for (int neighbour : around[v]) mean += before[neighbour];
+      normals[v] = (before[v] + mean / static_cast<double>(around[v].size())).normalized();
+    }
+  }
+  return normals;
+}
+
 }  // namespace
 
 void place_inner_nodes(geometry::ControlMesh& control, std::vector<double> thickness, const Skin& skin) {
-  const auto normals = geometry::vertex_normals(control.outer, control.triangles);
+  const std::vector<Vector3d> normals = smooth_normals(control);
   for (std::size_t v = 0; v < thickness.size(); ++v) {
     const Vector3d below = control.outer[v] - kBelowSkin * normals[v];
     const auto far_side = skin.first_exit(below, -normals[v], kThroughBody);

@@ -1,5 +1,6 @@
 #include "control_mesh/placing.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -12,6 +13,8 @@ namespace {
 using Eigen::Vector3d;
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kTrunkReach = 0.4;  // m from the axis; no trunk is wider
+constexpr double kBeyondLandmark =
+    1.35;  // times the landmark's distance: there the ray has run into an arm that touches
 
 Vector3d in_body(const geometry::BodyMeasures& measures, const std::string& landmark) {
   return measures.body_from_scan * measures.landmark(landmark);
@@ -49,13 +52,16 @@ class Placer {
                                   in_body(measures_, name_on(node.landmark, second))));
     const double height = 0.5 * (level(node.level, first) + level(node.level, second));
     const Vector3d direction = (heading(node.angle, first) + heading(node.angle, second)).normalized();
-    const auto exit = skin_.first_exit({axis_.x(), axis_.y(), height}, direction, kTrunkReach);
+    const Vector3d centre(axis_.x(), axis_.y(), height);
+    const auto exit = skin_.first_exit(centre, direction, kTrunkReach);
     if (!exit)
       throw geometry::Refusal(geometry::refusal::kNotABody,
                               "there is no skin round the trunk where row " + std::to_string(node.row) +
                                   ", column " + std::to_string(node.column) + " of the template " +
                                   pattern_.name + " should lie");
-    return *exit;
+    const double reach = 0.5 * (distance(node.angle, first) + distance(node.angle, second));
+    if ((*exit - centre).norm() <= kBeyondLandmark * reach) return *exit;
+    return skin_.nearest(centre + reach * direction);
   }
 
   double level(const Reference& reference, Side side) const {
@@ -78,6 +84,15 @@ class Placer {
     }
     angle += (side == Side::left ? 1 : -1) * reference.offset * kDegree;
     return {std::cos(angle), std::sin(angle), 0};
+  }
+
+  /// Of the farther landmark of the two from the axis.
+  double distance(const Reference& reference, Side side) const {
+    const auto radius = [&](const std::string& landmark) {
+      return (in_body(measures_, name_on(landmark, side)) - axis_).head<2>().norm();
+    };
+    return std::max(radius(reference.landmark),
+                    radius(reference.towards.empty() ? reference.landmark : reference.towards));
   }
 
   bool known(int row, int column, Side side) const {

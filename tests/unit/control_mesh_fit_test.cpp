@@ -1,0 +1,289 @@
+// The bust template on a trunk whose shape is known in closed form: an elliptic cylinder with two breasts.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "control_mesh/fit_template.hpp"
+#include "control_mesh/skin.hpp"
+#include "geometry/status.hpp"
+
+namespace {
+
+using namespace tensegric_fit;
+using Eigen::Vector3d;
+
+const std::string kBust = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/templates/bust.yaml";
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kBustLevel = 1.2, kBustAngle = kPi / 5, kBreastHeight = 0.05;
+constexpr int kAround = 200,
+              kUp = 140;  // even and mirror-symmetric: columns at +-theta, one at 0 and one at pi
+
+struct Trunk {
+  geometry::TriangleMesh mesh;
+  geometry::BodyMeasures measures;
+};
+
+/// `sag` metres: how far a breast hangs; above 0.02 it hides its own fold from the front.
+Vector3d trunk_point(double level, double angle, double sag) {
+  const double turn = std::abs(angle) - kBustAngle, rise = level - kBustLevel;
+  const double breast = std::exp(-(turn * turn) / (2 * 0.25 * 0.25) - rise * rise / (2 * 0.03 * 0.03));
+  const double taper = 1 - 0.8 * std::max(0.0, level - 1.25);
+  return {(0.11 * taper + kBreastHeight * breast) * std::cos(angle),
+          (0.15 * taper + 0.02 * breast) * std::sin(angle), level - sag * breast};
+}
+
+Trunk make_trunk(double sag = 0) {
+  Trunk trunk;
+  auto& [vertices, triangles] = trunk.mesh;
+  const auto at = [](int up, int around) { return up * kAround + (around + kAround) % kAround; };
+  const auto angle_of = [](int around) {
+    return 2 * kPi * (around > kAround / 2 ? around - kAround : around) / kAround;
+  };
+  for (int up = 0; up < kUp; ++up)
+    for (int around = 0; around < kAround; ++around)
+      vertices.push_back(trunk_point(kBustLevel - 0.35 + 0.005 * up, angle_of(around), sag));
+  for (int up = 0; up + 1 < kUp; ++up)
+    for (int around = 0; around < kAround; ++around) {
+      const int a = at(up, around), b = at(up, around + 1), c = at(up + 1, around),
+                d = at(up + 1, around + 1);
+      if (around < kAround / 2) {  // the diagonals are mirrored too
+        triangles.emplace_back(a, b, d);
+        triangles.emplace_back(a, d, c);
+      } else {
+        triangles.emplace_back(a, b, c);
+        triangles.emplace_back(b, d, c);
+      }
+    }
+  const int bottom = static_cast<int>(vertices.size()), top = bottom + 1;
+  vertices.emplace_back(0, 0, vertices[at(0, 0)].z());
+  vertices.emplace_back(0, 0, vertices[at(kUp - 1, 0)].z());
+  for (int around = 0; around < kAround; ++around) {
+    triangles.emplace_back(bottom, at(0, around + 1), at(0, around));
+    triangles.emplace_back(top, at(kUp - 1, around), at(kUp - 1, around + 1));
+  }
+
+  const auto add = [&](const std::string& name, int up, int around) {
+    trunk.measures.landmarks.push_back({name, vertices[at(up, around)], 1.0, ""});
+  };
+  const int level = 70, side = kAround / 4, bust = kAround / 10;  // vertices at bust level, 90 and 36 degrees
+  for (int sign : {1, -1}) {
+    const std::string ending = sign > 0 ? "_L" : "_R";
+    add("bust_point" + ending, level, sign * bust);
+    add("underbust" + ending, level - 14, sign * bust);
+    add("axilla" + ending, level + 12, sign * side);
+  }
+  add("neck_front", level + 40, 0);
+  return trunk;
+}
+
+control_mesh::Options finer(int triangles) {
+  control_mesh::Options options;
+  options.control_triangles = triangles;
+  return options;
+}
+
+geometry::ControlMesh fit(const Trunk& trunk, int triangles = 120) {
+  return control_mesh::fit_template(control_mesh::load_template(kBust), trunk.mesh, trunk.measures,
+                                    finer(triangles));
+}
+
+Vector3d area_of(const std::vector<Vector3d>& nodes, const Eigen::Vector3i& t) {
+  return geometry::area_vector(nodes[t[0]], nodes[t[1]], nodes[t[2]]);
+}
+
+/// Angle in degrees between two triangles' normals, the largest over all edges.
+double sharpest_fold(const geometry::ControlMesh& control, const std::vector<Vector3d>& nodes) {
+  double least = 1;
+  for (const geometry::Edge& edge : geometry::edges_of({control.outer, control.triangles}))
+    if (edge.right >= 0)
+      least = std::min(least, area_of(nodes, control.triangles[edge.left])
+                                  .normalized()
+                                  .dot(area_of(nodes, control.triangles[edge.right]).normalized()));
+  return std::acos(least) * 180 / kPi;
+}
+
+double smallest_angle(const geometry::ControlMesh& control) {
+  double least = kPi;
+  for (const auto& t : control.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d u = control.outer[t[(k + 1) % 3]] - control.outer[t[k]];
+      const Vector3d v = control.outer[t[(k + 2) % 3]] - control.outer[t[k]];
+      least = std::min(least, std::atan2(u.cross(v).norm(), u.dot(v)));
+    }
+  return least * 180 / kPi;
+}
+
+class OnTrunk : public testing::TestWithParam<double> {};  // the parameter is the sag
+INSTANTIATE_TEST_SUITE_P(FirmAndHanging, OnTrunk, testing::Values(0.0, 0.03));
+
+TEST_P(OnTrunk, NodesLieOnTheSkin) {
+  const Trunk trunk = make_trunk(GetParam());
+  const control_mesh::Skin skin(trunk.mesh);
+  const auto control = fit(trunk);
+  for (std::size_t v = 0; v < control.outer.size(); ++v) {
+    const double distance = (skin.nearest(control.outer[v]) - control.outer[v]).norm();
+    EXPECT_LE(distance, control.outer_fixed[v] ? 1e-9 : 0.003 + 1e-9)
+        << "node " << v;  // free nodes may be lifted by 3 mm
+  }
+}
+
+TEST_P(OnTrunk, BustPointsAndFoldAreNodes) {
+  const Trunk trunk = make_trunk(GetParam());
+  const auto control = fit(trunk);
+  for (const char* name : {"bust_point_L", "bust_point_R", "underbust_L", "underbust_R"})
+    EXPECT_LE((control.outer[control.node(name)] - trunk.measures.landmark(name)).norm(), 1e-9) << name;
+  const Vector3d side = control.outer[control.node("axilla_L")];
+  EXPECT_NEAR(side.z(), trunk.measures.landmark("bust_point_L").z(),
+              1e-9);                              // the chest line starts at bust level
+  EXPECT_LT(std::abs(side.x()), 0.3 * side.y());  // and at the side
+}
+
+TEST_P(OnTrunk, SymmetricBodyGivesSymmetricControlMesh) {
+  const auto control = fit(make_trunk(GetParam()), 480);
+  std::vector<char> met(control.outer.size(), 0);
+  for (std::size_t v = 0; v < control.outer.size(); ++v) {
+    const Vector3d mirrored = control.outer[v].cwiseProduct(Vector3d(1, -1, 1));
+    std::size_t twin = 0;
+    for (std::size_t w = 1; w < control.outer.size(); ++w)
+      if ((control.outer[w] - mirrored).norm() < (control.outer[twin] - mirrored).norm()) twin = w;
+    met[twin] = 1;
+    EXPECT_LE((control.outer[twin] - mirrored).norm(), 1e-9);  // DESIGN §7
+    EXPECT_LE((control.inner[twin] - control.inner[v].cwiseProduct(Vector3d(1, -1, 1))).norm(), 1e-9);
+    EXPECT_EQ(control.outer_fixed[twin], control.outer_fixed[v]);
+  }
+  EXPECT_EQ(std::count(met.begin(), met.end(), 0), 0);
+}
+
+TEST_P(OnTrunk, TrianglesAreWellShaped) {
+  const auto control = fit(make_trunk(GetParam()));
+  for (const auto& t : control.triangles) {
+    const Vector3d outer = area_of(control.outer, t), inner = area_of(control.inner, t);
+    EXPECT_GT(outer.dot(inner), 0) << "an inner triangle is turned over";
+    EXPECT_GT(inner.norm(), 0.1 * outer.norm());
+  }
+  EXPECT_GT(smallest_angle(control), 12);
+  EXPECT_LT(sharpest_fold(control, control.outer),
+            GetParam() > 0 ? 130 : 90);  // a hanging breast's fold is sharp itself
+}
+
+TEST_P(OnTrunk, InnerNodesAreInside) {
+  const Trunk trunk = make_trunk(GetParam());
+  const auto control = fit(trunk);
+  const control_mesh::Skin skin(trunk.mesh);
+  for (std::size_t v = 0; v < control.inner.size(); ++v) {
+    const Vector3d foot = skin.nearest(control.inner[v]);
+    EXPECT_GT((foot - control.inner[v]).norm(), 0.004) << "node " << v;
+    const auto above =
+        skin.first_exit(control.inner[v], (control.outer[v] - control.inner[v]).normalized(), 0.1);
+    EXPECT_TRUE(above.has_value()) << "node " << v;
+  }
+}
+
+TEST_P(OnTrunk, HoldsAsMuchAsTheBodyBelowIt) {
+  const Trunk trunk = make_trunk(GetParam());
+  const auto coarse = fit(trunk),
+             fine = fit(trunk, 7680);  // 7680 triangles of 3 mm stand for the skin itself
+  const Vector3d apex = geometry::region_apex(coarse, coarse.regions[0]);
+  const double body = geometry::cone_volume(fine.outer, fine.triangles, apex);
+  EXPECT_NEAR(geometry::cone_volume(coarse.outer, coarse.triangles, apex) / body, 1, 0.02);
+}
+
+TEST(FitTemplate, SubdivisionKeepsWhatTheTemplateSays) {
+  const Trunk trunk = make_trunk();
+  const auto coarse = fit(trunk);
+  for (const int triangles : {480, 1920}) {
+    const auto fine = fit(trunk, triangles - 1);  // "at least": the next size that is there
+    ASSERT_EQ(static_cast<int>(fine.triangles.size()), triangles);
+    const int steps = triangles == 480 ? 2 : 4;  // an edge of the template becomes so many
+    EXPECT_EQ(std::count(fine.outer_fixed.begin(), fine.outer_fixed.end(), 1), 32 * steps);
+    EXPECT_EQ(fine.regions[0].triangles.size(), fine.triangles.size());
+    EXPECT_EQ(fine.lines[0].nodes.size(), (coarse.lines[0].nodes.size() - 1) * steps + 1);
+    for (std::size_t i = 0; i < coarse.lines[0].nodes.size(); ++i)
+      EXPECT_EQ(fine.lines[0].nodes[i * steps], coarse.lines[0].nodes[i]);
+    for (std::size_t v = 0; v < coarse.names.size(); ++v) EXPECT_EQ(fine.names[v], coarse.names[v]);
+    const Vector3d apex = geometry::region_apex(coarse, coarse.regions[0]);
+    EXPECT_NEAR(geometry::cone_volume(fine.outer, fine.triangles, apex) /
+                    geometry::cone_volume(coarse.outer, coarse.triangles, apex),
+                1, 0.02);
+  }
+}
+
+TEST(FitTemplate, ArmsThatTouchTheTrunkAreNotClimbed) {
+  Trunk trunk = make_trunk();
+  const double side = trunk.measures.landmark("axilla_L").y();
+  for (Vector3d& p :
+       trunk.mesh
+           .vertices) {  // both flanks run out into something 0.15 m wide, as where an arm grew to the trunk
+    const double back = (p.x() - 0.01) / 0.02, rise = (p.z() - kBustLevel) / 0.02;
+    p.y() +=
+        (p.y() > 0 ? 1 : -1) * 0.15 * std::exp(-0.5 * (back * back + rise * rise)) * (std::abs(p.y()) > 0.1);
+  }
+  const auto control = fit(trunk);
+  for (const Vector3d& p : control.outer) EXPECT_LT(std::abs(p.y()), 1.35 * side);
+}
+
+TEST(FitTemplate, ChestLineVisitsItsStops) {
+  const auto control = fit(make_trunk());
+  ASSERT_EQ(control.lines.size(), 1u);
+  EXPECT_EQ(control.lines[0].name, "chest");
+  auto at = control.lines[0].nodes.begin();
+  for (const char* stop : {"axilla_L", "bust_point_L", "sternum", "bust_point_R", "axilla_R"}) {
+    at = std::find(at, control.lines[0].nodes.end(), control.node(stop));
+    EXPECT_NE(at, control.lines[0].nodes.end()) << stop;
+  }
+  EXPECT_EQ(control.lines[0].nodes.size(), 11u);  // straight along the row: no zigzag
+}
+
+TEST(FitTemplate, ScanMayStandInAnyFrame) {
+  const Trunk trunk = make_trunk();
+  Eigen::Isometry3d scan_from_body = Eigen::Isometry3d::Identity();
+  scan_from_body.rotate(Eigen::AngleAxisd(2.1, Vector3d(0.1, -0.2, 0.97).normalized()));
+  scan_from_body.pretranslate(Vector3d(3, -2, 0.5));
+  Trunk moved = trunk;
+  moved.measures.body_from_scan = scan_from_body.inverse();
+  for (Vector3d& p : moved.mesh.vertices) p = scan_from_body * p;
+  for (geometry::Landmark& landmark : moved.measures.landmarks)
+    landmark.position = scan_from_body * landmark.position;
+  const auto here = fit(trunk), there = fit(moved);
+  for (std::size_t v = 0; v < here.outer.size();
+       ++v) {  // 1e-9: rounding of coordinates of a few metres, amplified by projections
+    EXPECT_LE((scan_from_body * here.outer[v] - there.outer[v]).norm(), 1e-9);
+    EXPECT_LE((scan_from_body * here.inner[v] - there.inner[v]).norm(), 1e-9);
+  }
+}
+
+TEST(FitTemplate, MissingLandmarkIsNamed) {
+  for (const std::string gone : {"underbust_L", "axilla_R", "neck_front", "bust_point_R"}) {
+    Trunk trunk = make_trunk();
+    auto& landmarks = trunk.measures.landmarks;
+    landmarks.erase(
+        std::find_if(landmarks.begin(), landmarks.end(), [&gone](const auto& l) { return l.name == gone; }));
+    try {
+      fit(trunk);
+      ADD_FAILURE() << "accepted without " << gone;
+    } catch (const geometry::Refusal& refusal) {
+      EXPECT_EQ(refusal.code(), "missing_part:" + gone);
+    }
+  }
+}
+
+TEST(FitTemplate, RefusesBadInput) {
+  const Trunk trunk = make_trunk();
+  const auto code_of = [&trunk](const geometry::TriangleMesh& mesh, int triangles) -> std::string {
+    try {
+      control_mesh::fit_template(control_mesh::load_template(kBust), mesh, trunk.measures, finer(triangles));
+    } catch (const geometry::Refusal& refusal) {
+      return refusal.code();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(code_of(trunk.mesh, 0), "bad_option");
+  EXPECT_EQ(code_of(trunk.mesh, 1 << 30), "bad_option");
+  EXPECT_EQ(code_of({}, 120), "not_a_body");
+  geometry::TriangleMesh elsewhere = trunk.mesh;
+  for (Vector3d& p : elsewhere.vertices) p.z() += 5;
+  EXPECT_EQ(code_of(elsewhere, 120), "not_a_body");
+}
+
+}  // namespace

@@ -1,0 +1,119 @@
+// Templates as data: what is read, what is refused, and that the grid is its own mirror image.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "control_mesh/grid.hpp"
+#include "control_mesh/template.hpp"
+#include "geometry/status.hpp"
+
+namespace {
+
+using namespace tensegric_fit;
+const std::string kBust = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/templates/bust.yaml";
+
+/// The bust template with the first `what` replaced, read back; the refusal's message, or "" where it was
+/// accepted.
+std::string refusal_with(const std::string& what, const std::string& by) {
+  std::ifstream in(kBust);
+  std::stringstream text;
+  text << in.rdbuf();
+  std::string changed = text.str();
+  const std::size_t at = changed.find(what);
+  if (at == std::string::npos) return "the template does not contain " + what;
+  changed.replace(at, what.size(), by);
+  const std::string path = testing::TempDir() + "changed_template.yaml";
+  std::ofstream(path) << changed;
+  try {
+    control_mesh::load_template(path);
+  } catch (const geometry::Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), "bad_template");
+    EXPECT_NE(std::string(refusal.what()).find(path), std::string::npos) << "the file is not named";
+    return refusal.what();
+  }
+  return "";
+}
+
+TEST(BustTemplate, HasTheSizeOfThePapers) {
+  const auto grid = control_mesh::grid_of(control_mesh::load_template(kBust));
+  EXPECT_EQ(grid.outer.size(), 77u);
+  EXPECT_EQ(grid.triangles.size(), 120u);
+  EXPECT_EQ(std::count(grid.outer_fixed.begin(), grid.outer_fixed.end(), 1), 32);
+  EXPECT_EQ(std::count(grid.outer_fixed.begin(), grid.outer_fixed.end(), 0), 45);
+  EXPECT_EQ(grid.inner_fixed, grid.outer_fixed);
+  ASSERT_EQ(grid.regions.size(), 1u);
+  EXPECT_EQ(grid.regions[0].name, "bust");
+  EXPECT_EQ(grid.regions[0].triangles.size(), 120u);
+}
+
+TEST(BustTemplate, FixesItsRimAndNothingElse) {
+  const auto grid = control_mesh::grid_of(control_mesh::load_template(kBust));
+  std::vector<char> on_rim(grid.outer.size(), 0);
+  for (const geometry::Edge& edge : geometry::edges_of({grid.outer, grid.triangles}))
+    if (edge.right < 0) on_rim[edge.first] = on_rim[edge.second] = 1;
+  EXPECT_EQ(grid.outer_fixed, on_rim);
+}
+
+TEST(BustTemplate, NamesWhatGarmentsAskFor) {
+  const auto grid = control_mesh::grid_of(control_mesh::load_template(kBust));
+  EXPECT_GE(grid.node("sternum"), 0);
+  for (const std::string stem :
+       {"axilla", "bust_point", "collarbone", "upper_breast", "underbust", "side_underbust", "below_bust"})
+    for (const char* side : {"_L", "_R"}) EXPECT_GE(grid.node(stem + side), 0) << stem << side;
+}
+
+TEST(BustTemplate, GridIsItsOwnMirrorImage) {
+  const auto pattern = control_mesh::load_template(kBust);
+  const auto grid = control_mesh::grid_of(pattern);
+  const auto mirror = [&pattern](int node) {
+    const int row = node / pattern.columns, column = node % pattern.columns;
+    return row * pattern.columns + pattern.columns - 1 - column;
+  };
+  const auto key = [](int a, int b, int c) {  // a cyclic turn that starts at the lowest keeps the orientation
+    if (b < a && b < c) return std::vector<int>{b, c, a};
+    if (c < a && c < b) return std::vector<int>{c, a, b};
+    return std::vector<int>{a, b, c};
+  };
+  std::set<std::vector<int>> triangles;
+  for (const auto& t : grid.triangles) triangles.insert(key(t[0], t[1], t[2]));
+  ASSERT_EQ(triangles.size(), grid.triangles.size());
+  for (const auto& t : grid.triangles)  // a reflection turns triangles over: two corners change places
+    EXPECT_EQ(triangles.count(key(mirror(t[0]), mirror(t[2]), mirror(t[1]))), 1u);
+  for (std::size_t node = 0; node < grid.names.size(); ++node)
+    EXPECT_EQ(grid.names[mirror(static_cast<int>(node))],
+              control_mesh::name_on(grid.names[node], control_mesh::Side::right));
+}
+
+TEST(BustTemplate, RefusesUnknownKeysByName) {
+  EXPECT_NE(refusal_with("inner_fixed:", "iner_fixed:").find("'iner_fixed'"), std::string::npos);
+  EXPECT_NE(refusal_with("offset: -20", "ofset: -20").find("'ofset'"), std::string::npos);
+  EXPECT_NE(refusal_with("{name: bust, rows", "{name: bust, colour: red, rows").find("'colour'"),
+            std::string::npos);
+}
+
+TEST(BustTemplate, RefusesWhatDoesNotFit) {
+  EXPECT_NE(refusal_with("columns: 11", "columns: 10").find("'columns'"), std::string::npos);
+  EXPECT_NE(refusal_with("rows: 7", "rows: seven").find("'rows'"), std::string::npos);
+  EXPECT_NE(refusal_with("row: 3, column: 3", "row: 3, column: 6").find("'column'"), std::string::npos);
+  EXPECT_NE(refusal_with("'######'", "'#####'").find("'fixed'"), std::string::npos);
+  EXPECT_NE(refusal_with("0.045", "4.5").find("'thickness'"), std::string::npos);
+  EXPECT_NE(refusal_with("through: [axilla_L", "through: [armpit_L").find("'armpit_L'"), std::string::npos);
+  EXPECT_NE(refusal_with("rows: [0, 6]", "rows: [0, 7]").find("'rows'"), std::string::npos);
+  EXPECT_NE(refusal_with("name: sternum", "name: sternum_L").find("'name'"), std::string::npos);
+  EXPECT_NE(refusal_with("row: 0, column: 0", "row: 1, column: 2").find("row 0, column 0"),
+            std::string::npos);
+}
+
+TEST(BustTemplate, RefusesAFileThatIsNotThere) {
+  try {
+    control_mesh::load_template("no_such_template.yaml");
+    FAIL() << "accepted";
+  } catch (const geometry::Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), "bad_template");
+  }
+}
+
+}  // namespace
