@@ -23,7 +23,7 @@ constexpr double kNippleHeight = 0.005, kNippleWidth = 0.006;
 
 std::vector<Section> torso_sections() {
   // z, back, front, right, left, exponent: from between the thighs to the neck inside the head
-  return {{0.800, -0.050, 0.060, -0.100, 0.100, 2.0}, {0.840, -0.050, 0.100, -0.145, 0.145, 2.2},
+  return {{0.799, -0.036, 0.036, -0.090, 0.090, 2.0}, {0.840, -0.050, 0.100, -0.145, 0.145, 2.2},
           {0.880, -0.062, 0.114, -0.163, 0.163, 2.3}, {0.920, -0.066, 0.124, -0.166, 0.166, 2.4},
           {0.960, -0.060, 0.130, -0.160, 0.160, 2.4}, {1.000, -0.045, 0.135, -0.148, 0.148, 2.4},
           {1.040, -0.030, 0.138, -0.133, 0.133, 2.4}, {1.080, -0.023, 0.140, -0.121, 0.121, 2.5},
@@ -167,11 +167,11 @@ double BodyShape::reference_value(const Vector3d& p) const {
   d = smooth_union(d, arm(left),
                    0.024 + 0.036 * smooth_step((p.z() - 1.27) / 0.08));  // sharper in the armpit
   d = smooth_union(d, head(p), 0.030);
-  const double heel = ellipsoid(left - Vector3d(0.020, 0.104, 0.030), {0.038, 0.034, 0.046});
-  const double sole = ellipsoid(left - Vector3d(0.095, 0.110, 0.010), {0.098, 0.043, 0.034});
+  const double heel = ellipsoid(left - Vector3d(0.021, 0.104, 0.012), {0.039, 0.033, 0.062});
+  const double sole = ellipsoid(left - Vector3d(0.095, 0.110, 0.002), {0.098, 0.043, 0.040});
   const double instep = tapered_capsule(left, {0.035, 0.104, 0.085}, {0.120, 0.108, 0.020}, 0.034, 0.020);
   const double foot = smooth_union(smooth_union(heel, sole, 0.03), instep, 0.03);
-  return smooth_intersection(smooth_union(d, foot, 0.02), -p.z(), 0.012);
+  return smooth_intersection(smooth_union(d, foot, 0.02), -p.z(), 0.008);
 }
 
 double BodyShape::value(const Vector3d& p) const {
@@ -189,13 +189,17 @@ Vector3d BodyShape::gradient(const Vector3d& p) const {
 }
 
 Vector3d BodyShape::project(Vector3d p, const Vector3d& mask) const {
-  for (int i = 0; i < 8; ++i) {
+  // Newton steps; the direction is good for several of them
+  constexpr int kSteps = 12, kSameDirection = 4;
+  constexpr double kClose = 1e-8, kLongestStep = 0.01, kFlat = 0.05;
+  Vector3d g = Vector3d::Zero();
+  for (int i = 0; i < kSteps; ++i) {
     const double v = value(p);
-    if (std::abs(v) < 1e-9) break;
-    const Vector3d g = gradient(p).cwiseProduct(mask);
+    if (std::abs(v) < kClose) break;
+    if (i % kSameDirection == 0) g = gradient(p).cwiseProduct(mask);
     const double length = g.norm();
-    if (length < 0.05) break;
-    p -= std::clamp(v / length, -0.01, 0.01) * g / length;
+    if (length < kFlat) break;
+    p -= std::clamp(v / length, -kLongestStep, kLongestStep) * g / length;
   }
   return p;
 }

@@ -46,7 +46,7 @@ struct Grid {
 // Values at all nodes. Blocks whose middle is far from the skin are filled with that value: only its sign
 // counts there.
 std::vector<double> sample(const Half& half, const Grid& grid) {
-  constexpr int block = 6;
+  constexpr int block = 4;
   std::vector<double> values(grid.index(0, 0, grid.nodes.z()));
   const double far =
       1.6 * 0.5 * std::sqrt(3.0) * block * grid.spacing;  // 1.6: the shape is not an exact distance
