@@ -10,8 +10,11 @@ Junction find_crotch_junction(const SlicedMesh& sliced, const BodyLevels& levels
   // In statures: the gap between thighs stays this near its middle, and this far up at the most it can be
   // filled.
   const double middle = (left->low.y() + right->high.y()) / 2, reach = 0.008 * levels.stature;
-  return find_junction(sliced, {parted.height - 0.01 * levels.stature, parted.height + 0.11 * levels.stature,
-                                middle - reach, middle + reach, left->high.x() - left->low.x()});
+  Junction junction =
+      find_junction(sliced, {parted.height - 0.01 * levels.stature, parted.height + 0.11 * levels.stature,
+                             middle - reach, middle + reach, left->high.x() - left->low.x()});
+  junction.above.y = middle;
+  return junction;
 }
 
 }  // namespace

@@ -30,8 +30,9 @@ bool find_buttock(const BodyShape& body, Side side, Eigen::Vector3d& point) {
 }
 
 Eigen::Vector3d find_crotch(const BodyShape& body) {
-  const Bridge& bridge = body.crotch.above;
-  return {bridge.front + kBehindPubis * (bridge.back - bridge.front), bridge.y, body.crotch.height};
+  const double y = body.crotch.above.y, s = body.stature;
+  const Bridge bridge = narrowest_bridge(body.sliced.outlines_at(body.crotch.height + 0.003 * s), y, y);
+  return {bridge.front + kBehindPubis * (bridge.back - bridge.front), y, body.crotch.height};
 }
 
 }  // namespace tensegric_fit::landmarks

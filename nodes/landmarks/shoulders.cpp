@@ -13,7 +13,9 @@ using Eigen::Vector3d;
 constexpr double kApart = 0.005;
 constexpr double kSlopeAtAcromion = 0.81;  // 39 degrees: where the shoulder's line turns down into the arm
 constexpr double kBeyondAxilla = 0.022;  // statures: the acromion is over the arm, half an arm's breadth out
-constexpr double kBehindRidge = 0.0127;  // statures: acromia lie behind the ridge of the shoulder
+constexpr double kBehindRidge = 0.0195;  // statures: acromia lie behind the ridge of the shoulder ...
+constexpr double kBehindNeck =
+    0.0305;  // ... and behind the middle of the neck; each errs by a centimetre, not together
 constexpr double kNearest = 0.06, kFurthest = 0.16;  // statures from the neck's middle
 
 // Top of the shoulder in the sagittal plane y: the middle of its highest two millimetres, where noise moves
@@ -90,13 +92,15 @@ Shoulders find_shoulders(const BodyShape& body, const Trunk& trunk, const Neck& 
     const double y = middle + kSign[side] * half_breadth;
     Vector3d ridge;
     if (!ridge_at(body, skins[side], y, ridge)) return Shoulders();
-    // The highest skin the acromion's way behind the ridge.
+    const double behind_ridge = ridge.x() - kBehindRidge * s;
+    const double x = neck.found ? (behind_ridge + neck.origin.x() - kBehindNeck * s) / 2 : behind_ridge;
     Vector3d& point = shoulders.points[side];
     point = ridge;
     double nearest = 1e9;
     for (const geometry::SectionLoop& loop : cut(body, skins[side], {0, y, 0}, Vector3d::UnitY())) {
       for (const Vector3d& p : loop.points) {
-        const double off = std::abs(p.x() - (ridge.x() - kBehindRidge * s)) + 0.2 * (ridge.z() - p.z());
+        const double off =
+            std::abs(p.x() - x) + 0.2 * (ridge.z() - p.z());  // on top, not on the arm's underside
         if (off >= nearest) continue;
         nearest = off;
         point = p;
