@@ -13,8 +13,9 @@ namespace {
 using Eigen::Vector3d;
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kTrunkReach = 0.4;  // m from the axis; no trunk is wider
-constexpr double kBeyondLandmark =
-    1.35;  // times the landmark's distance: there the ray has run into an arm that touches
+/// Times the landmark's distance from the axis: beyond that the ray has run on into an arm that touches the
+/// trunk.
+constexpr double kBeyondLandmark = 1.35;
 
 Vector3d in_body(const geometry::BodyMeasures& measures, const std::string& landmark) {
   return measures.body_from_scan * measures.landmark(landmark);

@@ -212,12 +212,11 @@ TEST(FitTemplate, SubdivisionKeepsWhatTheTemplateSays) {
 TEST(FitTemplate, ArmsThatTouchTheTrunkAreNotClimbed) {
   Trunk trunk = make_trunk();
   const double side = trunk.measures.landmark("axilla_L").y();
-  for (Vector3d& p :
-       trunk.mesh
-           .vertices) {  // both flanks run out into something 0.15 m wide, as where an arm grew to the trunk
-    const double back = (p.x() - 0.01) / 0.02, rise = (p.z() - kBustLevel) / 0.02;
-    p.y() +=
-        (p.y() > 0 ? 1 : -1) * 0.15 * std::exp(-0.5 * (back * back + rise * rise)) * (std::abs(p.y()) > 0.1);
+  // Both flanks run out into something 0.15 m wide, as where an arm has grown to the trunk.
+  for (Vector3d& p : trunk.mesh.vertices) {
+    if (std::abs(p.y()) < 0.1) continue;
+    const double fore = (p.x() - 0.01) / 0.02, rise = (p.z() - kBustLevel) / 0.02;
+    p.y() += std::copysign(0.15 * std::exp(-0.5 * (fore * fore + rise * rise)), p.y());
   }
   const auto control = fit(trunk);
   for (const Vector3d& p : control.outer) EXPECT_LT(std::abs(p.y()), 1.35 * side);
