@@ -51,6 +51,12 @@ Problem lay_garment(const Model& model, const Garment& garment, const SolverOpti
   return problem;
 }
 
+Positions positions_of(const Solution& solution) {
+  Positions x = solution.outer;
+  x.insert(x.end(), solution.inner.begin(), solution.inner.end());
+  return x;
+}
+
 double relative_residual(const Problem& problem, const Eigen::VectorXd& gradient) {
   double largest = 0;
   for (int i = 0; i < problem.free_nodes; ++i)

@@ -38,6 +38,8 @@ struct Outcome {
 /// \throw Refusal unknown_line, bad_garment, bad_option
 Problem lay_garment(const Model& model, const Garment& garment, const SolverOptions& options);
 
+Positions positions_of(const Solution& solution);
+
 /// Largest net force at a free node, relative to the mean tensile force at rest. `gradient` is the negative
 /// net force.
 double relative_residual(const Problem& problem, const Eigen::VectorXd& gradient);

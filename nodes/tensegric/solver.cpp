@@ -108,6 +108,8 @@ Solution solve(const Model& model, const Garment& garment, const SolverOptions& 
   if (start != nullptr) check_start(model, *start);
   const Problem problem = lay_garment(model, garment, options);
   Recorder recorder(problem, progress);
+  recorder.record(0, start == nullptr ? problem.rest : positions_of(*start),
+                  start == nullptr ? 0 : start->residual);
   const Outcome outcome = options.solver == SolverName::equilibrium
                               ? find_equilibrium(problem, start, recorder)
                               : relax(problem, start, options.solver == SolverName::adaptive, recorder);

@@ -1,0 +1,139 @@
+#include "tensegric/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tensegric_fit::tensegric {
+namespace {
+
+// This near to a balance that is no minimum the model has nothing to tell one way down from the other: a
+// symmetric one stays symmetric.
+constexpr Tolerance kAtSaddle{1e-5, 1e-6, 1e-6};
+constexpr int kMostIterations = 300, kMostHoldChanges = 20, kMostHalvings = 14;
+
+}  // namespace
+
+bool within(const Defect& d, const Tolerance& t) {
+  return d.residual <= t.residual && d.volume_error <= t.volume && d.length_error <= t.length &&
+         d.tension_error <= t.residual;
+}
+
+Newton::Newton(const Problem& problem, Recorder& recorder)
+    : problem_(problem),
+      recorder_(recorder),
+      kkt_(problem),
+      most_iterations_(problem.options.max_iterations > 0 ? problem.options.max_iterations
+                                                          : kMostIterations) {
+  double sum = 0;
+  for (const Member& m : problem.model.members) sum += m.rest;
+  longest_move_ = sum / static_cast<double>(problem.model.members.size()) / 2;
+}
+
+bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, int most) {
+  penalties_ =
+      Eigen::VectorXd::Zero(problem_.volumes.size() + static_cast<Eigen::Index>(problem_.bands.size()));
+  int changes = 0;
+  for (int i = 0; i <= most; ++i) {
+    Defect defect = kkt_.defect(at, load);
+    while (within(defect, tolerance) && change_holds(at, load)) {
+      if (++changes > kMostHoldChanges) return false;
+      defect = kkt_.defect(at, load);
+    }
+    if (within(defect, tolerance)) return true;
+    if (i == most || iterations_ >= most_iterations_) {
+      stopped_ = iterations_ >= most_iterations_;
+      return within(defect, kWanted);
+    }
+    const Step step = kkt_.step(at, load, defect, within(defect, kAtSaddle));
+    branch_near_ = branch_near_ || !step.minimum;
+    if (!step.move.allFinite() || !step.multipliers.allFinite()) return false;
+    if (!advance(at, load, defect, step)) return within(defect, kWanted);
+    if (!recorder_.record(++iterations_, at.x, kkt_.defect(at, load).residual)) {
+      stopped_ = true;
+      return false;
+    }
+  }
+  return false;
+}
+
+// Line search on energy plus penalties for broken conditions, with a second-order correction of the full
+// step.
+bool Newton::advance(Balance& at, const Load& load, const Defect& defect, const Step& step) {
+  const Eigen::Index regions = at.pressures.size();
+  const auto kept = [&](Eigen::Index i) { return i < regions || at.holds[i - regions] == Hold::length; };
+  double slope = defect.gradient.dot(step.move);
+  for (Eigen::Index i = 0; i < penalties_.size(); ++i) {
+    const double multiplier = i < regions ? at.pressures[i] : at.tensions[i - regions];
+    if (kept(i)) {
+      penalties_[i] = std::max(penalties_[i], 2 * std::abs(multiplier + step.multipliers[i]));
+      slope += multiplier * defect.conditions[i] - penalties_[i] * std::abs(defect.conditions[i]);
+    } else {
+      slope += defect.conditions[i] * kkt_.gradients().col(i).dot(step.move);
+    }
+  }
+  const auto merit = [&](const Balance& b, const Defect& d) {
+    double value = kkt_.energy(b, load);
+    for (Eigen::Index i = 0; i < penalties_.size(); ++i)
+      if (kept(i)) value += penalties_[i] * std::abs(d.conditions[i]);
+    return value;
+  };
+  const double start = merit(at, defect);
+  double longest = 0;
+  for (int i = 0; i < problem_.free_nodes; ++i)
+    longest = std::max(longest, step.move.segment<3>(3 * i).norm());
+  double length = longest > longest_move_ ? longest_move_ / longest : 1;
+  for (int halving = 0; halving < kMostHalvings; ++halving, length /= 2) {
+    Balance trial = at;
+    move(trial.x, length * step.move);
+    trial.pressures += length * step.multipliers.head(regions);
+    trial.tensions += length * step.multipliers.tail(static_cast<Eigen::Index>(problem_.bands.size()));
+    Defect there = kkt_.defect(trial, load);
+    if (length == 1) {
+      Eigen::VectorXd broken = there.conditions;
+      for (Eigen::Index i = 0; i < broken.size(); ++i)
+        if (!kept(i)) broken[i] = 0;
+      move(trial.x, kkt_.correction(broken));
+      there = kkt_.defect(trial, load);
+    }
+    if (merit(trial, there) <= start + 1e-4 * length * std::min(slope, 0.0) + 1e-12 * std::abs(start)) {
+      at = trial;
+      return true;
+    }
+  }
+  return false;
+}
+
+void Newton::move(Positions& x, const Eigen::VectorXd& by) const {
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (problem_.free_index[i] >= 0) x[i] += by.segment<3>(3 * problem_.free_index[i]);
+}
+
+// Lets go of lines that would push, takes hold of lines that would be too long, and stops at the tension
+// limits.
+bool Newton::change_holds(Balance& at, const Load& load) const {
+  const double slight = 1e-9 * problem_.force_scale;
+  bool changed = false;
+  for (std::size_t b = 0; b < problem_.bands.size(); ++b) {
+    const Band& band = problem_.bands[b];
+    const bool rigid = band.law.kind == TensionLaw::Kind::rigid;
+    if (rigid && !band.movable) continue;
+    const double length = smooth_length(band, at.x), neutral = load.neutral[b], pull = at.tensions[b];
+    Hold hold = at.holds[b];
+    if (hold == Hold::length && pull < -slight)
+      hold = Hold::slack;
+    else if (hold == Hold::slack && length > neutral * (1 + 1e-9))
+      hold = Hold::length;
+    else if (hold != Hold::limit && pull > load.limit[b] + slight)
+      hold = Hold::limit;
+    else if (hold == Hold::limit && rigid && length < neutral)
+      hold = Hold::length;
+    else if (hold == Hold::limit && !rigid &&
+             law_tension(band.law, length / neutral) < load.limit[b] - slight)
+      hold = Hold::elastic;
+    changed = changed || hold != at.holds[b];
+    at.holds[b] = hold;
+  }
+  return changed;
+}
+
+}  // namespace tensegric_fit::tensegric

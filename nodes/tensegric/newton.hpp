@@ -1,0 +1,43 @@
+/// Newton's method at one load: steps, line search, and what each band does (DESIGN §4, solver 3).
+#pragma once
+
+#include "tensegric/kkt.hpp"
+
+namespace tensegric_fit::tensegric {
+
+/// How near to balance is near enough; see Defect. Tensions are held to the residual's.
+struct Tolerance {
+  double residual, volume, length;
+};
+inline constexpr Tolerance kWanted{1e-8, 1e-9,
+                                   1e-8};  ///< what counts as balanced (DESIGN §7 asks for 1e-6 in length)
+
+bool within(const Defect& defect, const Tolerance& tolerance);
+
+class Newton {
+ public:
+  Newton(const Problem& problem, Recorder& recorder);
+
+  /// Brings `at` to balance under `load`; false where `most` steps, or all that are left, do not.
+  bool settle(Balance& at, const Load& load, const Tolerance& tolerance, int most);
+
+  Kkt& kkt() { return kkt_; }
+  int iterations() const { return iterations_; }
+  bool stopped() const { return stopped_; }          ///< by the cap on all iterations, or by the caller
+  bool branch_near() const { return branch_near_; }  ///< a balance that is no minimum was passed
+
+ private:
+  bool advance(Balance& at, const Load& load, const Defect& defect, const Step& step);
+  bool change_holds(Balance& at, const Load& load) const;
+  void move(Positions& x, const Eigen::VectorXd& by) const;
+
+  const Problem& problem_;
+  Recorder& recorder_;
+  Kkt kkt_;
+  double longest_move_;  // m, of a node in a step
+  int iterations_ = 0, most_iterations_;
+  bool stopped_ = false, branch_near_ = false;
+  Eigen::VectorXd penalties_;  // of the merit function, one a condition
+};
+
+}  // namespace tensegric_fit::tensegric
