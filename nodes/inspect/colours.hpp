@@ -25,7 +25,8 @@ Colour distortion_colour(double distortion);
 std::vector<Colour> distortion_colours(const std::vector<double>& distortion);
 
 /// The same colours with a light baked in: rviz draws coloured triangle lists unlit. `light_direction` is the
-/// way the light shines; surfaces are lit softly from both sides. \pre one colour a vertex
+/// way the light shines. It is soft: surfaces fade all the way to the side that faces away, and nothing is
+/// black. \pre one colour a vertex
 std::vector<Colour> lit(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours,
                         const Eigen::Vector3d& light_direction);
 

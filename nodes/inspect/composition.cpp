@@ -10,6 +10,7 @@ namespace tensegric_fit::inspect {
 namespace {
 
 const cv::Scalar kInk(70, 66, 64), kPaper(255, 255, 255);
+constexpr int kGap = 12;  // pixels
 
 int strip_height(const cv::Mat& picture) {
   return std::max(12, picture.rows / 16);
@@ -31,7 +32,7 @@ std::string per_cent(double ratio) {
 }  // namespace
 
 cv::Mat side_by_side(const cv::Mat& left, const cv::Mat& right) {
-  const cv::Mat gap(left.rows, std::max(1, left.rows / 60), left.type(), kPaper);
+  const cv::Mat gap(left.rows, kGap, left.type(), kPaper);
   cv::Mat result;
   cv::hconcat(std::vector<cv::Mat>{left, gap, right}, result);
   return result;

@@ -65,22 +65,22 @@ cv::Mat3b shade(const geometry::TriangleMesh& mesh, const std::vector<Colour>& c
   std::vector<Eigen::Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
   for (Eigen::Vector3d& n : normals) n = axes * n;
   cv::Mat3b picture(raster.triangle.size(), cv::Vec3b(kBackground[0], kBackground[1], kBackground[2]));
-  for (int y = 0; y < picture.rows; ++y)
-    for (int x = 0; x < picture.cols; ++x) {
-      const int index = raster.triangle(y, x);
-      if (index < 0) continue;
-      const Eigen::Vector3i& t = mesh.triangles[index];
-      const Eigen::Vector3d w =
-          picture_barycentric({x + 0.5, y + 0.5}, points[t[0]], points[t[1]], points[t[2]]);
-      Eigen::Vector3d normal = Eigen::Vector3d::Zero(), rgb = Eigen::Vector3d::Zero();
-      for (int k = 0; k < 3; ++k) {
-        const Colour& colour = colours.empty() ? kNeutral : colours[t[k]];
-        normal += w[k] * normals[t[k]];
-        rgb += w[k] * Eigen::Vector3d(colour[0], colour[1], colour[2]);
-      }
-      const double light = light_on(normal.normalized());
-      for (int c = 0; c < 3; ++c) picture(y, x)[c] = cv::saturate_cast<std::uint8_t>(light * rgb[2 - c]);
+  // Every pixel is its own, so the number of threads changes nothing.
+  picture.forEach([&](cv::Vec3b& pixel, const int* at) {
+    const int y = at[0], x = at[1], index = raster.triangle(y, x);
+    if (index < 0) return;
+    const Eigen::Vector3i& t = mesh.triangles[index];
+    const Eigen::Vector3d w =
+        picture_barycentric({x + 0.5, y + 0.5}, points[t[0]], points[t[1]], points[t[2]]);
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero(), rgb = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const Colour& colour = colours.empty() ? kNeutral : colours[t[k]];
+      normal += w[k] * normals[t[k]];
+      rgb += w[k] * Eigen::Vector3d(colour[0], colour[1], colour[2]);
     }
+    const double light = light_on(normal.normalized());
+    for (int c = 0; c < 3; ++c) pixel[c] = cv::saturate_cast<std::uint8_t>(light * rgb[2 - c]);
+  });
   return picture;
 }
 

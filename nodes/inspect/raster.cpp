@@ -21,6 +21,7 @@ void draw_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
                    Raster& raster) {
   const double area = twice_area(a, b, c);
   if (area == 0) return;
+  const double scale = 1 / area;
   const auto [first_column, last_column] =
       pixels(std::min({a.x(), b.x(), c.x()}), std::max({a.x(), b.x(), c.x()}), raster.depth.cols);
   const auto [first_row, last_row] =
@@ -30,8 +31,8 @@ void draw_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
     int* triangle = raster.triangle[y];
     for (int x = first_column; x <= last_column; ++x) {
       const Eigen::Vector3d p(x + 0.5, y + 0.5, 0);
-      const double wa = twice_area(p, b, c) / area, wb = twice_area(a, p, c) / area,
-                   wc = twice_area(a, b, p) / area;
+      const double wa = scale * twice_area(p, b, c), wb = scale * twice_area(a, p, c),
+                   wc = scale * twice_area(a, b, p);
       if (wa < 0 || wb < 0 || wc < 0) continue;
       const float z = static_cast<float>(wa * a.z() + wb * b.z() + wc * c.z());
       if (z >= depth[x]) continue;
