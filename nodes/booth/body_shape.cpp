@@ -167,11 +167,12 @@ double BodyShape::reference_value(const Vector3d& p) const {
   d = smooth_union(d, arm(left),
                    0.024 + 0.036 * smooth_step((p.z() - 1.27) / 0.08));  // sharper in the armpit
   d = smooth_union(d, head(p), 0.030);
-  const double heel = ellipsoid(left - Vector3d(0.021, 0.104, 0.012), {0.039, 0.033, 0.062});
-  const double sole = ellipsoid(left - Vector3d(0.095, 0.110, 0.002), {0.098, 0.043, 0.040});
+  const double heel = ellipsoid(left - Vector3d(0.021, 0.104, 0.031), {0.040, 0.034, 0.046});
+  const double sole = ellipsoid(left - Vector3d(0.095, 0.110, 0.018), {0.098, 0.043, 0.028});
   const double instep = tapered_capsule(left, {0.035, 0.104, 0.085}, {0.120, 0.108, 0.020}, 0.034, 0.020);
   const double foot = smooth_union(smooth_union(heel, sole, 0.03), instep, 0.03);
-  return smooth_intersection(smooth_union(d, foot, 0.02), -p.z(), 0.008);
+  // Soles round off at their edges; the plane lies lower by what the rounding takes from the heels
+  return smooth_intersection(smooth_union(d, foot, 0.02), -0.0006 - p.z(), 0.030);
 }
 
 double BodyShape::value(const Vector3d& p) const {

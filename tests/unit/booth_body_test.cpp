@@ -131,6 +131,7 @@ TEST(VirtualBodyTest, MeasuresAreThoseOfAWoman) {
   EXPECT_NEAR(girth(body, "neck"), 0.31, 0.03);
   const geometry::BodyMeasures& truth = body.truth;
   EXPECT_NEAR(truth.height("stature"), 1.70, 0.001);
+  EXPECT_NEAR(geometry::bounding_box(body.mesh.vertices)[0].z(), 0, 0.0005);  // soles, as far as chords go
   EXPECT_GT(truth.height("neck"), truth.height("bust"));
   EXPECT_GT(truth.height("bust"), truth.height("underbust") + 0.02);
   EXPECT_GT(truth.height("underbust"), truth.height("waist") + 0.015);
