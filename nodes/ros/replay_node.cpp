@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "geometry/status.hpp"
 #include "ros/export_fit.hpp"
 #include "ros/parameters.hpp"
 #include "ros/scan_tag.hpp"
