@@ -15,6 +15,8 @@ constexpr double kLowest = -0.17, kHighest = 0.03;  // from the axilla
 constexpr double kMedial = 0.025, kLateral = 0.13;
 constexpr double kNeighbourhood = 0.015;  // a tip is the foremost skin within 25 mm
 constexpr double kNippleSurroundings = 0.025;
+// A nipple stands 4 to 6 mm over the skin 10 to 15 mm from it, a smooth breast of the same size 1 to 2.
+constexpr double kSharp = 0.0016;
 constexpr double kProfileReach =
     0.045;  // about a breast's radius: skin above and below that it stands out from
 
@@ -60,7 +62,14 @@ BustPoint find_bust_point(const BodyShape& body, const Trunk& trunk, Side side) 
     most = stands_out;
     best = v;
   }
-  if (best >= 0) return {tip_of_bump(body, body.mesh.vertices[best], kNippleSurroundings * s), 0.9, ""};
+  if (best >= 0) {
+    const Vector3d& foremost = body.mesh.vertices[best];
+    const Vector3d tip = tip_of_bump(body, foremost, kNippleSurroundings * s);
+    if ((tip - foremost).norm() < kNippleSurroundings * s &&
+        height_over_ring(body, tip, 0.006 * s, 0.009 * s) > kSharp * s)
+      return {tip, 0.9, ""};
+    return {apex_of_bulge(body, foremost, Vector3d::UnitX(), kNeighbourhood * s), 0.8, ""};
+  }
 
   // A flat chest: the foremost point of the half chest under the axilla.
   BustPoint flat{{middle.x(), near, axilla - 0.03 * s}, 0.3, "no breast stands out from the chest"};

@@ -6,8 +6,8 @@ namespace tensegric_fit::landmarks {
 namespace {
 
 constexpr int kPlaces = 13;  // lateral positions tried
-constexpr double kShareOfLimb =
-    0.4;  // of a limb's depth is one with the trunk at its root; fillings are shorter
+// Of a limb's depth so much is one with the trunk at its root; fillings are shorter.
+constexpr double kShareOfLimb = 0.5;
 constexpr double kApart = 0.0025;  // between sections
 constexpr int kReach = 2;          // sections each way over which lengthening is taken: 5 mm
 

@@ -83,6 +83,18 @@ Vector3d tip_of_bump(const BodyShape& body, const Vector3d& start, double radius
   return tip;
 }
 
+double height_over_ring(const BodyShape& body, const Vector3d& tip, double inner, double outer) {
+  Vector3d ring = Vector3d::Zero(), normal = Vector3d::Zero();
+  int count = 0;
+  for (int v : vertices_near(body, tip, outer)) {
+    normal += body.normals[v];
+    if ((body.mesh.vertices[v] - tip).norm() < inner) continue;
+    ring += body.mesh.vertices[v];
+    ++count;
+  }
+  return count == 0 || normal.norm() < 1e-9 ? 0 : normal.normalized().dot(tip - ring / count);
+}
+
 Vector3d apex_of_bulge(const BodyShape& body, const Vector3d& start, const Vector3d& direction,
                        double radius) {
   Vector3d apex = start;

@@ -18,6 +18,9 @@ int furthest_vertex(const BodyShape& body, const std::vector<int>& among, const 
 /// `radius` of it, averaged over the last millimetre or so.
 Eigen::Vector3d tip_of_bump(const BodyShape& body, const Eigen::Vector3d& start, double radius);
 
+/// How high a tip stands over the skin between `inner` and `outer` from it, along the mean normal.
+double height_over_ring(const BodyShape& body, const Eigen::Vector3d& tip, double inner, double outer);
+
 /// Furthest point along `direction` of a smooth bulge near `start`: apex of the quadric fitted to the skin
 /// within `radius`. Where the fit has no apex there, `start`.
 Eigen::Vector3d apex_of_bulge(const BodyShape& body, const Eigen::Vector3d& start,

@@ -1,0 +1,216 @@
+// Landmarks of a person of simple shapes: known truth, and what must hold for every body.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/status.hpp"
+#include "landmarks/find_landmarks.hpp"
+#include "landmarks/sliced_mesh.hpp"
+#include "landmarks_implicit_body.hpp"
+
+namespace tensegric_fit {
+namespace {
+
+using Eigen::Vector3d;
+using geometry::BodyMeasures;
+using geometry::TriangleMesh;
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+BodyMeasures measure(const TriangleMesh& mesh) {
+  return landmarks::find_landmarks(mesh, {}, {});
+}
+
+TriangleMesh moved(TriangleMesh mesh, const Eigen::Isometry3d& motion) {
+  for (Vector3d& v : mesh.vertices) v = motion * v;
+  return mesh;
+}
+
+Eigen::Isometry3d motion_of(double yaw, double tilt, double tilt_towards, const Vector3d& shift) {
+  const Vector3d axis(-std::sin(tilt_towards), std::cos(tilt_towards), 0);
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() =
+      (Eigen::AngleAxisd(tilt, axis) * Eigen::AngleAxisd(yaw, Vector3d::UnitZ())).toRotationMatrix();
+  motion.translation() = shift;
+  return motion;
+}
+
+double angle(const Vector3d& a, const Vector3d& b) {
+  return std::acos(std::min(1.0, a.dot(b))) / kDegree;
+}
+
+double girth(const BodyMeasures& measures, const std::string& name) {
+  for (const geometry::Measure& m : measures.girths)
+    if (m.name == name) return m.metres;
+  ADD_FAILURE() << "no girth " << name;
+  return 0;
+}
+
+std::string refusal_of(const TriangleMesh& mesh) {
+  try {
+    measure(mesh);
+  } catch (const geometry::Refusal& refused) {
+    return refused.code();
+  }
+  return "none";
+}
+
+TEST(Landmarks, OfASymmetricPersonAreWhereTheShapesPutThem) {
+  const BodyMeasures measures = measure(test::person_mesh());
+  for (const geometry::Landmark& l : measures.landmarks) {
+    EXPECT_TRUE(l.position.allFinite()) << l.name;
+    EXPECT_TRUE(l.confidence >= 0.5 || !l.reason.empty()) << l.name;
+  }
+  // A grid of 12 mm cuts the tops off by half a millimetre; the tip of a smooth breast is found to a few
+  // millimetres.
+  EXPECT_LT((measures.landmark("bust_point_L") - Vector3d(0.155, 0.085, 1.24)).norm(), 0.008);
+  EXPECT_LT((measures.landmark("bust_point_R") - Vector3d(0.155, -0.085, 1.24)).norm(), 0.008);
+  EXPECT_NEAR(measures.height("bust"), 1.24, 0.006);
+  EXPECT_NEAR(measures.height("hip"), 0.90, 0.01);       // buttocks' centres
+  EXPECT_NEAR(measures.height("stature"), 1.70, 0.003);  // top of the head
+  EXPECT_LT(measures.height("underbust"), 1.21);         // under the breasts' middle, above their lowest skin
+  EXPECT_GT(measures.height("underbust"), 1.15);
+  EXPECT_GT(girth(measures, "bust"), girth(measures, "underbust"));
+  EXPECT_GT(girth(measures, "underbust"), girth(measures, "waist"));
+  EXPECT_NEAR(girth(measures, "neck"), 2 * 3.14159 * 0.053,
+              0.03);  // a capsule of radius 50 to 55 mm, melted into the shoulders
+  EXPECT_NEAR(measures.landmark("crotch").y(), 0, 0.01);
+  // The arm melts into the trunk over 20 mm, so its root is no sharper than that.
+  EXPECT_NEAR(measures.landmark("axilla_L").z(), measures.landmark("axilla_R").z(), 0.015);
+}
+
+TEST(Landmarks, WaistIsTheTrunksLeastTape) {
+  test::Parts parts;
+  parts.arms = false;
+  const TriangleMesh mesh = test::person_mesh(parts);
+  const BodyMeasures measures = measure(mesh);
+  const landmarks::SlicedMesh sliced(mesh);
+  double least = 1e9;
+  for (double z = measures.height("hip") + 0.1; z < measures.height("underbust") - 0.015; z += 0.001)
+    least = std::min(least, landmarks::tape_length({sliced.outlines_at(z).front()}));
+  EXPECT_NEAR(girth(measures, "waist"), least,
+              0.002);  // chords of a 12 mm grid make girths uneven by a millimetre
+}
+
+TEST(Landmarks, FrameComesBackWhateverTheYaw) {
+  const TriangleMesh mesh = test::person_mesh();
+  const BodyMeasures still = measure(mesh);
+  for (double yaw : {37.0, 90.0, 143.0, 200.0, 305.0}) {
+    const Eigen::Isometry3d motion = motion_of(yaw * kDegree, 0, 0, {1.3, -0.7, 0.4});
+    const BodyMeasures turned = measure(moved(mesh, motion));
+    const Eigen::Matrix3d back = (turned.body_from_scan * motion).linear();
+    EXPECT_LT(angle(back.col(0), Vector3d::UnitX()), 1.0)
+        << "yaw " << yaw;  // the marching grid is not quite symmetric
+    EXPECT_LT(
+        ((turned.body_from_scan * motion) * Vector3d(0, 0, 0) - still.body_from_scan * Vector3d(0, 0, 0))
+            .norm(),
+        0.003);
+    for (const char* level : {"bust", "underbust", "waist", "hip", "crotch", "neck"})
+      EXPECT_NEAR(turned.height(level), still.height(level), 0.002) << level << " yaw " << yaw;
+    for (const char* name : {"bust", "underbust", "waist", "hip", "neck"})
+      EXPECT_NEAR(girth(turned, name), girth(still, name), 0.003) << name << " yaw " << yaw;
+  }
+}
+
+TEST(Landmarks, ATiltIsTakenOut) {
+  const TriangleMesh mesh = test::person_mesh();
+  const BodyMeasures upright = measure(mesh);
+  for (double towards : {0.0, 100.0, 250.0}) {
+    const Eigen::Isometry3d motion = motion_of(0.6, 10 * kDegree, towards * kDegree, {0.2, 0.1, 0});
+    const BodyMeasures tilted = measure(moved(mesh, motion));
+    const Eigen::Matrix3d back = (tilted.body_from_scan * motion).linear();
+    EXPECT_LT(angle(back.col(2), Vector3d::UnitZ()), 2.5)
+        << "towards " << towards;  // what soles are good for
+    EXPECT_NEAR(tilted.height("bust"), upright.height("bust"), 0.010) << "towards " << towards;
+  }
+}
+
+TEST(Landmarks, AMirroredBodySwapsItsSides) {
+  test::Parts parts;
+  parts.left_breast_lower = 0.015;
+  const TriangleMesh mesh = test::person_mesh(parts);
+  TriangleMesh mirrored = mesh;
+  for (Vector3d& v : mirrored.vertices) v.y() = -v.y();
+  for (Eigen::Vector3i& t : mirrored.triangles) std::swap(t[1], t[2]);
+  const BodyMeasures a = measure(mesh), b = measure(mirrored);
+  EXPECT_LT(a.landmark("bust_point_L").z(), a.landmark("bust_point_R").z() - 0.008);
+  for (std::string name : {"bust_point", "buttock", "axilla", "shoulder", "underbust"}) {
+    for (bool left : {true, false}) {
+      Vector3d other = b.landmark(name + (left ? "_R" : "_L"));
+      other.y() = -other.y();
+      // Sections start at other triangles, so sums round otherwise; sampled places differ by less than a grid
+      // cell's tenth.
+      EXPECT_LT((a.landmark(name + (left ? "_L" : "_R")) - other).norm(), 0.0015) << name;
+    }
+  }
+}
+
+TEST(Landmarks, TheSameMeshGivesTheSameBits) {
+  const TriangleMesh mesh = test::person_mesh();
+  const BodyMeasures a = measure(mesh), b = measure(mesh);
+  ASSERT_EQ(a.landmarks.size(), b.landmarks.size());
+  for (std::size_t i = 0; i < a.landmarks.size(); ++i)
+    EXPECT_EQ(a.landmarks[i].position, b.landmarks[i].position);
+  for (std::size_t i = 0; i < a.girths.size(); ++i) EXPECT_EQ(a.girths[i].metres, b.girths[i].metres);
+}
+
+TEST(Landmarks, SkinThatFillsTheGapBetweenTheThighsDoesNotLowerTheCrotch) {
+  test::Parts filled;
+  filled.web_below_crotch = 0.05;
+  const BodyMeasures open = measure(test::person_mesh()), web = measure(test::person_mesh(filled));
+  EXPECT_NEAR(web.height("crotch"), open.height("crotch"), 0.010);
+  EXPECT_LT(web.find_landmark("crotch")->confidence, 0.5);
+  EXPECT_FALSE(web.find_landmark("crotch")->reason.empty());
+}
+
+TEST(Landmarks, AMannequinWithoutHeadAndArmsIsMeasuredAsFarAsItGoes) {
+  test::Parts parts;
+  parts.head = parts.arms = false;
+  const BodyMeasures measures = measure(test::person_mesh(parts));
+  EXPECT_EQ(measures.find_landmark("axilla_L"), nullptr);
+  EXPECT_NEAR(measures.height("bust"), 1.24, 0.01);
+  EXPECT_GT(girth(measures, "waist"), 0.5);
+}
+
+TEST(Landmarks, FilledSkinIsLessCertain) {
+  const TriangleMesh mesh = test::person_mesh();
+  std::vector<char> filled(mesh.vertices.size(), 0);
+  for (std::size_t v = 0; v < filled.size(); ++v)
+    filled[v] = mesh.vertices[v].x() > 0.12 && mesh.vertices[v].y() > 0;
+  const BodyMeasures measures = landmarks::find_landmarks(mesh, filled, {});
+  EXPECT_LT(measures.find_landmark("bust_point_L")->confidence, 0.5);
+  EXPECT_GE(measures.find_landmark("bust_point_R")->confidence, 0.5);
+}
+
+TEST(Landmarks, WhatIsNoStandingBodyIsRefused) {
+  const auto mesh = [](const test::Distance& d) {
+    return test::surface_of(d, {-0.55, -0.55, -0.05}, {0.55, 0.55, 1.75}, 0.03);
+  };
+  EXPECT_EQ(refusal_of(TriangleMesh()), "not_a_body");
+  const TriangleMesh box = mesh([](const Vector3d& p) {
+    return std::max({std::abs(p.x()) - 0.2, std::abs(p.y()) - 0.3, std::abs(p.z() - 0.85) - 0.84});
+  });
+  EXPECT_EQ(refusal_of(box), "not_a_body");
+  EXPECT_EQ(refusal_of(mesh([](const Vector3d& p) { return (p - Vector3d(0, 0, 0.6)).norm() - 0.5; })),
+            "not_a_body");
+  const TriangleMesh fish = mesh([](const Vector3d& p) {  // on its tail, which has two tips
+    double d = test::ellipsoid(p, {0, 0, 1.0}, {0.08, 0.2, 0.7});
+    for (double side : {1.0, -1.0})
+      d = test::melt(d, test::capsule(p, {0, 0, 0.35}, {0, side * 0.2, 0.1}, 0.05, 0.04));
+    return d;
+  });
+  EXPECT_EQ(refusal_of(fish), "not_a_body");
+
+  const TriangleMesh person = test::person_mesh();
+  Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
+  turned.linear() = Eigen::AngleAxisd(180 * kDegree, Vector3d::UnitX()).toRotationMatrix();
+  EXPECT_EQ(refusal_of(moved(person, turned)), "not_a_body") << "upside down";
+  turned.linear() = Eigen::AngleAxisd(90 * kDegree, Vector3d::UnitX()).toRotationMatrix();
+  EXPECT_EQ(refusal_of(moved(person, turned)), "not_a_body") << "lying";
+  TriangleMesh in_millimetres = person;
+  for (Vector3d& v : in_millimetres.vertices) v *= 1000;
+  EXPECT_EQ(refusal_of(in_millimetres), "wrong_unit");
+}
+
+}  // namespace
+}  // namespace tensegric_fit
