@@ -13,7 +13,10 @@ struct Options {
   int control_triangles = 120;  ///< at least; the template is subdivided (x4) until it has that many
 };
 
-/// \throw Refusal missing_part:<landmark>, not_a_body, bad_option
+/// Nodes at landmarks and on the rim lie on the skin, the others up to 3 mm off it: so the patch holds as
+/// much as the body below it, within 2 %.
+///
+/// \throw Refusal missing_part:<landmark>, not_a_body, non_finite, bad_mesh, bad_option
 geometry::ControlMesh fit_template(const Template& pattern, const geometry::TriangleMesh& body,
                                    const geometry::BodyMeasures& measures, const Options& options);
 

@@ -18,8 +18,8 @@ int node_at(const Template& pattern, int row, int column, Side side);
 /// `name` as it reads on a side: on her right _L and _R change places; names without a side stay.
 std::string name_on(const std::string& name, Side side);
 
-/// The control mesh with names, flags, triangles, regions and lines, but all nodes at the origin. Triangles
-/// run counter-clockwise for columns that go from her left over the front. \throw Refusal unknown_line
+/// The control mesh with names, flags, triangles and regions, but all nodes at the origin. Triangles
+/// run counter-clockwise for columns that go from her left over the front.
 geometry::ControlMesh grid_of(const Template& pattern);
 
 }  // namespace tensegric_fit::control_mesh

@@ -18,7 +18,10 @@ constexpr double kTrunkReach = 0.4;  // m from the axis; no trunk is wider
 constexpr double kBeyondLandmark = 1.35;
 
 Vector3d in_body(const geometry::BodyMeasures& measures, const std::string& landmark) {
-  return measures.body_from_scan * measures.landmark(landmark);
+  const Vector3d p = measures.body_from_scan * measures.landmark(landmark);
+  if (!p.allFinite())
+    throw geometry::Refusal(geometry::refusal::kNonFinite, "the landmark " + landmark + " is not finite");
+  return p;
 }
 
 class Placer {

@@ -12,6 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 constexpr double kCell = 0.02;    // m; a few body triangles (about 7 mm) a cell
+constexpr int kMostCells = 200;   // along an axis, whatever the mesh's size
 constexpr double kOnEdge = 1e-9;  // barycentric: a ray in the plane of symmetry runs exactly along edges
 constexpr double kOnLoop = 1e-6;  // m; a point of the skin lies on a section through it
 constexpr double kAside = 0.06;   // m; how far the way between two nodes swings out of their box
@@ -109,7 +110,8 @@ std::vector<Vector3d> divide(const std::vector<Vector3d>& way, int count) {
 Skin::Skin(geometry::TriangleMesh surface) : surface_(std::move(surface)) {
   const auto box = geometry::bounding_box(surface_.vertices);
   corner_ = box[0];
-  cells_ = ((box[1] - box[0]) / kCell).array().floor().cast<int>() + 1;
+  cell_ = std::max(kCell, (box[1] - box[0]).maxCoeff() / kMostCells);
+  cells_ = ((box[1] - box[0]) / cell_).array().floor().cast<int>() + 1;
   triangles_in_.resize(static_cast<std::size_t>(cells_.x()) * cells_.y() * cells_.z());
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
     const Eigen::Vector3i& k = surface_.triangles[t];
@@ -124,7 +126,7 @@ Skin::Skin(geometry::TriangleMesh surface) : surface_(std::move(surface)) {
 }
 
 Eigen::Vector3i Skin::cell_of(const Vector3d& point) const {
-  const Vector3d cell = ((point - corner_) / kCell).array().floor();
+  const Vector3d cell = ((point - corner_) / cell_).array().floor();
   return cell.cwiseMax(0).cwiseMin((cells_.array() - 1).matrix().cast<double>()).cast<int>();
 }
 
@@ -178,9 +180,9 @@ std::optional<Vector3d> Skin::nearest_along(const Vector3d& from, const Vector3d
 }
 
 Vector3d Skin::nearest(const Vector3d& point) const {
-  const Vector3d size = cells_.cast<double>() * kCell;
+  const Vector3d size = cells_.cast<double>() * cell_;
   const double whole = size.norm() + (point - corner_).norm();
-  for (double reach = kCell;; reach *= 2) {
+  for (double reach = cell_;; reach *= 2) {
     Vector3d best = point;
     double least = kFar;
     for (int t : triangles_near(point.array() - reach, point.array() + reach)) {

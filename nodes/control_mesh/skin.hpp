@@ -40,6 +40,7 @@ class Skin {
 
   geometry::TriangleMesh surface_;
   Eigen::Vector3d corner_;
+  double cell_;  // m
   Eigen::Vector3i cells_;
   std::vector<std::vector<int>> triangles_in_;
 };

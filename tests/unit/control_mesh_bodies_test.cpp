@@ -1,0 +1,87 @@
+// The bust template on the three test bodies, with their true landmarks.
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "control_mesh/fit_template.hpp"
+#include "geometry/ply.hpp"
+
+namespace {
+
+using namespace tensegric_fit;
+using Eigen::Vector3d;
+
+const std::string kRoot = TENSEGRIC_FIT_SOURCE_DIR;
+
+/// JSON is YAML. The bodies face -y with z up: a quarter turn takes them to the body frame.
+geometry::BodyMeasures true_measures(const std::string& path) {
+  geometry::BodyMeasures measures;
+  measures.body_from_scan.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  for (const auto& entry : YAML::LoadFile(path)["landmarks"]) {
+    const auto p = entry.second.as<std::vector<double>>();
+    measures.landmarks.push_back(
+        {entry.first.as<std::string>(), Vector3d(p.at(0), p.at(1), p.at(2)), 1.0, ""});
+  }
+  return measures;
+}
+
+class OnBody : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Open, OnBody, testing::Values("F0", "F1", "F2"));
+
+TEST_P(OnBody, ControlMeshIsAsACarefulEngineerWouldDrawIt) {
+  const std::string stem = kRoot + "/../shared/data/open/" + GetParam();
+  if (!std::filesystem::exists(stem + "_body.ply")) GTEST_SKIP() << "no test bodies here";
+  const auto body = geometry::read_ply_mesh(stem + "_body.ply");
+  const auto measures = true_measures(stem + "_truth.json");
+  const auto pattern = control_mesh::load_template(kRoot + "/launch/templates/bust.yaml");
+  const auto control = control_mesh::fit_template(pattern, body, measures, {});
+
+  const auto miss = [&](const std::string& name) {
+    return (control.outer[control.node(name)] - measures.landmark(name)).norm();
+  };
+  for (const std::string side : {"_L", "_R"}) {
+    EXPECT_LE(miss("bust_point" + side), 1e-4);
+    EXPECT_LE(miss("underbust" + side),
+              1e-3);  // the true fold points lie up to 0.8 mm off the mesh themselves
+  }
+
+  double smallest = 1e9, largest = 0, sharpest = 180;
+  for (const auto& t : control.triangles) {
+    const Vector3d &a = control.outer[t[0]], &b = control.outer[t[1]], &c = control.outer[t[2]];
+    const Vector3d area = geometry::area_vector(a, b, c);
+    smallest = std::min(smallest, area.norm());
+    largest = std::max(largest, area.norm());
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d u = control.outer[t[(k + 1) % 3]] - control.outer[t[k]];
+      const Vector3d v = control.outer[t[(k + 2) % 3]] - control.outer[t[k]];
+      sharpest = std::min(sharpest, std::atan2(u.cross(v).norm(), u.dot(v)) * 180 / M_PI);
+    }
+    EXPECT_GT(area.dot(geometry::area_vector(control.inner[t[0]], control.inner[t[1]], control.inner[t[2]])),
+              0)
+        << "an inner triangle is turned over";
+  }
+  EXPECT_GT(sharpest, 12);            // degrees
+  EXPECT_LT(largest / smallest, 12);  // measured 6 to 10: armpits need small triangles, sternums large ones
+  for (const geometry::Edge& edge : geometry::edges_of({control.outer, control.triangles})) {
+    if (edge.right < 0) continue;
+    const auto normal = [&control](int triangle) {
+      const auto& t = control.triangles[triangle];
+      return geometry::area_vector(control.outer[t[0]], control.outer[t[1]], control.outer[t[2]])
+          .normalized();
+    };
+    EXPECT_GT(normal(edge.left).dot(normal(edge.right)),
+              -0.5);  // F2's own fold is 116 degrees sharp; folded over is 180
+  }
+
+  control_mesh::Options options;
+  options.control_triangles = 1920;  // stands for the skin: 10 mm wide triangles
+  const auto fine = control_mesh::fit_template(pattern, body, measures, options);
+  const Vector3d apex = geometry::region_apex(control, control.regions[0]);
+  EXPECT_NEAR(geometry::cone_volume(control.outer, control.triangles, apex) /
+                  geometry::cone_volume(fine.outer, fine.triangles, apex),
+              1, 0.02);
+}
+
+}  // namespace
