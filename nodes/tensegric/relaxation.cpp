@@ -8,7 +8,7 @@
 namespace tensegric_fit::tensegric {
 namespace {
 
-constexpr int kMostCycles = 2000;
+constexpr int kMostCycles = 5000;
 constexpr double kSettled = 1e-7;  // largest net force / mean tensile force at rest
 constexpr int kWindow = 60;        // cycles over which an oscillation is looked for
 constexpr double kSwing = 1e-3;    // smallest swing of a line ratio or volume error that counts as one

@@ -62,7 +62,7 @@ inline geometry::ControlMesh bust_mesh(const BustShape& shape = {}) {
   control.names.resize(control.outer.size());
   const int middle = up / 2;
   const std::pair<double, const char*> named[] = {
-      {-0.8, "axilla_R"}, {-0.4, "bust_point_R"}, {0, "sternum"}, {0.4, "bust_point_L"}, {0.8, "axilla_L"}};
+      {-1, "axilla_R"}, {-0.4, "bust_point_R"}, {0, "sternum"}, {0.4, "bust_point_L"}, {1, "axilla_L"}};
   for (const auto& [s, name] : named)
     control.names[index(static_cast<int>(std::lround((s + 1) / 2 * across)), middle)] = name;
   geometry::ControlRegion bust{"bust", {}};

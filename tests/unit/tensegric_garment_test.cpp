@@ -1,0 +1,101 @@
+// Garment files: every key is checked, and the garments that the product ships are read.
+#include "tensegric/garment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::tensegric {
+namespace {
+
+class GarmentFile {
+ public:
+  explicit GarmentFile(const std::string& text)
+      : path_(std::filesystem::temp_directory_path() /
+              ("garment_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)) + ".yaml")) {
+    std::ofstream(path_) << text;
+  }
+  ~GarmentFile() { std::filesystem::remove(path_); }
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string refusal(const std::string& text) {
+  const GarmentFile file(text);
+  try {
+    load_garment(file.path());
+  } catch (const geometry::Refusal& r) {
+    EXPECT_EQ(r.code(), geometry::refusal::kBadGarment);
+    return r.what();
+  }
+  ADD_FAILURE() << "not refused:\n" << text;
+  return {};
+}
+
+std::string with_line(const std::string& line) {
+  return "name: G\nregion: bust\nlines:\n  - {name: chest, " + line + "}\n";
+}
+
+TEST(Garment, ReadsEveryKey) {
+  const GarmentFile file(
+      "name: G\nregion: [bust, hips]\nlines:\n"
+      "  - {name: a, ratio: 0.9, law: rigid, through: [p, q], follow: taut, tension_limit: 2}\n"
+      "  - {name: b, law: {stiffness: 3}}\n"
+      "  - {name: c, law: {table: [[1.1, 2], [1.2, 5]]}}\n");
+  const Garment g = load_garment(file.path());
+  EXPECT_EQ(g.regions, (std::vector<std::string>{"bust", "hips"}));
+  ASSERT_EQ(g.lines.size(), 3U);
+  EXPECT_EQ(g.lines[0].ratio, 0.9);
+  EXPECT_TRUE(g.lines[0].taut);
+  EXPECT_EQ(g.lines[0].tension_limit, 2);
+  EXPECT_EQ(g.lines[0].through, (std::vector<std::string>{"p", "q"}));
+  EXPECT_EQ(g.lines[1].law.kind, TensionLaw::Kind::stiffness);
+  EXPECT_EQ(g.lines[1].law.stiffness, 3);
+  EXPECT_EQ(g.lines[1].ratio, 1);
+  EXPECT_FALSE(g.lines[1].taut);
+  ASSERT_EQ(g.lines[2].law.table.size(), 3U);  // no tension at stretch 1 is understood
+  EXPECT_EQ(g.lines[2].law.table[0], std::make_pair(1.0, 0.0));
+}
+
+TEST(Garment, RefusesByTheNameOfTheKey) {
+  EXPECT_NE(refusal("name: G\nregion: bust\nlines: [{name: a}]\ncolour: red\n").find("'colour'"),
+            std::string::npos);
+  for (const char* key : {"points", "width", "smooth"})
+    EXPECT_NE(refusal(with_line(std::string(key) + ": 1")).find("'" + std::string(key) + "'"),
+              std::string::npos);
+  EXPECT_NE(refusal(with_line("ratoi: 0.9")).find("'ratoi'"), std::string::npos);
+  EXPECT_NE(refusal(with_line("ratio: 0")).find("'ratio'"), std::string::npos);
+  EXPECT_NE(refusal(with_line("ratio: .nan")).find("'ratio'"), std::string::npos);
+  EXPECT_NE(refusal(with_line("ratio: narrow")).find("'ratio'"), std::string::npos);
+  EXPECT_NE(refusal(with_line("law: rubber")).find("'law'"), std::string::npos);
+  EXPECT_NE(refusal(with_line("law: {stiffness: -1}")).find("'stiffness'"), std::string::npos);
+  EXPECT_NE(refusal(with_line("law: {table: [[1.2, 3], [1.1, 4]]}")).find("'table'"), std::string::npos);
+  EXPECT_NE(refusal(with_line("law: {table: [[1.2, 3, 4]]}")).find("'table'"), std::string::npos);
+  EXPECT_NE(refusal(with_line("follow: air")).find("'follow'"), std::string::npos);
+  EXPECT_NE(refusal(with_line("through: [a]")).find("'through'"), std::string::npos);
+  EXPECT_NE(refusal(with_line("tension_limit: -3")).find("'tension_limit'"), std::string::npos);
+  EXPECT_NE(refusal("name: G\nlines: [{name: a}]\n").find("'region'"), std::string::npos);
+  EXPECT_NE(refusal("name: G\nregion: bust\n").find("'lines'"), std::string::npos);
+  EXPECT_NE(refusal("name: G\nregion: bust\nlines: [{name: a}, {name: a}]\n").find("'a'"), std::string::npos);
+  EXPECT_NE(refusal("- a\n").find("map"), std::string::npos);
+  EXPECT_THROW(load_garment("/nowhere/garment.yaml"), geometry::Refusal);
+}
+
+TEST(Garment, ShippedGarmentsAreRead) {
+  for (const char* name : {"B1", "B2", "B3", "B4"}) {
+    const Garment g =
+        load_garment(std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/garments/" + name + ".yaml");
+    EXPECT_EQ(g.name, name);
+    EXPECT_EQ(g.regions, std::vector<std::string>{"bust"});
+    EXPECT_FALSE(g.lines.empty());
+  }
+}
+
+}  // namespace
+}  // namespace tensegric_fit::tensegric

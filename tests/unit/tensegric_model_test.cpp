@@ -1,0 +1,189 @@
+// The tensegric model: counts, prestress, and derivatives of its energy, volumes and lines.
+#include "tensegric/model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <random>
+
+#include "geometry/status.hpp"
+#include "tensegric/band.hpp"
+#include "tensegric/members.hpp"
+#include "tensegric/region_volume.hpp"
+#include "tensegric_bust.hpp"
+
+namespace tensegric_fit::tensegric {
+namespace {
+
+TEST(Model, CountsOfTheBust) {
+  const Model model = build_model(bust_mesh(), {});
+  EXPECT_EQ(model.control.outer.size(), 77U);
+  EXPECT_EQ(model.control.triangles.size(), 120U);
+  EXPECT_EQ(model.struts(), 360);
+  EXPECT_EQ(model.tensile_parts(), 469);
+  EXPECT_EQ(model.free_nodes(), 90);  // 45 within the rim, in both layers
+  BustShape shape;
+  shape.rim_inner_fixed = false;
+  EXPECT_EQ(3 * build_model(bust_mesh(shape), {}).free_nodes(), 366);
+}
+
+TEST(Model, PrestressBalancesWithTheRightSigns) {
+  for (double thinner : {1.0, 0.5}) {
+    for (bool rim_inner_fixed : {true, false}) {
+      BustShape shape;
+      shape.rim_inner_fixed = rim_inner_fixed;
+      geometry::ControlMesh control = bust_mesh(shape);
+      for (std::size_t i = 0; i < control.outer.size(); ++i)
+        control.inner[i] = control.outer[i] + thinner * (control.inner[i] - control.outer[i]);
+      const Model model = build_model(control, {});
+      const Positions rest = model.rest_positions();
+      double highest = 0;
+      for (const Member& m : model.members) {
+        const double force = tension(model, m, m.rest);
+        highest = std::max(highest, std::abs(force));
+        if (m.strut)
+          EXPECT_LE(force, 0);
+        else
+          EXPECT_GT(force, 0);
+        EXPECT_GT(m.natural, 0);
+      }
+      Eigen::VectorXd gradient = Eigen::VectorXd::Zero(3 * model.free_nodes());
+      add_member_gradient(model, rest, model.free_index(), gradient);
+      EXPECT_LE(gradient.cwiseAbs().maxCoeff(), 1e-12 * highest);
+      EXPECT_NEAR(model.mean_tension(), ModelOptions().prestress, 1e-12);
+    }
+  }
+}
+
+TEST(Model, RefusesWhatCannotStand) {
+  const auto code = [](const geometry::ControlMesh& control, const ModelOptions& options) {
+    try {
+      build_model(control, options);
+    } catch (const geometry::Refusal& r) {
+      return r.code();
+    }
+    return std::string("built");
+  };
+  geometry::ControlMesh loose = bust_mesh();
+  loose.outer_fixed.assign(loose.outer.size(), 0);
+  loose.inner_fixed.assign(loose.outer.size(), 0);
+  EXPECT_EQ(code(loose, {}), "bad_mesh");
+  geometry::ControlMesh flat = bust_mesh();
+  flat.inner = flat.outer;
+  EXPECT_EQ(code(flat, {}), "bad_mesh");
+  ModelOptions soft;
+  soft.strut_stiffness = 0;
+  EXPECT_EQ(code(bust_mesh(), soft), "bad_option");
+}
+
+// A deformed state and a direction for differences; the seed is printed where a test fails.
+class Derivatives : public testing::Test {
+ protected:
+  Derivatives() : model(build_model(bust_mesh(), {})), free_index(model.free_index()) {
+    std::normal_distribution<double> normal(0, 1);
+    direction =
+        Eigen::VectorXd::NullaryExpr(3 * model.free_nodes(), [&](Eigen::Index) { return normal(random); });
+    do {
+      x = model.rest_positions();
+      for (std::size_t i = 0; i < x.size(); ++i)
+        if (free_index[i] >= 0)
+          for (int k = 0; k < 3; ++k) x[i][k] += 0.003 * normal(random);
+    } while (any_part_about_to_slacken());
+    std::vector<std::pair<int, int>> pairs;
+    for (const Member& m : model.members)
+      if (free_index[m.a] >= 0 && free_index[m.b] >= 0) pairs.emplace_back(free_index[m.a], free_index[m.b]);
+    hessian = std::make_unique<NodeMatrix>(model.free_nodes(), pairs);
+  }
+
+  // There the second derivative jumps.
+  bool any_part_about_to_slacken() const {
+    return std::any_of(model.members.begin(), model.members.end(), [this](const Member& m) {
+      return !m.strut && std::abs((x[m.a] - x[m.b]).norm() - m.natural) < 20 * kStep;
+    });
+  }
+
+  Positions moved(double step) const {
+    Positions y = x;
+    for (std::size_t i = 0; i < y.size(); ++i)
+      if (free_index[i] >= 0) y[i] += step * direction.segment<3>(3 * free_index[i]);
+    return y;
+  }
+
+  // Central differences of value and gradient along the direction, against gradient and second derivative.
+  template <typename Value, typename Gradient>
+  void check(const Value& value, const Gradient& gradient) const {
+    const Positions up = moved(kStep), down = moved(-kStep);
+    const Eigen::VectorXd here = gradient(x);
+    const double slope = (value(up) - value(down)) / (2 * kStep);
+    EXPECT_NEAR(here.dot(direction), slope, 1e-6 * (std::abs(slope) + here.norm()));
+    const Eigen::VectorXd change = (gradient(up) - gradient(down)) / (2 * kStep);
+    const Eigen::VectorXd product = hessian->lower().selfadjointView<Eigen::Lower>() * direction;
+    EXPECT_LE((change - product).norm(), 1e-6 * change.norm());
+  }
+
+  static constexpr double kStep =
+      1e-7;  // m; rounding and the third derivative then stay below 1e-7 of the result
+  const unsigned seed = std::random_device{}();
+  const testing::ScopedTrace trace{__FILE__, __LINE__, "seed " + std::to_string(seed)};
+  std::mt19937 random{seed};
+  Model model;
+  std::vector<int> free_index;
+  Positions x;
+  Eigen::VectorXd direction;
+  std::unique_ptr<NodeMatrix> hessian;
+};
+
+TEST_F(Derivatives, OfTheMembersEnergy) {
+  add_member_hessian(model, x, free_index, *hessian);
+  check([&](const Positions& y) { return member_energy(model, y); },
+        [&](const Positions& y) {
+          Eigen::VectorXd gradient = Eigen::VectorXd::Zero(direction.size());
+          add_member_gradient(model, y, free_index, gradient);
+          return gradient;
+        });
+}
+
+TEST_F(Derivatives, OfTheVolume) {
+  const RegionVolume region = region_volume_of(model, model.control.regions[0]);
+  EXPECT_EQ(volume_error(region, model.rest_positions()), 0);
+  add_volume_hessian(region, x, free_index, 1, *hessian);
+  check([&](const Positions& y) { return volume(region, y); },
+        [&](const Positions& y) {
+          Eigen::VectorXd gradient = Eigen::VectorXd::Zero(direction.size());
+          add_volume_gradient(region, y, free_index, 1, gradient);
+          return gradient;
+        });
+}
+
+TEST_F(Derivatives, OfALineAlsoWhereItCollapses) {
+  Garment garment;
+  garment.lines.push_back({"chest", 0.9, {}, 1, {}, false});
+  const Band band = lay_bands(model, garment)[0];
+  EXPECT_DOUBLE_EQ(smooth_length(band, x), geometry::line_length(band.nodes, x));
+  x[band.nodes[4]] = x[band.nodes[5]] + Eigen::Vector3d(2e-4, 1e-4, -3e-4);  // a segment below 1 mm
+  EXPECT_GT(smooth_length(band, x), geometry::line_length(band.nodes, x));
+  add_length_hessian(band, x, free_index, 1, *hessian);
+  check([&](const Positions& y) { return smooth_length(band, y); },
+        [&](const Positions& y) {
+          Eigen::VectorXd gradient = Eigen::VectorXd::Zero(direction.size());
+          add_length_gradient(band, y, free_index, 1, gradient);
+          return gradient;
+        });
+}
+
+TEST(Law, TableIsLinearInBetweenAndGoesOn) {
+  TensionLaw law;
+  law.kind = TensionLaw::Kind::table;
+  law.table = {{1, 0}, {1.1, 2}, {1.3, 3}};
+  EXPECT_EQ(law_tension(law, 0.8), 0);
+  EXPECT_NEAR(law_tension(law, 1.05), 1, 1e-12);
+  EXPECT_NEAR(law_tension(law, 1.2), 2.5, 1e-12);
+  EXPECT_NEAR(law_tension(law, 1.5), 4, 1e-12);
+  for (double stretch : {1.04, 1.2, 1.45})  // away from the corners; 1e-6 is far above rounding
+    EXPECT_NEAR((law_work(law, stretch + 1e-5) - law_work(law, stretch - 1e-5)) / 2e-5,
+                law_tension(law, stretch), 1e-6);
+}
+
+}  // namespace
+}  // namespace tensegric_fit::tensegric
