@@ -1,7 +1,6 @@
 #include "control_mesh/fit_template.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "control_mesh/grid.hpp"
 #include "control_mesh/inner_nodes.hpp"

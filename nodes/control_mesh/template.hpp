@@ -45,8 +45,8 @@ struct Template {
   std::vector<std::string> axis;  ///< landmarks; the vertical through their mean is the trunk's axis
   int rows = 0, columns = 0;
   std::vector<TemplateNode> nodes;
-  std::vector<std::string>
-      diagonals;  ///< rows-1 of columns/2: '\' joins (r,c) to (r+1,c+1), '/' (r+1,c) to (r,c+1)
+  /// rows-1 words of columns/2 characters: '\' joins (r,c) to (r+1,c+1), '/' joins (r+1,c) to (r,c+1)
+  std::vector<std::string> diagonals;
   std::vector<std::string> fixed;              ///< rows of columns/2+1: '#' fixed, '.' free
   bool inner_fixed = true;                     ///< are the inner nodes below fixed outer nodes fixed too
   std::vector<std::vector<double>> thickness;  ///< rows of columns/2+1, metres
