@@ -9,9 +9,6 @@
 namespace tensegric_fit::tffd {
 namespace {
 
-// The part of a border triangle's depth over which the share rises to 1.
-constexpr double kFadeDepth = 0.5;
-
 struct Border {
   bool open = false;                     // the control mesh has a rim
   std::vector<double> depth;             // per outer node: 0 on a fixed border and in fixed triangles, else 1
@@ -82,10 +79,9 @@ double share_at(const Closest& closest, const geometry::ControlMesh& control, co
     depth += closest.barycentric[k] * border.depth[t[k]];
     if (closest.barycentric[k] == 0 && border.rim[closest.triangle][k]) on_rim = true;
   }
-  // Quadratic, not a smoothstep: the control motion itself grows with depth, and the product should nowhere
-  // be much steeper.
-  const double rise = std::max(0.0, 1 - depth / kFadeDepth);
-  double share = 1 - rise * rise;
+  // Quadratic, not a smoothstep: the motion itself grows with depth, and the product should not be much
+  // steeper.
+  double share = 1 - (1 - depth) * (1 - depth);
   if (on_rim) {
     const double beyond = (closest.offset - frame.normal * frame.normal.dot(closest.offset)).norm();
     const double z = std::min(1.0, beyond / (reach * frame.radius));

@@ -18,10 +18,10 @@ struct Anchor {
 
 /// Every vertex of the body that is to follow the control mesh, ascending; all others stay where they are.
 ///
-/// The share is 1 over the moving part of the control mesh and goes to 0 at its fixed border: it rises from
-/// fixed border nodes (0) to the other nodes (1) with the barycentric coordinates of the closest point. So
-/// the skin does not tear where the control mesh ends. Past a border that is free to move, the share goes to
-/// 0 within the reach of its triangle.
+/// The share is 1 over the moving part of the control mesh and goes to 0 over the triangles at its fixed
+/// border: with the barycentric coordinates of the closest point, from fixed border nodes (0) to the other
+/// nodes (1). So the skin does not tear where the control mesh ends. Past a border that is free to move, the
+/// share goes to 0 within the reach of its triangle.
 ///
 /// A control mesh with a border carries only the skin that it lies on: vertices within reach that face as
 /// their closest triangle does, and that body edges join to the skin under its nodes without leaving that

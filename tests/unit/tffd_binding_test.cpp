@@ -96,8 +96,8 @@ TEST(Binding, ReproducesAffineMapsOverThePatch) {
     EXPECT_LT((after[anchor.vertex] - expected).norm(), 1e-12);
     full += anchor.share == 1;
   }
-  // All but half a triangle's depth along the rim: at least (1 - 1/8)(1 - 1/6) of the patch by its outline.
-  EXPECT_GT(full, 0.7 * binding.anchors().size());
+  // All over triangles without a node on the fixed rim: 6 x 4 of the patch's 8 x 6 cells, by their outline.
+  EXPECT_GT(full, 0.48 * binding.anchors().size());
 }
 
 TEST(Binding, LeavesWhatThePatchDoesNotCover) {
