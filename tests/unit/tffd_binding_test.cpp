@@ -212,6 +212,29 @@ TEST(Binding, AFreeRimFadesOutBeyondIt) {
   for (int c = 0; c < 60; ++c) EXPECT_LT(std::abs(lift(c + 1) - lift(c)), 0.0015) << c;
 }
 
+TEST(Binding, FixedNodesOfAClosedControlMeshHoldTheirSkin) {
+  geometry::ControlMesh control = ball();
+  Points outer = control.outer, inner = control.inner;
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    const bool below = control.outer[i].z() < 0.01;
+    control.outer_fixed[i] = control.inner_fixed[i] = below;
+    if (!below) outer[i].z() += 0.02, inner[i].z() += 0.02;
+  }
+  const geometry::TriangleMesh body = sphere(0.1, 60);
+  const Points after = Binding(body, control, {}).deform(outer, inner);
+  for (std::size_t v = 0; v < after.size(); ++v)
+    if (body.vertices[v].z() < -0.001) EXPECT_TRUE(same_bits(after[v], body.vertices[v]));
+  EXPECT_NEAR(after[0].z(), 0.12, 1e-3);  // the pole; the fixed half is near the end of its triangles' reach
+  // The nodes' motion rises by 20 mm over the 50 mm between two bands of them: 2.1 mm an edge, and the share
+  // makes it steeper.
+  for (const geometry::Edge& edge : geometry::edges_of(body)) {
+    const double step =
+        (after[edge.first] - body.vertices[edge.first] - after[edge.second] + body.vertices[edge.second])
+            .norm();
+    EXPECT_LT(step, 2 * 0.02 / 0.05 * (body.vertices[edge.first] - body.vertices[edge.second]).norm());
+  }
+}
+
 TEST(PaperSetting, OneTriangleByHand) {
   geometry::ControlMesh control;
   control.outer = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
