@@ -18,6 +18,12 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 // Bare soles bear a person on a hand's breadth, so their plane is good to a degree or two. A booth's own
 // vertical is better wherever the two agree that far.
 constexpr double kTiltOfSoles = 2.5 * kDegree;
+// The line of gravity falls some 35 mm behind the middle of the skin of feet and ankles: so much a metre of
+// the centre's height.
+constexpr double kBehindFeet = 0.038;
+// Swaying, stooping and uneven weight leave balance uncertain by this much; soles that say more were not
+// seen.
+constexpr double kTiltOfBalance = 3 * kDegree;
 constexpr double kMostTilt = 25 * kDegree;  // DESIGN §2 promises 15
 
 // Centre of the volume, as if the body were of one density.
@@ -104,15 +110,6 @@ Vector3d up_from_soles(const TriangleMesh& mesh, const Vector3d& roughly_up) {
   return up;
 }
 
-Vector3d find_up(const TriangleMesh& mesh) {
-  const Vector3d balanced = up_from_balance(mesh);
-  if (balanced.z() < std::cos(kMostTilt))
-    throw geometry::Refusal(geometry::refusal::kNotABody,
-                            "not a standing body: its weight is not above its feet");
-  const Vector3d up = up_from_soles(mesh, balanced);
-  return up.z() > std::cos(kTiltOfSoles) ? Vector3d::UnitZ() : up;
-}
-
 TriangleMesh moved(const TriangleMesh& mesh, const Eigen::Isometry3d& motion) {
   TriangleMesh result = mesh;
   for (Vector3d& v : result.vertices) v = motion * v;
@@ -169,31 +166,63 @@ double reach_of_chest(const BodyLevels& body, const Vector2d& forward) {
   return (middle(0.71) - middle(0.51)) / body.stature;
 }
 
+struct Front {
+  Vector2d forward;
+  double confidence;
+  std::string reason;
+};
+
+// Of the two ways across the widest direction, the one that the feet point; the chest confirms.
+Front find_front(const BodyLevels& levels) {
+  const Vector2d left = widest_direction(levels);
+  Front front{{left.y(), -left.x()}, 0.4, ""};
+  const double feet = reach_of_feet(levels, front.forward), chest = reach_of_chest(levels, front.forward);
+  const bool feet_tell = std::abs(feet) > 0.008;
+  if ((feet_tell ? feet : chest) < 0) front.forward = -front.forward;
+  if (feet_tell) {
+    front.confidence = feet * chest > 0 ? 0.95 : 0.6;
+  } else {
+    front.reason = "the feet do not tell front from back; judged by the chest alone";
+  }
+  return front;
+}
+
+Eigen::Isometry3d upright_for(const Vector3d& up) {
+  Eigen::Isometry3d upright = Eigen::Isometry3d::Identity();
+  upright.linear() = Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitZ()).toRotationMatrix();
+  return upright;
+}
+
 }  // namespace
 
 BodyFrame find_body_frame(const TriangleMesh& body) {
-  Eigen::Isometry3d upright = Eigen::Isometry3d::Identity();
-  upright.linear() = Eigen::Quaterniond::FromTwoVectors(find_up(body), Vector3d::UnitZ()).toRotationMatrix();
+  // 1. Up from balance, good to a few degrees: enough to see which way the feet point.
+  const Vector3d balanced = up_from_balance(body);
+  if (balanced.z() < std::cos(kMostTilt))
+    throw geometry::Refusal(geometry::refusal::kNotABody,
+                            "not a standing body: its weight is not above its feet");
+  const Eigen::Isometry3d roughly = upright_for(balanced);
+  const Front rough_front = find_front(find_levels(SlicedMesh(moved(body, roughly))));
+
+  // 2. Up from the soles, where they agree with balance; the scan's own vertical, where it agrees with that.
+  const Vector3d forward =
+      roughly.linear().transpose() * Vector3d(rough_front.forward.x(), rough_front.forward.y(), 0);
+  const Vector3d corrected = (balanced + kBehindFeet * forward).normalized();
+  const Vector3d soles = up_from_soles(body, corrected);
+  const Vector3d up = soles.dot(corrected) > std::cos(kTiltOfBalance) ? soles : corrected;
+  const Eigen::Isometry3d upright = upright_for(up.z() > std::cos(kTiltOfSoles) ? Vector3d::UnitZ() : up);
+
+  // 3. Front and origin in that posture.
   const BodyLevels levels = find_levels(SlicedMesh(moved(body, upright)));
-
-  // The front is one of two; feet tell which, the chest confirms.
-  const Vector2d left = widest_direction(levels);
-  Vector2d forward(left.y(), -left.x());
-  const double feet = reach_of_feet(levels, forward), chest = reach_of_chest(levels, forward);
-  const bool feet_tell = std::abs(feet) > 0.008;
-  if ((feet_tell ? feet : chest) < 0) forward = -forward;
-  BodyFrame frame;
-  frame.confidence = feet_tell ? (feet * chest > 0 ? 0.95 : 0.6) : 0.4;
-  if (!feet_tell) frame.reason = "the feet do not tell front from back; judged by the chest alone";
-
+  const Front front = find_front(levels);
   Vector2d origin = levels.parted().outlines.front().centroid;
   middle_of_legs(levels, 0.015, origin);
   Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
-  turned.linear() =
-      Eigen::AngleAxisd(-std::atan2(forward.y(), forward.x()), Vector3d::UnitZ()).toRotationMatrix();
+  const double yaw = std::atan2(front.forward.y(), front.forward.x());
+  turned.linear() = Eigen::AngleAxisd(-yaw, Vector3d::UnitZ()).toRotationMatrix();
   const double floor = levels.levels.front().height - levels.step / 2;
-  frame.body_from_scan = turned * Eigen::Translation3d(-origin.x(), -origin.y(), -floor) * upright;
-  return frame;
+  return {turned * Eigen::Translation3d(-origin.x(), -origin.y(), -floor) * upright, front.confidence,
+          front.reason};
 }
 
 }  // namespace tensegric_fit::landmarks

@@ -30,13 +30,18 @@ TriangleMesh in_frame(const TriangleMesh& mesh, const Eigen::Isometry3d& frame) 
 // Collects results in the body's frame and gives them out in the scan's.
 class Record {
  public:
-  Record(const BodyShape& body, const std::vector<char>& filled, const Eigen::Isometry3d& body_from_scan)
-      : body_(body), filled_(filled), scan_from_body_(body_from_scan.inverse()) {
-    measures_.body_from_scan = body_from_scan;
+  Record(const BodyShape& body, const std::vector<char>& filled, const BodyFrame& frame)
+      : body_(body), filled_(filled), frame_(frame), scan_from_body_(frame.body_from_scan.inverse()) {
+    measures_.body_from_scan = frame.body_from_scan;
   }
 
   void landmark(const std::string& name, const Vector3d& point, double confidence = 0.9,
                 std::string reason = "") {
+    if (frame_.confidence <
+        std::min(confidence, 0.5)) {  // front and back may be swapped, and so left and right
+      confidence = frame_.confidence;
+      reason = frame_.reason;
+    }
     if (unseen(point) && confidence > 0.45) {
       confidence = 0.45;
       reason = "the scan did not see the skin there";
@@ -73,6 +78,7 @@ class Record {
 
   const BodyShape& body_;
   const std::vector<char>& filled_;
+  const BodyFrame& frame_;
   Eigen::Isometry3d scan_from_body_;
   BodyMeasures measures_;
 };
@@ -184,7 +190,7 @@ BodyMeasures find_landmarks(const TriangleMesh& mesh, const std::vector<char>& f
   const BodyFrame frame = find_body_frame(mesh);
   const BodyShape body(in_frame(mesh, frame.body_from_scan));
   const Trunk trunk(body);
-  Record record(body, filled, frame.body_from_scan);
+  Record record(body, filled, frame);
   const double hip = lower_trunk(body, trunk, record);
   const double underbust = bust(body, trunk, record);
   waist(body, trunk, hip, underbust, record);
