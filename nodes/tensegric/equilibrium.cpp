@@ -13,7 +13,7 @@ constexpr Tolerance kOnTheWay{5e-2, 1e-4, 1e-4};  // at a load between rest and 
 constexpr double kHighestTension = 20;            // where a rigid line has no limit of its own; times k
 constexpr double kFirstRatioStep = 0.03;  // change of a neutral length in the first load step, relative
 constexpr double kShortestLoadStep = 1.0 / 1024;
-constexpr int kMostPerLoad = 30, kMostAtEnd = 80;
+constexpr int kMostPerLoad = 30, kMostAtEnd = 80, kMostCorrections = 10;
 
 class LoadPath {
  public:
@@ -108,12 +108,29 @@ class LoadPath {
         if (load_step < kShortestLoadStep) break;
       }
     }
-    if (share < 1 && !newton_.stopped()) newton_.settle(at, load_at(share), kExact, kMostAtEnd);
-    return outcome(at, share);
+    Load load = load_at(share);
+    if (share < 1 && !newton_.stopped()) newton_.settle(at, load, kExact, kMostAtEnd);
+    if (share == 1) make_true(at, load);
+    return outcome(at, load, share);
   }
 
-  Outcome outcome(const Balance& at, double share) {
-    const Load load = load_at(share);
+  // Where a segment is shorter than the smooth length can tell, the neutral lengths are moved by as much as
+  // it is off, so that the polyline's own length is what was asked for.
+  void make_true(Balance& at, Load& load) {
+    for (int i = 0; i < kMostCorrections && !newton_.stopped(); ++i) {
+      double off = 0;
+      for (std::size_t b = 0; b < bands_; ++b) {
+        const Band& band = problem_.bands[b];
+        const double wanted =
+            band.neutral * smooth_length(band, at.x) / geometry::line_length(band.nodes, at.x);
+        off = std::max(off, std::abs(wanted / load.neutral[b] - 1));
+        load.neutral[b] = wanted;
+      }
+      if (off <= kWanted.length || !newton_.settle(at, load, kExact, kMostAtEnd)) return;
+    }
+  }
+
+  Outcome outcome(const Balance& at, const Load& load, double share) {
     const Defect defect = newton_.kkt().defect(at, load);
     settled_ = share == 1 && within(defect, kWanted);
     Outcome result;
