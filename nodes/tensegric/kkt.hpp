@@ -1,4 +1,6 @@
 /// One Newton step on the conditions of balance: forces, volumes and bands together (DESIGN §4, solver 3).
+/// The second derivative is taken whole. With the members' positive semi-definite parts instead, steps past a
+/// point where the tissue snaps over were too short: 300 of them did not do what 14 do.
 #pragma once
 
 #include <Eigen/Core>

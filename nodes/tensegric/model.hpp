@@ -39,8 +39,10 @@ struct Model {
   double mean_tension() const;  ///< of the tensile parts at rest, pseudo force
 };
 
-/// Members and prestress, such that the undeformed model is in exact equilibrium.
-/// \throw Refusal bad_mesh, bad_option
+/// Members and prestress, such that the undeformed model is in exact equilibrium. Two struts cross in a side
+/// face between two triangles, which mirrors; a side face on the rim has one, so that a model is
+/// mirror-symmetric where the rim's inner nodes are fixed (else to some 10 micrometres). \throw Refusal
+/// bad_mesh, bad_option
 Model build_model(const geometry::ControlMesh& control, const ModelOptions& options);
 
 }  // namespace tensegric_fit::tensegric

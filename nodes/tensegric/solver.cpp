@@ -38,7 +38,7 @@ std::string reach_note(const std::vector<LineResult>& lines, const std::vector<B
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const LineResult& line = lines[i];
     if (bands[i].law.kind != TensionLaw::Kind::rigid || line.final <= line.neutral * (1 + 1e-6)) continue;
-    add_sentence(note, "Line " + line.name + " comes no shorter than " + millimetres(line.final) + "; " +
+    add_sentence(note, "Line " + line.name + " came down to " + millimetres(line.final) + "; " +
                            millimetres(line.neutral) + " were asked for.");
   }
   return note;
