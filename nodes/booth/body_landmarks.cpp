@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/status.hpp"
+
 namespace tensegric_fit::booth {
 namespace {
 
@@ -15,8 +17,8 @@ struct Fold {
 };
 
 Fold fold_below(const BodyShape& shape, double y, double bust_height) {
-  constexpr double kStep = 0.001;
-  constexpr int kSteps = 150, kWindow = 4;  // curvature over 8 mm, less than a fold's width
+  const double step = shape.scaled(0.001);
+  constexpr int kSteps = 220, kWindow = 4;  // curvature over 8 mm, less than a fold's width
   constexpr int kNipple = 18;               // steps to leave the hollow round the nipple behind
   const Vector3d in_plane(1, 0, 1);
   Vector3d p = shape.exit_point({shape.scaled(0.05), y, bust_height}, Vector3d::UnitX());
@@ -26,20 +28,31 @@ Fold fold_below(const BodyShape& shape, double y, double bust_height) {
     const Vector3d g = shape.gradient(p).cwiseProduct(in_plane).normalized();
     profile.push_back(p);
     turn.push_back(std::atan2(g.z(), g.x()));
-    p = shape.project(p + kStep * Vector3d(g.z(), 0, -g.x()), in_plane);
+    p = shape.project(p + step * Vector3d(g.z(), 0, -g.x()), in_plane);
   }
   Fold fold{profile.front(), 0};
   for (int i = kNipple; i + kWindow < kSteps; ++i) {
-    const double curvature = (turn[i + kWindow] - turn[i - kWindow]) / (2 * kWindow * kStep);
+    const double curvature = (turn[i + kWindow] - turn[i - kWindow]) / (2 * kWindow * step);
     if (curvature > fold.curvature) fold = {profile[i], curvature};
   }
   return fold;
 }
 
+constexpr double kFlat = 20;  // 1/m: a profile that is less concave has no fold
+
+Fold fold_under(const BodyShape& shape, const Vector3d& bust_point) {
+  const Fold fold = fold_below(shape, bust_point.y(), bust_point.z());
+  if (fold.curvature > kFlat) return fold;
+  throw geometry::Refusal(
+      geometry::refusal::kBadOption,
+      "with these body parameters a breast hangs beside the trunk, without a fold under it; "
+      "lower 'bust' or raise 'waist'");
+}
+
+// From the fold under the bust point to 55 mm towards the middle.
 Vector3d lowest_fold(const BodyShape& shape, const Vector3d& bust_point) {
   constexpr double kReach = 0.055, kStep = 0.005;
-  constexpr double kFlat = 20;  // 1/m: beside the breast the profile has no fold
-  Vector3d lowest = fold_below(shape, bust_point.y(), bust_point.z()).point;
+  Vector3d lowest = fold_under(shape, bust_point).point;
   for (double medial = kStep; medial < kReach + kStep / 2; medial += kStep) {
     const double y = bust_point.y() - std::copysign(medial, bust_point.y());
     const Fold fold = fold_below(shape, y, bust_point.z());
@@ -137,7 +150,7 @@ std::vector<geometry::Landmark> find_body_landmarks(const BodyShape& shape) {
     const BodyShape::Axis breast = shape.breast_axis(left);
     const Vector3d bust_point = shape.exit_point(breast.origin, breast.direction);
     add("bust_point" + suffix, bust_point);
-    add("underbust" + suffix, fold_below(shape, bust_point.y(), bust_point.z()).point);
+    add("underbust" + suffix, fold_under(shape, bust_point).point);
     add("fold_lowest" + suffix, lowest_fold(shape, bust_point));
     add("shoulder" + suffix,
         shape.exit_point(shape.upper_arm_axis(left).origin, Vector3d(-0.50, side * 0.46, 0.75).normalized()));

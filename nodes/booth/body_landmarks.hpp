@@ -13,6 +13,7 @@ namespace tensegric_fit::booth {
 /// fold_lowest: lowest such point from there to 55 mm towards the middle; shoulder: over the outer end of the
 /// collarbone; axilla: where trunk and arm part; crotch: lowest skin point of the mid-plane; buttock:
 /// rearmost point of either half.
+/// \throw Refusal bad_option: a breast so large that it has no fold under its bust point
 std::vector<geometry::Landmark> find_body_landmarks(const BodyShape& shape);
 
 }  // namespace tensegric_fit::booth

@@ -92,7 +92,8 @@ BodyShape::BodyShape(const BodyParameters& parameters)
     Breast& breast = breasts_[side];
     breast.size = parameters.bust * (1 + (side == 0 ? 0.5 : -0.5) * parameters.asymmetry);
     breast.sag = 1 - parameters.firmness;
-    breast.centre = kBreastCentre - Vector3d(0, 0, 0.020 * breast.sag + 0.06 * (breast.size - 1));
+    breast.centre =
+        kBreastCentre - Vector3d(0, 0.04 * (breast.size - 1), 0.020 * breast.sag + 0.06 * (breast.size - 1));
     breast.local = Eigen::AngleAxisd(-kBreastOutward, Vector3d::UnitZ()).toRotationMatrix();
     // The mound's tip: as far forward as the reach, as far down as the sag takes it there
     breast.nipple =
@@ -127,7 +128,7 @@ double BodyShape::breasts(const Vector3d& p) const {
 
 double BodyShape::trunk(const Vector3d& p) const {
   const double hips = 1 + (hip_ - 1) * bell((p.z() - 0.87) / 0.16);
-  const double girth = hips * (1 + (waist_ - 1) * bell((p.z() - 1.08) / 0.10));
+  const double girth = hips * (1 + (waist_ - 1) * bell((p.z() - 1.08) / 0.085));
   const Vector3d q(0.04 + (p.x() - 0.04) / girth, p.y() / girth, p.z());
   const double legs = smooth_union(leg_(q), leg_(mirrored(q)), 0.010);
   const auto buttock = [&q](double side) {
@@ -139,7 +140,8 @@ double BodyShape::trunk(const Vector3d& p) const {
   d += 0.006 * bell((q - Vector3d(0.139, 0, 1.050)).norm() / 0.009);   // navel
   d *= girth;
   // A crease under the breast, a gentle slope above it
-  const double k = 0.014 + 0.050 * smooth_step((p.z() - breasts_[0].centre.z() + 0.02) / 0.10);
+  const double level = (breasts_[0].centre.z() + breasts_[1].centre.z()) / 2 - 0.02;
+  const double k = 0.014 + 0.050 * smooth_step((p.z() - level) / 0.10);
   return smooth_union(d, breasts(p), k);
 }
 

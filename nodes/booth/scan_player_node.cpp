@@ -16,10 +16,10 @@ int main(int argc, char** argv) {
     return 1;
   }
   const std::string frame_id = own.param<std::string>("frame_id", "booth");
-  const double rate = own.param("rate", 0.0);  // Hz; 0: once
+  double rate = 0;  // Hz; 0: once
   constexpr double kHighestRate = 1000;
-  if (!(rate >= 0 && rate <= kHighestRate)) {
-    ROS_FATAL("parameter ~rate is %g; it must lie in [0, %g] Hz", rate, kHighestRate);
+  if ((own.hasParam("rate") && !own.getParam("rate", rate)) || !(rate >= 0 && rate <= kHighestRate)) {
+    ROS_FATAL("parameter ~rate must be a number in [0, %g] Hz", kHighestRate);
     return 1;
   }
 

@@ -38,14 +38,21 @@ Eigen::Isometry3d pose(const BodyParameters& parameters, const geometry::Triangl
   return scan_from_body;
 }
 
+// Legs, trunk and arms apart: closed and of one piece, V - E + F is 2 for a sphere and E is 3/2 F.
+void check_apart(const geometry::TriangleMesh& mesh) {
+  if (mesh.vertices.size() == mesh.triangles.size() / 2 + 2) return;
+  throw geometry::Refusal(geometry::refusal::kBadOption,
+                          "with these body parameters limbs grow into the trunk; raise 'arm_angle'");
+}
+
 }  // namespace
 
 void check_parameters(const BodyParameters& parameters) {
   check("stature", parameters.stature, 1.40, 2.00);
-  check("bust", parameters.bust, 0.75, 1.30);
+  check("bust", parameters.bust, 0.75, 1.20);
   check("firmness", parameters.firmness, 0.2, 1);
   check("asymmetry", parameters.asymmetry, -0.2, 0.2);
-  check("waist", parameters.waist, 0.85, 1.40);
+  check("waist", parameters.waist, 0.90, 1.40);
   check("hip", parameters.hip, 0.90, 1.25);
   check("arm_angle", parameters.arm_angle, 0.25, 0.80);
   check("yaw", parameters.yaw, -M_PI, M_PI);
@@ -57,6 +64,7 @@ VirtualBody make_body(const BodyParameters& parameters) {
   const BodyShape shape(parameters);
   VirtualBody body;
   body.mesh = polygonise(shape, shape.scaled(kGridSpacing));
+  check_apart(body.mesh);
   body.truth.landmarks = find_body_landmarks(shape);
   body.waist_method = measure_girths(shape, body.mesh, body.truth);
 

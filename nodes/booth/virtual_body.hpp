@@ -12,10 +12,10 @@ namespace tensegric_fit::booth {
 /// in radians.
 struct BodyParameters {
   double stature = 1.70;    ///< 1.40 to 2.00; the whole body scales with it
-  double bust = 1.0;        ///< 0.75 to 1.30, size of the breasts as a length, relative to the default
+  double bust = 1.0;        ///< 0.75 to 1.20, size of the breasts as a length, relative to the default
   double firmness = 0.8;    ///< 0.2 to 1; less lets the breasts sag towards their folds
   double asymmetry = 0.0;   ///< -0.2 to 0.2; by how much the left breast is larger than the right
-  double waist = 1.0;       ///< 0.85 to 1.40, thickness of the trunk at the waist, relative to the default
+  double waist = 1.0;       ///< 0.90 to 1.40, thickness of the trunk at the waist, relative to the default
   double hip = 1.0;         ///< 0.90 to 1.25, thickness of hips and upper thighs, relative to the default
   double arm_angle = 0.40;  ///< 0.25 to 0.80, between the upper arms and the vertical
   double yaw = 0.0;         ///< -pi to pi, her facing in the scan's frame, from x towards y
@@ -36,7 +36,7 @@ struct VirtualBody {
                              ///< without one
 };
 
-/// \throw Refusal bad_option
+/// \throw Refusal bad_option: a parameter out of range, or arms that touch the trunk
 VirtualBody make_body(const BodyParameters& parameters);
 
 }  // namespace tensegric_fit::booth
