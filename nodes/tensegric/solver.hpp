@@ -48,8 +48,9 @@ struct SolverOptions {
   int max_iterations = 0;                             ///< 0: the solver's own cap
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< pseudo force on each outer node, scan frame
   std::vector<int> track;                             ///< outer nodes whose way is written into the history
-  /// relaxation, adaptive; pseudo forces / k: pull of a rigid line per stretch (P1 §3.5), and mean push at a node
-  /// per relative loss of volume (P1 §3.4). On the test bodies a line_force of 6 and more swings or blows up.
+  /// relaxation, adaptive; pseudo forces / k: pull of a rigid line per stretch (P1 §3.5), and mean push at a
+  /// node per relative loss of volume (P1 §3.4). On the test bodies a line_force of 6 and more swings or
+  /// blows up.
   double line_force = 3;
   double volume_force = 1;
 };
