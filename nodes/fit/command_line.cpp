@@ -93,6 +93,7 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
   app.add_flag("--quiet", line.quiet, "No progress");
   scan->excludes(mesh);
   control->needs(fixed);
+  fixed->needs(control);
   fixed->excludes(garment);
 
   try {

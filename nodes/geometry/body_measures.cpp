@@ -15,14 +15,17 @@ const Landmark* BodyMeasures::find_landmark(const std::string& name) const {
 const Eigen::Vector3d& BodyMeasures::landmark(const std::string& name) const {
   const Landmark* found = find_landmark(name);
   if (found == nullptr)
-    throw Refusal(std::string(refusal::kMissingPart) + ":" + name, "the landmark " + name + " was not found on the body");
+    throw Refusal(std::string(refusal::kMissingPart) + ":" + name,
+                  "the landmark " + name + " was not found on the body");
   return found->position;
 }
 
 double BodyMeasures::height(const std::string& name) const {
-  const auto found = std::find_if(heights.begin(), heights.end(), [&name](const Measure& m) { return m.name == name; });
+  const auto found =
+      std::find_if(heights.begin(), heights.end(), [&name](const Measure& m) { return m.name == name; });
   if (found == heights.end())
-    throw Refusal(std::string(refusal::kMissingPart) + ":" + name, "the " + name + " level was not found on the body");
+    throw Refusal(std::string(refusal::kMissingPart) + ":" + name,
+                  "the " + name + " level was not found on the body");
   return found->metres;
 }
 

@@ -7,9 +7,9 @@
 
 namespace tensegric_fit::geometry {
 
-/// A point on the body, in the scan's frame, metres. Confidence 0 to 1; `reason` says why when it is below 0.5.
-/// Names: bust_point_L, bust_point_R, underbust_L, underbust_R, shoulder_L, shoulder_R, neck_front, neck_back,
-/// neck_side_L, neck_side_R, axilla_L, axilla_R, crotch, navel, buttock_L, buttock_R.
+/// A point on the body, in the scan's frame, metres. Confidence 0 to 1; `reason` says why when it is below
+/// 0.5. Names: bust_point_L, bust_point_R, underbust_L, underbust_R, shoulder_L, shoulder_R, neck_front,
+/// neck_back, neck_side_L, neck_side_R, axilla_L, axilla_R, crotch, navel, buttock_L, buttock_R.
 struct Landmark {
   std::string name;
   Eigen::Vector3d position;
@@ -34,7 +34,8 @@ struct GirthLoop {
 
 /// Names after ISO 8559-1; definitions in the README of the landmarks.
 struct BodyMeasures {
-  /// Takes the scan's frame to the body's (REP 103: x forward, y to her left, z up, origin on the floor between the feet).
+  /// Takes the scan's frame to the body's (REP 103: x forward, y to her left, z up, origin on the floor
+  /// between the feet).
   Eigen::Isometry3d body_from_scan = Eigen::Isometry3d::Identity();
   std::vector<Landmark> landmarks;
   std::vector<Measure> heights;

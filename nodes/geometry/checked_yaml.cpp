@@ -23,7 +23,8 @@ void check_keys(const YAML::Node& map, std::initializer_list<const char*> known,
   if (!map.IsMap()) throw Refusal(code, where + ": must be a map");
   for (const auto& entry : map) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a word)";
-    const bool is_known = std::any_of(known.begin(), known.end(), [&key](std::string_view k) { return k == key; });
+    const bool is_known =
+        std::any_of(known.begin(), known.end(), [&key](std::string_view k) { return k == key; });
     if (!is_known) throw Refusal(code, where + ": unknown key '" + key + "'");
   }
 }
@@ -32,8 +33,8 @@ double number_in(const YAML::Node& map, const char* key, double low, double high
                  const std::string& code) {
   const double value = required<double>(map, key, where, code);
   if (!(value >= low && value <= high))
-    throw Refusal(code, where + ": '" + key + "' is " + map[key].Scalar() + ", outside [" + std::to_string(low) + ", " +
-                            std::to_string(high) + "]");
+    throw Refusal(code, where + ": '" + key + "' is " + map[key].Scalar() + ", outside [" +
+                            std::to_string(low) + ", " + std::to_string(high) + "]");
   return value;
 }
 

@@ -31,7 +31,8 @@ void check_control_mesh(const ControlMesh& control) {
         throw Refusal(refusal::kBadMesh, of + " of the control mesh has an index out of range");
   };
   for (const ControlRegion& region : control.regions) {
-    if (region.triangles.empty()) throw Refusal(refusal::kBadMesh, "region " + region.name + " has no triangles");
+    if (region.triangles.empty())
+      throw Refusal(refusal::kBadMesh, "region " + region.name + " has no triangles");
     check_indices(region.triangles, control.triangles.size(), "region " + region.name);
   }
   for (const ControlLine& line : control.lines) check_indices(line.nodes, count, "line " + line.name);
@@ -58,7 +59,8 @@ Eigen::Vector3d region_apex(const ControlMesh& control, const ControlRegion& reg
   return sum / count;
 }
 
-double region_volume(const ControlMesh& control, const ControlRegion& region, const std::vector<Eigen::Vector3d>& outer) {
+double region_volume(const ControlMesh& control, const ControlRegion& region,
+                     const std::vector<Eigen::Vector3d>& outer) {
   return cone_volume(outer, region_triangles(control, region), region_apex(control, region));
 }
 
@@ -97,7 +99,8 @@ std::vector<int> route_over_edges(const ControlMesh& control, const std::vector<
 
 double line_length(const std::vector<int>& nodes, const std::vector<Eigen::Vector3d>& positions) {
   double length = 0;
-  for (std::size_t i = 1; i < nodes.size(); ++i) length += (positions[nodes[i]] - positions[nodes[i - 1]]).norm();
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    length += (positions[nodes[i]] - positions[nodes[i - 1]]).norm();
   return length;
 }
 

@@ -21,8 +21,9 @@ struct ControlRegion {
   std::vector<int> triangles;
 };
 
-/// Outer nodes lie on the skin, inner node i lies below outer node i (P2 §2.1, "the supposed thickness of a soft tissue").
-/// All per-node arrays have one entry an outer node. Metres, the scan's frame; triangles counter-clockwise from outside.
+/// Outer nodes lie on the skin, inner node i lies below outer node i (P2 §2.1, "the supposed thickness of a
+/// soft tissue"). All per-node arrays have one entry an outer node. Metres, the scan's frame; triangles
+/// counter-clockwise from outside.
 struct ControlMesh {
   std::vector<Eigen::Vector3d> outer;
   std::vector<Eigen::Vector3d> inner;
@@ -37,7 +38,8 @@ struct ControlMesh {
   int node(const std::string& name) const;
 };
 
-/// \throw Refusal bad_mesh: sizes that do not fit each other, indices out of range, no region, a non-manifold edge.
+/// \throw Refusal bad_mesh: sizes that do not fit each other, indices out of range, no region, a non-manifold
+/// edge.
 void check_control_mesh(const ControlMesh& control);
 
 /// The region's own triangles.
@@ -47,10 +49,11 @@ std::vector<Eigen::Vector3i> region_triangles(const ControlMesh& control, const 
 Eigen::Vector3d region_apex(const ControlMesh& control, const ControlRegion& region);
 
 /// Volume of the region with its outer nodes at `outer`, m^3, from the apex at rest.
-double region_volume(const ControlMesh& control, const ControlRegion& region, const std::vector<Eigen::Vector3d>& outer);
+double region_volume(const ControlMesh& control, const ControlRegion& region,
+                     const std::vector<Eigen::Vector3d>& outer);
 
-/// Nodes along the shortest way over the mesh's edges that visits `stops` in order; ties go to the lower index.
-/// \throw Refusal unknown_line: two stops are in parts of the mesh that no edge joins.
+/// Nodes along the shortest way over the mesh's edges that visits `stops` in order; ties go to the lower
+/// index. \throw Refusal unknown_line: two stops are in parts of the mesh that no edge joins.
 std::vector<int> route_over_edges(const ControlMesh& control, const std::vector<int>& stops);
 
 /// Length of an open line over the nodes at `positions`.

@@ -74,7 +74,8 @@ void write_ply_mesh(const std::string& path, const TriangleMesh& mesh,
     file << "ply\nformat binary_little_endian 1.0\ncomment tensegric_fit, metres\nelement vertex "
          << mesh.vertices.size() << "\nproperty float x\nproperty float y\nproperty float z\n";
     if (coloured) file << "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-    file << "element face " << mesh.triangles.size() << "\nproperty list uchar int vertex_indices\nend_header\n";
+    file << "element face " << mesh.triangles.size()
+         << "\nproperty list uchar int vertex_indices\nend_header\n";
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       const Eigen::Vector3f p = mesh.vertices[v].cast<float>();
       file.write(reinterpret_cast<const char*>(p.data()), 3 * sizeof(float));

@@ -19,7 +19,8 @@ namespace tensegric_fit::geometry {
 /// \throw Refusal broken_file: not there, truncated, not PLY
 void read_ply(const std::string& path, pcl::PolygonMesh& mesh);
 
-/// Reads a mesh; faces with more than three corners are fanned. \throw Refusal broken_file, wrong_fields, bad_mesh
+/// Reads a mesh; faces with more than three corners are fanned. \throw Refusal broken_file, wrong_fields,
+/// bad_mesh
 TriangleMesh read_ply_mesh(const std::string& path);
 
 /// Writes binary little-endian, float32 coordinates; `colours` is empty or has one RGB triple a vertex.

@@ -21,7 +21,9 @@ double value_at(const std::uint8_t* from, bool swap) {
   return static_cast<double>(value);
 }
 
-std::size_t size_of(const Field& field) { return field.datatype == Field::FLOAT64 ? 8 : 4; }
+std::size_t size_of(const Field& field) {
+  return field.datatype == Field::FLOAT64 ? 8 : 4;
+}
 
 const Field* find_field(const pcl::PCLPointCloud2& cloud, const std::string& name) {
   const auto found = std::find_if(cloud.fields.begin(), cloud.fields.end(), [&](const Field& field) {
@@ -42,7 +44,8 @@ std::optional<std::array<const Field*, 3>> find_fields(const pcl::PCLPointCloud2
   return fields;
 }
 
-std::vector<Eigen::Vector3d> triples(const pcl::PCLPointCloud2& cloud, const std::array<const Field*, 3>& fields) {
+std::vector<Eigen::Vector3d> triples(const pcl::PCLPointCloud2& cloud,
+                                     const std::array<const Field*, 3>& fields) {
   const bool host_is_big = pcl::PCLPointCloud2().is_bigendian != 0;
   const bool swap = (cloud.is_bigendian != 0) != host_is_big;
   std::vector<Eigen::Vector3d> result;
@@ -53,7 +56,8 @@ std::vector<Eigen::Vector3d> triples(const pcl::PCLPointCloud2& cloud, const std
       Eigen::Vector3d value;
       for (int i = 0; i < 3; ++i) {
         const std::uint8_t* from = point + fields[i]->offset;
-        value[i] = fields[i]->datatype == Field::FLOAT64 ? value_at<double>(from, swap) : value_at<float>(from, swap);
+        value[i] = fields[i]->datatype == Field::FLOAT64 ? value_at<double>(from, swap)
+                                                         : value_at<float>(from, swap);
       }
       result.push_back(value);
     }
@@ -65,12 +69,14 @@ std::vector<Eigen::Vector3d> triples(const pcl::PCLPointCloud2& cloud, const std
 
 PointCloud points_of(const pcl::PCLPointCloud2& cloud) {
   const auto xyz = find_fields(cloud, {"x", "y", "z"});
-  if (!xyz) throw Refusal(refusal::kWrongFields, "the cloud has no fields x, y, z of type float32 or float64");
+  if (!xyz)
+    throw Refusal(refusal::kWrongFields, "the cloud has no fields x, y, z of type float32 or float64");
   if (cloud.width != 0 && cloud.height != 0) {
     const std::size_t row = static_cast<std::size_t>(cloud.width) * cloud.point_step;
     const std::size_t needed = static_cast<std::size_t>(cloud.height - 1) * cloud.row_step + row;
     if ((cloud.height > 1 && cloud.row_step < row) || cloud.data.size() < needed)
-      throw Refusal(refusal::kBrokenFile, "the cloud's data are shorter than its width, height and steps say");
+      throw Refusal(refusal::kBrokenFile,
+                    "the cloud's data are shorter than its width, height and steps say");
   }
   auto normals = find_fields(cloud, {"normal_x", "normal_y", "normal_z"});
   if (!normals) normals = find_fields(cloud, {"nx", "ny", "nz"});

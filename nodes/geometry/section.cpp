@@ -9,7 +9,9 @@ namespace {
 
 // The plane crosses an edge once; both triangles on it must name the crossing alike.
 using EdgeKey = std::pair<int, int>;
-EdgeKey key_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+EdgeKey key_of(int a, int b) {
+  return {std::min(a, b), std::max(a, b)};
+}
 
 struct Segment {
   EdgeKey from, to;
@@ -24,7 +26,8 @@ std::vector<SectionLoop> plane_section(const TriangleMesh& mesh, const Eigen::Ve
   for (std::size_t v = 0; v < height.size(); ++v) height[v] = normal.dot(mesh.vertices[v] - origin);
   const auto above = [&height](int v) { return height[v] >= 0; };
 
-  // A triangle is cut in one segment, from the edge that goes down through the plane to the one that comes up: inside lies to the left.
+  // A triangle is cut in one segment, from the edge that goes down through the plane to the one that comes
+  // up: inside lies to the left.
   std::vector<Segment> segments;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Eigen::Vector3i& triangle = mesh.triangles[t];
@@ -122,7 +125,8 @@ std::vector<Eigen::Vector3d> tape(const std::vector<Eigen::Vector3d>& points, co
   flat.reserve(points.size());
   for (const Eigen::Vector3d& p : points) flat.emplace_back(u.dot(p - origin), v.dot(p - origin));
   std::vector<Eigen::Vector3d> loop;
-  for (const Eigen::Vector2d& p : convex_hull(std::move(flat))) loop.push_back(origin + p.x() * u + p.y() * v);
+  for (const Eigen::Vector2d& p : convex_hull(std::move(flat)))
+    loop.push_back(origin + p.x() * u + p.y() * v);
   return loop;
 }
 

@@ -16,9 +16,9 @@ struct SectionLoop {
   bool closed;
 };
 
-/// All loops of the plane through `origin` with unit normal `normal`, in a fixed order. A vertex that lies on the plane
-/// counts as above it, so the section is always a set of simple polylines. Closed loops run counter-clockwise seen from
-/// the tip of `normal` round material that is inside.
+/// All loops of the plane through `origin` with unit normal `normal`, in a fixed order. A vertex that lies on
+/// the plane counts as above it, so the section is always a set of simple polylines. Closed loops run
+/// counter-clockwise seen from the tip of `normal` round material that is inside.
 std::vector<SectionLoop> plane_section(const TriangleMesh& mesh, const Eigen::Vector3d& origin,
                                        const Eigen::Vector3d& normal);
 
@@ -28,7 +28,8 @@ double length_of(const std::vector<Eigen::Vector3d>& points, bool closed);
 /// Convex hull in a plane, counter-clockwise, without collinear points.
 std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points);
 
-/// Convex hull of points near a plane, as a loop in 3D: a tape pulled round them. \pre normal is a unit vector
+/// Convex hull of points near a plane, as a loop in 3D: a tape pulled round them. \pre normal is a unit
+/// vector
 std::vector<Eigen::Vector3d> tape(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& normal);
 
 }  // namespace tensegric_fit::geometry

@@ -8,28 +8,30 @@ namespace tensegric_fit::geometry {
 
 /// Codes of the refusals (DESIGN §3). One name a cause; `missing_part` is followed by ":<part>".
 namespace refusal {
-inline constexpr char kBrokenFile[] = "broken_file";        ///< truncated, unreadable, or of another format
-inline constexpr char kWrongFields[] = "wrong_fields";      ///< no usable x, y, z
-inline constexpr char kEmptyCloud[] = "empty_cloud";        ///< no points at all
-inline constexpr char kNonFinite[] = "non_finite";          ///< no finite point, or NaN where none may be
-inline constexpr char kTooFewPoints[] = "too_few_points";   ///< too sparse for the resolution needed
-inline constexpr char kTooManyPoints[] = "too_many_points"; ///< more than memory is meant for
-inline constexpr char kWrongUnit[] = "wrong_unit";          ///< the size of a body in another unit than metres
-inline constexpr char kNotABody[] = "not_a_body";           ///< a shape, but not that of a standing person
-inline constexpr char kMissingPart[] = "missing_part";      ///< missing_part:<part>
-inline constexpr char kBadMesh[] = "bad_mesh";              ///< indices out of range, not manifold, not oriented
-inline constexpr char kBadGarment[] = "bad_garment";        ///< garment YAML: unknown key, value out of range
-inline constexpr char kUnknownLine[] = "unknown_line";      ///< a line or node that the control mesh does not have
-inline constexpr char kBadTemplate[] = "bad_template";      ///< control mesh template YAML
-inline constexpr char kBadOption[] = "bad_option";          ///< an option or parameter out of range
-inline constexpr char kNothingYet[] = "nothing_yet";        ///< asked for a result before there is one
+inline constexpr char kBrokenFile[] = "broken_file";         ///< truncated, unreadable, or of another format
+inline constexpr char kWrongFields[] = "wrong_fields";       ///< no usable x, y, z
+inline constexpr char kEmptyCloud[] = "empty_cloud";         ///< no points at all
+inline constexpr char kNonFinite[] = "non_finite";           ///< no finite point, or NaN where none may be
+inline constexpr char kTooFewPoints[] = "too_few_points";    ///< too sparse for the resolution needed
+inline constexpr char kTooManyPoints[] = "too_many_points";  ///< more than memory is meant for
+inline constexpr char kWrongUnit[] = "wrong_unit";      ///< the size of a body in another unit than metres
+inline constexpr char kNotABody[] = "not_a_body";       ///< a shape, but not that of a standing person
+inline constexpr char kMissingPart[] = "missing_part";  ///< missing_part:<part>
+inline constexpr char kBadMesh[] = "bad_mesh";          ///< indices out of range, not manifold, not oriented
+inline constexpr char kBadGarment[] = "bad_garment";    ///< garment YAML: unknown key, value out of range
+inline constexpr char kUnknownLine[] =
+    "unknown_line";  ///< a line or node that the control mesh does not have
+inline constexpr char kBadTemplate[] = "bad_template";  ///< control mesh template YAML
+inline constexpr char kBadOption[] = "bad_option";      ///< an option or parameter out of range
+inline constexpr char kNothingYet[] = "nothing_yet";    ///< asked for a result before there is one
 }  // namespace refusal
 
 /// Bad input, refused by name. Thrown by the cores; `fit` turns it into exit code 3 and `reason`, a node into
 /// diagnostics and a log line, and goes on serving.
 class Refusal : public std::runtime_error {
  public:
-  Refusal(std::string code, const std::string& message) : std::runtime_error(message), code_(std::move(code)) {}
+  Refusal(std::string code, const std::string& message)
+      : std::runtime_error(message), code_(std::move(code)) {}
 
   /// One of the names above.
   const std::string& code() const { return code_; }

@@ -60,8 +60,8 @@ std::vector<Eigen::Vector3d> vertex_normals(const std::vector<Eigen::Vector3d>& 
   return normals;
 }
 
-double cone_volume(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Eigen::Vector3i>& triangles,
-                   const Eigen::Vector3d& apex) {
+double cone_volume(const std::vector<Eigen::Vector3d>& vertices,
+                   const std::vector<Eigen::Vector3i>& triangles, const Eigen::Vector3d& apex) {
   double six_volumes = 0;
   for (const Eigen::Vector3i& t : triangles)
     six_volumes += (vertices[t[0]] - apex).dot((vertices[t[1]] - apex).cross(vertices[t[2]] - apex));
@@ -78,10 +78,12 @@ std::vector<Edge> edges_of(const TriangleMesh& mesh) {
     while (end < halves.size() && halves[end].low == h.low && halves[end].high == h.high) ++end;
     if (end - i > 2) throw Refusal(refusal::kBadMesh, "an edge of the mesh has more than two triangles");
     if (end - i == 2 && h.forward == halves[i + 1].forward)
-      throw Refusal(refusal::kBadMesh, "two neighbouring triangles of the mesh are oriented against each other");
+      throw Refusal(refusal::kBadMesh,
+                    "two neighbouring triangles of the mesh are oriented against each other");
     Edge edge{h.low, h.high, -1, -1};
     for (std::size_t j = i; j < end; ++j) (halves[j].forward ? edge.left : edge.right) = halves[j].triangle;
-    if (edge.left < 0) std::swap(edge.left, edge.right);  // a boundary edge that its triangle runs from high to low
+    if (edge.left < 0)
+      std::swap(edge.left, edge.right);  // a boundary edge that its triangle runs from high to low
     edges.push_back(edge);
     i = end;
   }
@@ -99,7 +101,8 @@ bool is_closed(const TriangleMesh& mesh) {
   return true;
 }
 
-std::vector<std::vector<int>> neighbours_of(std::size_t vertex_count, const std::vector<Eigen::Vector3i>& triangles) {
+std::vector<std::vector<int>> neighbours_of(std::size_t vertex_count,
+                                            const std::vector<Eigen::Vector3i>& triangles) {
   std::vector<std::vector<int>> neighbours(vertex_count);
   for (const Eigen::Vector3i& t : triangles) {
     for (int k = 0; k < 3; ++k) {

@@ -13,11 +13,13 @@ struct TriangleMesh {
   std::vector<Eigen::Vector3i> triangles;
 };
 
-/// \throw Refusal non_finite, bad_mesh: a coordinate is not finite, an index out of range, a triangle has two equal corners.
+/// \throw Refusal non_finite, bad_mesh: a coordinate is not finite, an index out of range, a triangle has two
+/// equal corners.
 void check_mesh(const TriangleMesh& mesh);
 
 /// Twice the area of a triangle times its unit normal.
-inline Eigen::Vector3d area_vector(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+inline Eigen::Vector3d area_vector(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                   const Eigen::Vector3d& c) {
   return (b - a).cross(c - a);
 }
 
@@ -25,13 +27,14 @@ inline Eigen::Vector3d area_vector(const Eigen::Vector3d& a, const Eigen::Vector
 std::vector<Eigen::Vector3d> vertex_normals(const std::vector<Eigen::Vector3d>& vertices,
                                             const std::vector<Eigen::Vector3i>& triangles);
 
-/// Sum of the tetrahedra that join `apex` to every triangle, m^3: the volume of a closed mesh whatever the apex,
-/// and the measure of an open patch's volume that P1 §3.4 uses.
-double cone_volume(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Eigen::Vector3i>& triangles,
+/// Sum of the tetrahedra that join `apex` to every triangle, m^3: the volume of a closed mesh whatever the
+/// apex, and the measure of an open patch's volume that P1 §3.4 uses.
+double cone_volume(const std::vector<Eigen::Vector3d>& vertices,
+                   const std::vector<Eigen::Vector3i>& triangles,
                    const Eigen::Vector3d& apex = Eigen::Vector3d::Zero());
 
-/// An undirected edge (first < second) with the triangles on it: `left` runs it from first to second, `right` back.
-/// On a boundary `left` is the only triangle, whichever way it runs, and `right` is -1.
+/// An undirected edge (first < second) with the triangles on it: `left` runs it from first to second, `right`
+/// back. On a boundary `left` is the only triangle, whichever way it runs, and `right` is -1.
 struct Edge {
   int first, second;
   int left, right;
@@ -45,7 +48,8 @@ std::vector<Edge> edges_of(const TriangleMesh& mesh);
 bool is_closed(const TriangleMesh& mesh);
 
 /// Vertices around each vertex (neighbours by an edge), each list ascending.
-std::vector<std::vector<int>> neighbours_of(std::size_t vertex_count, const std::vector<Eigen::Vector3i>& triangles);
+std::vector<std::vector<int>> neighbours_of(std::size_t vertex_count,
+                                            const std::vector<Eigen::Vector3i>& triangles);
 
 /// Number of the connected component (by shared vertices) of each triangle, 0 the first one met.
 std::vector<int> components_of(const TriangleMesh& mesh);

@@ -37,7 +37,8 @@ TriangleMesh sphere(double radius, int rings, int sectors) {
     for (int j = 0; j < sectors; ++j) {
       const double longitude = 2 * M_PI * j / sectors;
       mesh.vertices.emplace_back(radius * std::sin(latitude) * std::cos(longitude),
-                                 radius * std::sin(latitude) * std::sin(longitude), -radius * std::cos(latitude));
+                                 radius * std::sin(latitude) * std::sin(longitude),
+                                 -radius * std::cos(latitude));
     }
   }
   mesh.vertices.emplace_back(0, 0, radius);
@@ -55,7 +56,8 @@ TriangleMesh sphere(double radius, int rings, int sectors) {
 }
 
 std::string scratch_file(const std::string& name) {
-  return (std::filesystem::temp_directory_path() / ("tensegric_fit_" + std::to_string(getpid()) + "_" + name)).string();
+  return (std::filesystem::temp_directory_path() / ("tensegric_fit_" + std::to_string(getpid()) + "_" + name))
+      .string();
 }
 
 TEST(TriangleMesh, SphereIsClosedAndItsVolumeDoesNotDependOnTheApex) {
@@ -89,7 +91,8 @@ TEST(TriangleMesh, AnOpenMeshIsNotClosedAndItsBoundaryIsFound) {
 TEST(TriangleMesh, NormalsOfASpherePointOutwards) {
   const TriangleMesh mesh = sphere(2, 40, 60);
   const auto normals = vertex_normals(mesh.vertices, mesh.triangles);
-  for (std::size_t v = 0; v < normals.size(); ++v) EXPECT_GT(normals[v].dot(mesh.vertices[v].normalized()), 0.99);
+  for (std::size_t v = 0; v < normals.size(); ++v)
+    EXPECT_GT(normals[v].dot(mesh.vertices[v].normalized()), 0.99);
 }
 
 TEST(TriangleMesh, ComponentsAreCounted) {
@@ -154,7 +157,8 @@ TEST(Section, OfAnOpenMeshIsOneOpenPolyline) {
 
 TEST(Tape, BridgesHollows) {
   // a square with a notch: the tape is the square
-  const std::vector<Eigen::Vector3d> points{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0.5, 0.2, 1}, {0, 1, 1}, {0.5, 0, 1}};
+  const std::vector<Eigen::Vector3d> points{{0, 0, 1},     {1, 0, 1}, {1, 1, 1},
+                                            {0.5, 0.2, 1}, {0, 1, 1}, {0.5, 0, 1}};
   const auto loop = tape(points, Eigen::Vector3d::UnitZ());
   EXPECT_EQ(loop.size(), 4u);
   EXPECT_NEAR(length_of(loop, true), 4, 1e-12);
@@ -174,7 +178,8 @@ TEST(ControlMesh, VolumeOfAnOpenPatchFollowsItsNodes) {
   const double before = region_volume(control, control.regions[0], control.outer);
   auto raised = control.outer;
   raised[4].z() += 0.5;
-  EXPECT_NEAR(region_volume(control, control.regions[0], raised) - before, 4.0 * 0.5 / 3, 1e-12);  // base area 4
+  EXPECT_NEAR(region_volume(control, control.regions[0], raised) - before, 4.0 * 0.5 / 3,
+              1e-12);  // base area 4
   EXPECT_EQ(route_over_edges(control, {0, 2}), (std::vector<int>{0, 4, 2}));
   EXPECT_EQ(refusal_of([&] {
               control.triangles.pop_back();
@@ -206,13 +211,15 @@ TEST(Ply, RoundTripKeepsVertexOrder) {
 
 TEST(Ply, AHeaderThatPromisesTooMuchIsBroken) {
   const std::string path = scratch_file("promise.ply");
-  std::ofstream(path) << "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty "
-                         "float y\nproperty float z\nend_header\nabc";
+  std::ofstream(path)
+      << "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty "
+         "float y\nproperty float z\nend_header\nabc";
   EXPECT_EQ(refusal_of([&] { read_ply_mesh(path); }), "broken_file");
   std::filesystem::remove(path);
 }
 
-pcl::PCLPointCloud2 cloud_of(const std::vector<pcl::PCLPointField>& fields, std::uint32_t step, std::uint32_t count) {
+pcl::PCLPointCloud2 cloud_of(const std::vector<pcl::PCLPointField>& fields, std::uint32_t step,
+                             std::uint32_t count) {
   pcl::PCLPointCloud2 cloud;
   cloud.fields = fields;
   cloud.point_step = step;
@@ -225,7 +232,8 @@ pcl::PCLPointCloud2 cloud_of(const std::vector<pcl::PCLPointField>& fields, std:
 
 TEST(PointsOf, ReadsDoublesInAnyOrderWithPadding) {
   using F = pcl::PCLPointField;
-  pcl::PCLPointCloud2 cloud = cloud_of({{"z", 4, F::FLOAT64, 1}, {"x", 12, F::FLOAT64, 1}, {"y", 24, F::FLOAT64, 1}}, 40, 2);
+  pcl::PCLPointCloud2 cloud =
+      cloud_of({{"z", 4, F::FLOAT64, 1}, {"x", 12, F::FLOAT64, 1}, {"y", 24, F::FLOAT64, 1}}, 40, 2);
   const double xyz[2][3] = {{1, 2, 3}, {4, 5, NAN}};
   for (int i = 0; i < 2; ++i) {
     std::memcpy(&cloud.data[40 * i + 12], &xyz[i][0], 8);
@@ -241,17 +249,22 @@ TEST(PointsOf, ReadsDoublesInAnyOrderWithPadding) {
 
 TEST(PointsOf, RefusesWrongFieldsAndShortData) {
   using F = pcl::PCLPointField;
-  EXPECT_EQ(refusal_of([] { points_of(cloud_of({{"x", 0, F::FLOAT32, 1}, {"y", 4, F::FLOAT32, 1}}, 8, 3)); }),
-            "wrong_fields");
   EXPECT_EQ(refusal_of([] {
-              points_of(cloud_of({{"x", 0, F::INT32, 1}, {"y", 4, F::INT32, 1}, {"z", 8, F::INT32, 1}}, 12, 3));
+              points_of(cloud_of({{"x", 0, F::FLOAT32, 1}, {"y", 4, F::FLOAT32, 1}}, 8, 3));
             }),
             "wrong_fields");
+  EXPECT_EQ(
+      refusal_of([] {
+        points_of(cloud_of({{"x", 0, F::INT32, 1}, {"y", 4, F::INT32, 1}, {"z", 8, F::INT32, 1}}, 12, 3));
+      }),
+      "wrong_fields");
   EXPECT_EQ(refusal_of([] {
-              points_of(cloud_of({{"x", 0, F::FLOAT32, 1}, {"y", 4, F::FLOAT32, 1}, {"z", 10, F::FLOAT32, 1}}, 12, 3));
+              points_of(cloud_of({{"x", 0, F::FLOAT32, 1}, {"y", 4, F::FLOAT32, 1}, {"z", 10, F::FLOAT32, 1}},
+                                 12, 3));
             }),
             "wrong_fields");
-  pcl::PCLPointCloud2 cut = cloud_of({{"x", 0, F::FLOAT32, 1}, {"y", 4, F::FLOAT32, 1}, {"z", 8, F::FLOAT32, 1}}, 12, 3);
+  pcl::PCLPointCloud2 cut =
+      cloud_of({{"x", 0, F::FLOAT32, 1}, {"y", 4, F::FLOAT32, 1}, {"z", 8, F::FLOAT32, 1}}, 12, 3);
   cut.data.resize(30);
   EXPECT_EQ(refusal_of([&] { points_of(cut); }), "broken_file");
 }
