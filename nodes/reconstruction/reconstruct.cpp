@@ -8,6 +8,7 @@
 #include "reconstruction/poisson.hpp"
 #include "reconstruction/repair.hpp"
 #include "reconstruction/resolution.hpp"
+#include "reconstruction/sight_lines.hpp"
 #include "reconstruction/soles.hpp"
 #include "reconstruction/standing.hpp"
 #include "reconstruction/support.hpp"
@@ -20,7 +21,7 @@ namespace {
 using geometry::PointCloud;
 using geometry::TriangleMesh;
 
-constexpr double kUnseenEdge = 0.008;  // m; the edge of a foot rounds off below what the sensors see of it
+constexpr double kUnseenEdge = 0.005;  // m; the edge of a foot rounds off below what the sensors see of it
 constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher stands on something else
 
 void transform(PointCloud& cloud, const Eigen::Isometry3d& by) {
@@ -35,6 +36,11 @@ PointCloud pick(const PointCloud& cloud, const std::vector<int>& indices) {
     if (!cloud.normals.empty()) result.normals.push_back(cloud.normals[i]);
   }
   return result;
+}
+
+void append(PointCloud& cloud, const PointCloud& more) {
+  cloud.points.insert(cloud.points.end(), more.points.begin(), more.points.end());
+  cloud.normals.insert(cloud.normals.end(), more.normals.begin(), more.normals.end());
 }
 
 double lowest_of(const std::vector<Eigen::Vector3d>& points) {
@@ -74,12 +80,11 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   Eigen::Isometry3d from_scan;
   PointCloud body = standing_body(usable_points(scan, options), options, from_scan);
   const std::size_t seen = body.points.size();
-  // 3. Normals, and the soles that no sensor sees.
+  // 3. Normals, and points where no sensor sees but the shape is known.
   body.normals = outward_normals(body.points, body.normals);
-  for (const Eigen::Vector3d& p : sole_points(body.points)) {
-    body.points.push_back(p);
-    body.normals.emplace_back(0, 0, -1);
-  }
+  const PointCloud soles = sole_points(body.points);
+  append(body, sight_line_points(body));
+  append(body, soles);
   // 4. One closed surface on the points and above the ground.
   TriangleMesh mesh = one_closed_surface(poisson_surface(body, options.poisson_depth));
   fit_to_points(mesh, body);

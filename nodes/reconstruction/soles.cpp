@@ -38,7 +38,7 @@ void spread(Picture& picture, char value, int radius) {
 /// Sets what the margin cannot reach.
 void fill(Picture& picture) {
   Picture outside(picture.width, picture.height);
-  std::vector<std::pair<int, int>> front{{0, 0}};
+  std::vector<std::pair<int, int>> front(1, {0, 0});
   outside.at(0, 0) = 1;
   while (!front.empty()) {
     const auto [x, y] = front.back();
@@ -55,7 +55,7 @@ void fill(Picture& picture) {
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> sole_points(const std::vector<Eigen::Vector3d>& body) {
+geometry::PointCloud sole_points(const std::vector<Eigen::Vector3d>& body) {
   std::vector<Eigen::Vector3d> low;
   std::copy_if(body.begin(), body.end(), std::back_inserter(low),
                [](const Eigen::Vector3d& p) { return p.z() < kLow; });
@@ -71,12 +71,13 @@ std::vector<Eigen::Vector3d> sole_points(const std::vector<Eigen::Vector3d>& bod
   fill(picture);
   spread(picture, 0, kGap + kInset);
 
-  std::vector<Eigen::Vector3d> soles;
+  geometry::PointCloud soles;
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x)
       if (picture.at(x, y))
-        soles.emplace_back(box[0].x() + (x - margin + 0.5) * kPixel, box[0].y() + (y - margin + 0.5) * kPixel,
-                           0);
+        soles.points.emplace_back(box[0].x() + (x - margin + 0.5) * kPixel,
+                                  box[0].y() + (y - margin + 0.5) * kPixel, 0);
+  soles.normals.assign(soles.points.size(), -Eigen::Vector3d::UnitZ());
   return soles;
 }
 

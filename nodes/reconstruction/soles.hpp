@@ -1,14 +1,13 @@
 /// The soles, which no sensor sees.
 #pragma once
 
-#include <Eigen/Core>
-#include <vector>
+#include "geometry/point_cloud.hpp"
 
 namespace tensegric_fit::reconstruction {
 
 /// Points on z = 0, a few millimetres apart, inside the outlines that the points below 30 mm draw seen from
 /// above: with normals straight down they end the reconstruction flat on the ground, where it would bulge.
 /// None where nothing is that low.
-std::vector<Eigen::Vector3d> sole_points(const std::vector<Eigen::Vector3d>& body);
+geometry::PointCloud sole_points(const std::vector<Eigen::Vector3d>& body);
 
 }  // namespace tensegric_fit::reconstruction
