@@ -22,7 +22,7 @@ std::vector<inspect::Colour> skin_colours(const geometry::TriangleMesh& mesh,
                                           const std::vector<double>& distortion,
                                           const Eigen::Isometry3d& body_from_scan) {
   const Eigen::Vector3d light =
-      -Eigen::Vector3d(1.0, 0.5, 0.7).normalized();  // the way it shines, body frame
+      -Eigen::Vector3d(0.7, 0.8, 0.8).normalized();  // the way it shines, body frame
   return inspect::lit(mesh, plain_colours(mesh, distortion), body_from_scan.linear().transpose() * light);
 }
 

@@ -239,10 +239,10 @@ TEST_F(PipelineTest, TwoScansInARowNeverMix) {
   EXPECT_EQ(client_->deformed.back()->scan_id, b);  // the newest has the last word
   EXPECT_EQ(count_of(client_->deformed, b), 1);
 
-  // Body b is 0.1 m and more taller than body a: nothing under one id may have the size of the other.
+  // Body b is 0.08 m taller than body a: nothing under one id may have the size of the other.
   for (const Landmarks::ConstPtr& landmarks : client_->landmarks) {
-    const double wanted = landmarks->scan_id == b ? 1.78 : 1.65;
-    EXPECT_NEAR(height_of(*landmarks, "stature"), wanted, 0.06) << landmarks->scan_id;
+    const double wanted = landmarks->scan_id == b ? 1.78 : 1.70;
+    EXPECT_NEAR(height_of(*landmarks, "stature"), wanted, 0.03) << landmarks->scan_id;
   }
   for (const TriangleMesh::ConstPtr& body : client_->bodies) {
     for (const DeformedMesh::ConstPtr& deformed : client_->deformed) {

@@ -47,7 +47,7 @@ std::map<std::string, double> fit_metrics(const std::string& bag) {
   for (const geometry::Measure& height : measures.heights) metrics["height/" + height.name] = height.metres;
   for (const geometry::Measure& girth : measures.girths) metrics["girth/" + girth.name] = girth.metres;
   for (const geometry::Landmark& landmark : measures.landmarks) {
-    const Eigen::Vector3d position = measures.body_from_scan * landmark.position;
+    const Eigen::Vector3d& position = landmark.position;
     metrics["landmark/" + landmark.name + "/x"] = position.x();
     metrics["landmark/" + landmark.name + "/y"] = position.y();
     metrics["landmark/" + landmark.name + "/z"] = position.z();

@@ -1,9 +1,11 @@
 /// Messages <-> core types, and what the ROS layer decides without a master.
 #include <gtest/gtest.h>
+#include <boost/make_shared.hpp>
 
 #include <cmath>
 #include <limits>
 
+#include "geometry/status.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/fit_messages.hpp"
 #include "ros/scan_join.hpp"
@@ -147,6 +149,7 @@ TEST(FitMessages, GarmentComesBackAsItWas) {
   request.solver = "relaxation";
 
   const GarmentRequest back = request_in(to_message(std_msgs::Header(), request));
+  EXPECT_EQ(to_message(std_msgs::Header(), request).lines.at(1).law, "stiffness");
   EXPECT_EQ(back.solver, "relaxation");
   EXPECT_EQ(back.garment.name, "mine");
   EXPECT_EQ(back.garment.regions, request.garment.regions);

@@ -1,6 +1,7 @@
 /// The export of a fit, without a master.
 #include <gtest/gtest.h>
 
+#include <boost/make_shared.hpp>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
