@@ -115,8 +115,12 @@ TEST(Binding, LeavesWhatThePatchDoesNotCover) {
     const bool outside = v >= count * count || std::abs(q.x()) > 0.103 || std::abs(q.y()) > 0.083;
     // The triangles in two of the corners have fixed nodes only.
     const bool corner = std::abs(q.x()) > 0.075 && std::abs(q.y()) > 0.053;
-    if (inside && !corner) EXPECT_TRUE(binding.reaches(v)) << q.transpose();
-    if (outside) EXPECT_TRUE(!binding.reaches(v) && same_bits(after[v], q)) << q.transpose();
+    if (inside && !corner) {
+      EXPECT_TRUE(binding.reaches(v)) << q.transpose();
+    }
+    if (outside) {
+      EXPECT_TRUE(!binding.reaches(v) && same_bits(after[v], q)) << q.transpose();
+    }
     covered += inside;
   }
   EXPECT_GT(covered, 1000U);
@@ -223,7 +227,9 @@ TEST(Binding, FixedNodesOfAClosedControlMeshHoldTheirSkin) {
   const geometry::TriangleMesh body = sphere(0.1, 60);
   const Points after = Binding(body, control, {}).deform(outer, inner);
   for (std::size_t v = 0; v < after.size(); ++v)
-    if (body.vertices[v].z() < -0.001) EXPECT_TRUE(same_bits(after[v], body.vertices[v]));
+    if (body.vertices[v].z() < -0.001) {
+      EXPECT_TRUE(same_bits(after[v], body.vertices[v]));
+    }
   EXPECT_NEAR(after[0].z(), 0.12, 1e-3);  // the pole; the fixed half is near the end of its triangles' reach
   // The nodes' motion rises by 20 mm over the 50 mm between two bands of them: 2.1 mm an edge, and the share
   // makes it steeper.

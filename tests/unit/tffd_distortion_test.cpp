@@ -50,7 +50,9 @@ TEST(Distortion, OnTheSkinStaysBetweenThatOfTheNodesAndOne) {
     for (int v = 0; v < static_cast<int>(on_skin.size()); ++v) {
       EXPECT_GE(on_skin[v], *least - 1e-12);
       EXPECT_LE(on_skin[v], *most + 1e-12);
-      if (!binding.reaches(v)) EXPECT_EQ(on_skin[v], 1);
+      if (!binding.reaches(v)) {
+        EXPECT_EQ(on_skin[v], 1);
+      }
     }
   }
 }
