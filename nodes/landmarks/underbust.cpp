@@ -12,25 +12,49 @@ using Eigen::Vector3d;
 constexpr double kMedialReach = 0.055;  // metres, from the definition of the underbust level
 constexpr double kApart = 0.005;        // between two profiles
 constexpr int kReach = 8;               // millimetres each way over which a profile's hollowness is taken
+constexpr double kRim = 0.012;          // metres; the nipple's own rim is hollow too
+constexpr double kSteepest = 2;         // of a fold seen from the front
 constexpr double kBelow = 0.13;  // statures under the bust point: where the fold of a hanging breast still is
 constexpr double kHollow = 15;   // 1/m: a radius of 70 mm is a rib cage's roundness, not a fold
 
-struct Hollow {
+constexpr double kSharpest =
+    120;  // 1/m: a fold is no sharper on a mesh; more is noise, or a cut along a flank
+
+// A place on one of the profiles side by side, and the best way of a fold to it.
+struct Place {
   Vector3d point;
-  double hollowness = 0;
+  double hollowness;
+  double sum;  // of hollowness along the way
+  int before;  // on the profile before, -1 on the first
 };
 
-// Most hollow point of the profile at lateral position y, below the bust point.
-Hollow most_hollow(const BodyShape& body, const std::vector<int>& skin, const Vector3d& bust_point,
-                   double y) {
+// Places below the bust point on the profile at lateral position y, from top to bottom.
+std::vector<Place> places_below(const BodyShape& body, const std::vector<int>& skin,
+                                const Vector3d& bust_point, double y) {
   const Profile profile = cut_profile(body, skin, {bust_point.x(), y, bust_point.z()}, Vector3d::UnitX());
-  Hollow best;
+  std::vector<Place> places;
   for (int i = 0; i < static_cast<int>(profile.points.size()); ++i) {
-    if (profile.points[i].z() > bust_point.z() - 0.012) continue;  // the nipple's own rim is hollow too
-    const double hollowness = profile.hollowness(i, kReach);
-    if (hollowness > best.hollowness) best = {profile.points[i], hollowness};
+    if (profile.points[i].z() > bust_point.z() - kRim) continue;
+    const double hollowness = std::clamp(profile.hollowness(i, kReach), 0.0, kSharpest);
+    places.push_back({profile.points[i], hollowness, hollowness, -1});
   }
-  return best;
+  return places;
+}
+
+// Carries the ways on from profile to profile. False where there is nowhere to go.
+bool carry_on(const std::vector<Place>& from, std::vector<Place>& to) {
+  bool any = false;
+  for (Place& next : to) {
+    double best = -1;
+    for (int i = 0; i < static_cast<int>(from.size()); ++i) {
+      if (from[i].sum <= best || std::abs(from[i].point.z() - next.point.z()) > kSteepest * kApart) continue;
+      best = from[i].sum;
+      next.before = i;
+    }
+    next.sum = next.before < 0 ? -1 : best + next.hollowness;
+    any = any || next.before >= 0;
+  }
+  return any;
 }
 
 }  // namespace
@@ -42,20 +66,31 @@ Fold find_fold(const BodyShape& body, const Vector3d& bust_point, Side side) {
   const std::vector<int> skin = triangles_in_box(
       body, {bust_point.x() - 0.12 * s, std::min(medial, lateral), bust_point.z() - kBelow * s},
       {bust_point.x() + 0.03 * s, std::max(medial, lateral), bust_point.z() + 0.01 * s});
-  Fold fold;
-  const Hollow first = most_hollow(body, skin, bust_point, bust_point.y());
-  if (first.hollowness < kHollow) {
+  // The fold runs on smoothly from profile to profile: of all such ways the one that is most hollow in sum.
+  std::vector<std::vector<Place>> profiles;
+  for (int k = 0; k * kApart <= kMedialReach + 1e-9; ++k) {
+    profiles.push_back(places_below(body, skin, bust_point, bust_point.y() + inwards * k * kApart));
+    if (k > 0 && !carry_on(profiles[k - 1], profiles[k])) {
+      profiles.pop_back();
+      break;
+    }
+  }
+  std::vector<Place> way;
+  if (!profiles.back().empty()) {
+    const auto less = [](const Place& a, const Place& b) { return a.sum < b.sum; };
+    way.push_back(*std::max_element(profiles.back().begin(), profiles.back().end(), less));
+    for (std::size_t k = profiles.size() - 1; k-- > 0;)
+      way.insert(way.begin(), profiles[k][way.front().before]);
+  }
+  if (way.empty() || way.front().hollowness < kHollow) {
     const Vector3d guess = bust_point - 0.035 * s * Vector3d::UnitZ();
     return {guess, guess, 0.2, "no fold under the breast"};
   }
-  fold.below_bust_point = fold.lowest = first.point;
-  Vector3d last = first.point;
-  for (int k = 1; k * kApart <= kMedialReach + 1e-9; ++k) {
-    const Hollow next = most_hollow(body, skin, bust_point, bust_point.y() + inwards * k * kApart);
-    // The fold runs on smoothly; where it ends, at the sternum, the profile's hollow is elsewhere.
-    if (next.hollowness < kHollow || std::abs(next.point.z() - last.z()) > 2 * kApart) break;
-    if (next.point.z() < fold.lowest.z()) fold.lowest = next.point;
-    last = next.point;
+  Fold fold;
+  fold.below_bust_point = fold.lowest = way.front().point;
+  for (const Place& place : way) {
+    if (place.hollowness < kHollow) break;  // the fold ends at the sternum
+    if (place.point.z() < fold.lowest.z()) fold.lowest = place.point;
   }
   fold.confidence = 0.9;
   return fold;
