@@ -101,7 +101,7 @@ void check_proportions(const BodyLevels& body, int middle) {
   const Outline& trunk = trunk_level.outlines[trunk_level.trunk];
   if (trunk.area < 0.004 * square || trunk.area > 0.12 * square)  // girths of about 0.22 and 1.2 statures
     refuse("its middle has not the size of a trunk");
-  const Level& knees = body.levels[body.nearest(0.28 * body.stature)];
+  const Level& knees = body.levels[body.nearest(body.levels.front().height + 0.28 * body.stature)];
   if (knees.legs[0] < 0 || knees.legs[1] < 0)
     throw Refusal(std::string(refusal::kMissingPart) + ":legs", "the legs end above the knees");
   for (int k = 0; k < 2; ++k) {
