@@ -142,7 +142,7 @@ class LoadPath {
       const bool stuck =
           !band.movable && band.law.kind == TensionLaw::Kind::rigid && band.neutral < band.initial;
       at_limit_ = at_limit_ || stuck || at.holds[b] == Hold::limit;
-      result.state.tensions.push_back(std::max(0.0, at.tensions[b]));
+      result.state.tensions.push_back(at.holds[b] == Hold::slack ? 0 : std::max(0.0, at.tensions[b]));
     }
     result.status = !settled_ ? Status::capped : at_limit_ ? Status::infeasible : Status::converged;
     if (newton_.branch_near())

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tensegric/members.hpp"
 
@@ -111,11 +112,15 @@ void Kkt::assemble(const Balance& at) {
                        -at.pressures[r] / problem_.volumes[r].area, hessian_);
 }
 
+bool Kkt::usable() const {
+  return factor_.info() == Eigen::Success && factor_.vectorD().allFinite();
+}
+
 // Factorises and forms the Schur complement; true where the balance is a minimum under its conditions: by the
 // law of inertia, where the matrix has as many negative pivots as the complement has negative eigenvalues.
 bool Kkt::factorise(const Balance& at, const Load& load) {
   factor_.factorize(hessian_.lower());
-  if (factor_.info() != Eigen::Success || !factor_.vectorD().allFinite()) return false;
+  if (!usable()) return false;
   solved_ = factor_.solve(jacobian_);
   const int count = regions_ + bands_;
   by_length_.setOnes(count);
@@ -153,7 +158,7 @@ Step Kkt::step(const Balance& at, const Load& load, const Defect& defect, bool t
   jacobian(at.x);
   assemble(at);
   result.minimum = factorise(at, load);
-  if (!result.minimum && !to_saddle) {
+  if (!result.minimum && !(to_saddle && usable())) {
     raise_ = std::max(least_raise_, raise_ / 8);
     hessian_.add_to_diagonal(raise_);
     for (int tries = 0; tries < kMostRaises && !factorise(at, load); ++tries) {
@@ -161,9 +166,15 @@ Step Kkt::step(const Balance& at, const Load& load, const Defect& defect, bool t
       raise_ *= 3;
     }
   }
+  if (!usable()) {
+    result.move.setConstant(jacobian_.rows(), std::numeric_limits<double>::quiet_NaN());
+    return result;
+  }
   const Eigen::VectorXd free_move = factor_.solve(defect.gradient);
-  result.multipliers =
-      schur_factor_.solve(defect.conditions - by_length_.asDiagonal() * (jacobian_.transpose() * free_move));
+  const Eigen::VectorXd wanted =
+      defect.conditions - by_length_.asDiagonal() * (jacobian_.transpose() * free_move);
+  result.multipliers = schur_factor_.solve(wanted);
+  result.left_over = wanted - schur_ * result.multipliers;
   result.move = -(free_move + solved_ * result.multipliers);
   return result;
 }

@@ -48,6 +48,7 @@ struct Defect {
 struct Step {
   Eigen::VectorXd move;         ///< by the free nodes
   Eigen::VectorXd multipliers;  ///< change of pressures, then of tensions
+  Eigen::VectorXd left_over;    ///< of the conditions, as far as they contradict each other
   bool minimum = true;  ///< the balance is a minimum of the energy as far as the second derivative tells
 };
 
@@ -58,7 +59,7 @@ class Kkt {
   Defect defect(const Balance& at, const Load& load) const;
 
   /// Newton's step. Where the second derivative is no minimum's, its diagonal is raised until it is one's, so
-  /// that the step leads downhill; with `to_saddle` it is left as it is.
+  /// that the step leads downhill; with `to_saddle` it is left as it is. Not finite where there is no step.
   Step step(const Balance& at, const Load& load, const Defect& defect, bool to_saddle);
 
   /// A move of least effort that takes `conditions` to zero, by the matrix of the last step.
@@ -75,6 +76,7 @@ class Kkt {
 
  private:
   void assemble(const Balance& at);
+  bool usable() const;
   bool factorise(const Balance& at, const Load& load);
   void jacobian(const Positions& x);
 

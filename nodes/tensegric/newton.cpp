@@ -47,6 +47,10 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
     const Step step = kkt_.step(at, load, defect, within(defect, kAtSaddle));
     branch_near_ = branch_near_ || !step.minimum;
     if (!step.move.allFinite() || !step.multipliers.allFinite()) return false;
+    if (release_contradicted(at, load, step)) {
+      if (++changes > kMostHoldChanges) return false;
+      continue;
+    }
     if (!advance(at, load, defect, step)) return within(defect, kWanted);
     if (!recorder_.record(++iterations_, at.x, kkt_.defect(at, load).residual)) {
       stopped_ = true;
@@ -106,6 +110,23 @@ bool Newton::advance(Balance& at, const Load& load, const Defect& defect, const 
 void Newton::move(Positions& x, const Eigen::VectorXd& by) const {
   for (std::size_t i = 0; i < x.size(); ++i)
     if (problem_.free_index[i] >= 0) x[i] += by.segment<3>(3 * problem_.free_index[i]);
+}
+
+// Of lines that run over the same nodes one may be short enough without pulling. Kept at their lengths
+// together they contradict each other, and the step is a compromise: lets go of the line that it would
+// shorten most.
+bool Newton::release_contradicted(Balance& at, const Load& load, const Step& step) const {
+  const Eigen::Index regions = at.pressures.size();
+  int shortened = -1;
+  double most = 1e-6;  // of the neutral length: far above rounding
+  for (std::size_t b = 0; b < problem_.bands.size(); ++b) {
+    const double share = -step.left_over[regions + static_cast<Eigen::Index>(b)] / load.neutral[b];
+    if (at.holds[b] != Hold::length || share <= most) continue;
+    most = share;
+    shortened = static_cast<int>(b);
+  }
+  if (shortened >= 0) at.holds[shortened] = Hold::slack;
+  return shortened >= 0;
 }
 
 // Lets go of lines that would push, takes hold of lines that would be too long, and stops at the tension

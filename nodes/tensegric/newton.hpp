@@ -28,6 +28,7 @@ class Newton {
 
  private:
   bool advance(Balance& at, const Load& load, const Defect& defect, const Step& step);
+  bool release_contradicted(Balance& at, const Load& load, const Step& step) const;
   bool change_holds(Balance& at, const Load& load) const;
   void move(Positions& x, const Eigen::VectorXd& by) const;
 

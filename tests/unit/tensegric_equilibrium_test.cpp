@@ -169,6 +169,33 @@ TEST_F(Equilibrium, RequestBelowTheStraightWayIsInfeasible) {
   EXPECT_NEAR(s.regions[0].volume_after / s.regions[0].volume_before, 1, 1e-9);
 }
 
+// The chest line in one, and its halves as lines of their own.
+TEST_F(Equilibrium, OfLinesOverTheSameNodesTheTighterOneHolds) {
+  Garment garment = chest(0.90);
+  for (const char* side : {"_L", "_R"}) {
+    GarmentLine half = garment.lines[0];
+    half.name = std::string("half") + side;
+    half.ratio = 0.95;
+    half.through = {std::string("axilla") + side, std::string("bust_point") + side, "sternum"};
+    garment.lines.push_back(half);
+  }
+  const Solution both = solve(model, garment, {}), alone = solve(model, chest(0.90), {});
+  EXPECT_EQ(both.status, Status::converged) << both.note;
+  EXPECT_NEAR(both.lines[0].final / both.lines[0].neutral, 1, 1e-6);
+  for (const int half : {1, 2}) {
+    EXPECT_LT(both.lines[half].final, both.lines[half].neutral);
+    EXPECT_EQ(both.lines[half].tension, 0);
+  }
+  for (std::size_t i = 0; i < control.outer.size(); ++i)  // both are balanced to 1e-10 of the mean tension
+    EXPECT_LE((both.outer[i] - alone.outer[i]).norm(), 1e-8);
+
+  garment.lines[1].ratio = garment.lines[2].ratio = 0.85;
+  const Solution halves = solve(model, garment, {});
+  EXPECT_EQ(halves.status, Status::converged) << halves.note;
+  EXPECT_EQ(halves.lines[0].tension, 0);
+  for (const int half : {1, 2}) EXPECT_NEAR(halves.lines[half].final / halves.lines[half].neutral, 1, 1e-6);
+}
+
 TEST_F(Equilibrium, TautLineDrawsTheTipsTogether) {
   Garment garment = chest(0.90);
   garment.lines[0].through = {"bust_point_L", "bust_point_R"};
