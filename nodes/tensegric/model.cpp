@@ -28,12 +28,12 @@ void check_held(const Model& model, const Positions& rest) {
   std::vector<Eigen::Vector3d> held;
   for (std::size_t i = 0; i < rest.size(); ++i)
     if (model.is_fixed(static_cast<int>(i))) held.push_back(rest[i]);
-  double largest = 0, size = 0;
-  for (const Eigen::Vector3d& p : held) size = std::max(size, (p - held.front()).norm());
+  Eigen::Vector3d far = Eigen::Vector3d::Zero();  // from the first one to the farthest from it
   for (const Eigen::Vector3d& p : held)
-    for (const Eigen::Vector3d& q : held)
-      largest = std::max(largest, (p - held.front()).cross(q - held.front()).norm());
-  if (!(largest > 1e-6 * size * size))
+    if ((p - held.front()).norm() > far.norm()) far = p - held.front();
+  double largest = 0;
+  for (const Eigen::Vector3d& p : held) largest = std::max(largest, far.cross(p - held.front()).norm());
+  if (!(largest > 1e-6 * far.squaredNorm()))
     throw Refusal(refusal::kBadMesh, "the control mesh needs three fixed nodes or more, not in one line");
 }
 
