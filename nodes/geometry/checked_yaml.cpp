@@ -1,6 +1,7 @@
 #include "geometry/checked_yaml.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 namespace tensegric_fit::geometry {
@@ -21,11 +22,13 @@ YAML::Node load_yaml_map(const std::string& path, const std::string& code) {
 void check_keys(const YAML::Node& map, std::initializer_list<const char*> known, const std::string& where,
                 const std::string& code) {
   if (!map.IsMap()) throw Refusal(code, where + ": must be a map");
+  std::set<std::string> met;
   for (const auto& entry : map) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a word)";
     const bool is_known =
         std::any_of(known.begin(), known.end(), [&key](std::string_view k) { return k == key; });
     if (!is_known) throw Refusal(code, where + ": unknown key '" + key + "'");
+    if (!met.insert(key).second) throw Refusal(code, where + ": key '" + key + "' stands there twice");
   }
 }
 

@@ -23,7 +23,9 @@ void check_header(const std::string& path) {
   std::string line;
   if (!std::getline(file, line) || line.compare(0, 3, "ply") != 0)
     throw Refusal(refusal::kBrokenFile, path + ": is not a PLY file");
-  const auto size = std::filesystem::file_size(path);
+  std::error_code no_size;
+  const auto size = std::filesystem::file_size(path, no_size);
+  if (no_size) throw Refusal(refusal::kBrokenFile, path + ": is not a regular file");
   constexpr int kHeaderLines = 1000;
   for (int i = 0; i < kHeaderLines && std::getline(file, line); ++i) {
     if (line.compare(0, 10, "end_header") == 0) return;

@@ -278,6 +278,10 @@ TEST(CheckedYaml, NamesTheKey) {
     EXPECT_EQ(refusal.code(), "bad_garment");
     EXPECT_NE(std::string(refusal.what()).find("colour"), std::string::npos);
   }
+  EXPECT_EQ(refusal_of([] {
+              check_keys(YAML::Load("{ratio: 0.9, ratio: 0.8}"), {"ratio"}, "line chest", "bad_garment");
+            }),
+            "bad_garment");
   EXPECT_EQ(number_in(map, "ratio", 0.5, 1, "line", "bad_garment"), 0.9);
   EXPECT_EQ(refusal_of([&] { number_in(map, "ratio", 0.95, 1, "line", "bad_garment"); }), "bad_garment");
   EXPECT_EQ(refusal_of([&] { number_in(map, "colour", 0, 1, "line", "bad_garment"); }), "bad_garment");
