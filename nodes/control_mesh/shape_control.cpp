@@ -42,6 +42,9 @@ ShapeFixing load_shape_fixing(const std::string& path) {
 
 geometry::ControlMesh control_from_shape(const geometry::TriangleMesh& mesh, const ShapeFixing& fixing) {
   geometry::check_mesh(mesh);
+  if (geometry::is_closed(mesh) && geometry::cone_volume(mesh.vertices, mesh.triangles) <= 0)
+    throw Refusal(geometry::refusal::kBadMesh,
+                  "the control mesh is inside out: its triangles must run counter-clockwise from outside");
   const std::size_t count = mesh.vertices.size();
   const double thickness = fixing.thickness > 0 ? fixing.thickness : 0.5 * mean_edge(mesh);
   const auto normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
