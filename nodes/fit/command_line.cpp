@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
-
-#include "geometry/status.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -27,8 +24,9 @@ RatioRequest ratio_from(const std::string& text) {
       equals == std::string::npos ? "" : text.substr(0, equals),
       number_from(equals == std::string::npos ? text : text.substr(equals + 1), "--ratio")};
   if (equals == 0) throw CLI::ValidationError("--ratio", "'" + text + "' names no line");
-  if (!(request.ratio > 0 && request.ratio <= 2))
-    throw CLI::ValidationError("--ratio", "'" + text + "' is outside (0, 2]");
+  if (!(request.ratio >= tensegric::kLowestRatio && request.ratio <= tensegric::kHighestRatio))
+    throw CLI::ValidationError("--ratio", fmt::format("'{}' is outside [{}, {}]", text,
+                                                      tensegric::kLowestRatio, tensegric::kHighestRatio));
   return request;
 }
 
@@ -37,8 +35,9 @@ tensegric::TensionLaw band_from(const std::string& text) {
   if (text == "rigid") return law;
   law.kind = tensegric::TensionLaw::Kind::stiffness;
   law.stiffness = number_from(text, "--band");
-  if (!(law.stiffness > 0 && std::isfinite(law.stiffness)))
-    throw CLI::ValidationError("--band", "'" + text + "' is neither 'rigid' nor a stiffness above 0");
+  if (!(law.stiffness > 0 && law.stiffness <= tensegric::kHighestTension))
+    throw CLI::ValidationError("--band", fmt::format("'{}' is neither 'rigid' nor a stiffness in (0, {}]",
+                                                     text, tensegric::kHighestTension));
   return law;
 }
 
@@ -60,7 +59,7 @@ Eigen::Vector3d vector_from(const std::string& text, const std::string& option) 
 std::optional<int> parse(int argc, char** argv, CommandLine& line) {
   CLI::App app(
       "From a booth scan to the body that a garment would make of it. Exit: 0 done, 2 usage, 3 input "
-      "refused.");
+      "refused, 1 the results cannot be written.");
   std::vector<std::string> ratios;
   std::string band, gravity, solver = to_string(line.settings.solver.solver);
 
@@ -68,25 +67,28 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
   auto* mesh = app.add_option("--mesh", line.mesh, "Body mesh BODY.ply, taken as it is instead of a scan");
   auto* garment =
       app.add_option("--garment", line.garment, "Shipped garment (B1 ...) or FILE.yaml; none: measure only");
-  app.add_option("--ratio", ratios,
-                 "Neutral length / length at rest: R for every line, or LINE=R; may be repeated")
+  app.add_option(
+         "--ratio", ratios,
+         "Neutral length / length at rest: R for every line, or LINE=R; may be repeated, the last counts")
       ->needs(garment);
   app.add_option("--band", band, "rigid, or the stiffness of every line")->needs(garment);
   app.add_option("--solver", solver, "Solver")
       ->capture_default_str()
       ->check(CLI::IsMember({"equilibrium", "adaptive", "relaxation"}));
-  app.add_option("--control-triangles", line.settings.control_mesh.control_triangles,
-                 "Control triangles, at least")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
+  auto* control_triangles =
+      app.add_option("--control-triangles", line.settings.control_mesh.control_triangles,
+                     "Control triangles, at least")
+          ->capture_default_str()
+          ->check(CLI::Range(1, 100000));
   app.add_option("--body-triangles", line.settings.reconstruction.body_triangles,
                  "Triangles of the body mesh")
       ->capture_default_str()
       ->check(CLI::Range(2000, 1000000))
       ->excludes(mesh);
   app.add_option("--out", line.out, "Folder for the results")->capture_default_str();
-  auto* control =
-      app.add_option("--control", line.control, "Control mesh CONTROL.ply for any shape")->needs(mesh);
+  auto* control = app.add_option("--control", line.control, "Control mesh CONTROL.ply for any shape")
+                      ->needs(mesh)
+                      ->excludes(control_triangles);
   auto* fixed = app.add_option("--fixed", line.fixed, "Fixed nodes of the shape's control mesh, NODES.yaml")
                     ->needs(mesh);
   app.add_option("--gravity", gravity, "Pseudo force x,y,z on every outer node");
@@ -98,9 +100,14 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
 
   try {
     app.parse(argc, argv);
+    for (const CLI::Option* option : app.get_options())
+      for (const std::string& value : option->results())
+        if (value.empty()) throw CLI::ValidationError(option->get_name(), "is empty");
     if (line.scan.empty() && line.mesh.empty()) throw CLI::RequiredError("--scan or --mesh");
     for (const std::string& text : ratios) line.ratios.push_back(ratio_from(text));
     if (!band.empty()) line.band = band_from(band);
+    if (!gravity.empty() && line.garment.empty() && !line.is_shape())
+      throw CLI::ValidationError("--gravity", "needs --garment or --control");
     if (!gravity.empty()) line.settings.solver.gravity = vector_from(gravity, "--gravity");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
@@ -110,17 +117,7 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
 }
 
 tensegric::Garment adjusted(tensegric::Garment garment, const CommandLine& line) {
-  for (const RatioRequest& request : line.ratios) {
-    bool found = request.line.empty();
-    for (tensegric::GarmentLine& l : garment.lines) {
-      if (!request.line.empty() && l.name != request.line) continue;
-      l.ratio = request.ratio;
-      found = true;
-    }
-    if (!found)
-      throw geometry::Refusal(geometry::refusal::kUnknownLine,
-                              fmt::format("garment {} has no line '{}'", garment.name, request.line));
-  }
+  for (const RatioRequest& request : line.ratios) tensegric::set_ratio(garment, request.line, request.ratio);
   if (line.band)
     for (tensegric::GarmentLine& l : garment.lines) l.law = *line.band;
   return garment;

@@ -23,6 +23,21 @@ constexpr const char* kResults[] = {"report.json",   "body.ply",    "control.ply
                                     "deformed.ply",  "history.csv", "front.png",   "side.png",
                                     "distortion.png"};
 
+// Names in files may hold any bytes; a report is UTF-8.
+void write_json(const fs::path& path, const nlohmann::ordered_json& json) {
+  write_text(path.string(),
+             json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+// An input that this run's results would take the place of, or null.
+const std::string* endangered_input(const CommandLine& line) {
+  std::error_code not_there;
+  for (const std::string* input : {&line.scan, &line.mesh, &line.garment, &line.control, &line.fixed})
+    for (const char* name : kResults)
+      if (fs::equivalent(*input, fs::path(line.out) / name, not_there)) return input;
+  return nullptr;
+}
+
 class Run {
  public:
   explicit Run(const CommandLine& line) : line_(line), settings_(line.settings) {}
@@ -127,8 +142,7 @@ class Run {
   }
 
   void write_report(const Fitting* fitting, const Fit* fit) const {
-    write_text(path("report.json"),
-               report_of(source_, body_, fitting, fit, settings_, times_).dump(1) + "\n");
+    write_json(path("report.json"), report_of(source_, body_, fitting, fit, settings_, times_));
   }
 
   const CommandLine& line_;
@@ -141,6 +155,10 @@ class Run {
 }  // namespace
 
 int run(const CommandLine& line) {
+  if (const std::string* input = endangered_input(line)) {
+    fmt::print(stderr, "--out: the results would overwrite the input {}\n", *input);
+    return 2;
+  }
   Run chain(line);
   try {
     fs::create_directories(line.out);
@@ -152,8 +170,7 @@ int run(const CommandLine& line) {
     fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());
     try {
       for (const char* name : kResults) fs::remove(fs::path(line.out) / name);
-      write_text((fs::path(line.out) / "report.json").string(),
-                 report_of(chain.source(), refusal).dump(1) + "\n");
+      write_json(fs::path(line.out) / "report.json", report_of(chain.source(), refusal));
     } catch (const std::exception& error) {
       fmt::print(stderr, "fit: {}\n", error.what());
     }

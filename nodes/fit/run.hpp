@@ -5,8 +5,8 @@
 
 namespace tensegric_fit::fit {
 
-/// Exit code: 0 done (an infeasible request is done, and says so), 3 input refused, 1 the results cannot be
-/// written.
+/// Exit code: 0 done (an infeasible request is done, and says so), 2 the results would overwrite an input, 3
+/// input refused, 1 the results cannot be written.
 int run(const CommandLine& line);
 
 }  // namespace tensegric_fit::fit

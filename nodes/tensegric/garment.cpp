@@ -11,9 +11,6 @@ namespace {
 using geometry::Refusal;
 using geometry::refusal::kBadGarment;
 
-constexpr double kLowestRatio = 0.05, kHighestRatio = 10;  // beyond lies a slip of the pen, not a garment
-constexpr double kHighestTension = 1e9;
-
 std::vector<std::string> words(const YAML::Node& map, const char* key, const std::string& where) {
   if (!map[key]) return {};
   if (map[key].IsScalar()) return {map[key].Scalar()};
@@ -103,6 +100,20 @@ Garment load_garment(const std::string& path) {
     garment.lines.push_back(line);
   }
   return garment;
+}
+
+void set_ratio(Garment& garment, const std::string& line, double ratio) {
+  if (!(ratio >= kLowestRatio && ratio <= kHighestRatio))
+    throw Refusal(kBadGarment, "ratio " + std::to_string(ratio) + " is outside [" +
+                                   std::to_string(kLowestRatio) + ", " + std::to_string(kHighestRatio) + "]");
+  bool found = line.empty();
+  for (GarmentLine& l : garment.lines) {
+    if (!line.empty() && l.name != line) continue;
+    l.ratio = ratio;
+    found = true;
+  }
+  if (!found)
+    throw Refusal(geometry::refusal::kUnknownLine, "garment " + garment.name + " has no line '" + line + "'");
 }
 
 }  // namespace tensegric_fit::tensegric

@@ -8,6 +8,10 @@
 
 namespace tensegric_fit::tensegric {
 
+/// What files and command lines may ask for: beyond lies a slip of the pen, not a garment.
+inline constexpr double kLowestRatio = 0.05, kHighestRatio = 10;
+inline constexpr double kHighestTension = 1e9;  ///< pseudo force; of stiffnesses too
+
 /// How the one tension T along a line follows from its length L and neutral length l. A line never pushes.
 struct TensionLaw {
   enum class Kind { rigid, stiffness, table };
@@ -34,5 +38,9 @@ struct Garment {
 
 /// \throw Refusal bad_garment naming file and key
 Garment load_garment(const std::string& path);
+
+/// Sets the ratio of the line of that name, or of every line where `line` is empty. \throw Refusal
+/// unknown_line; bad_garment: ratio out of range
+void set_ratio(Garment& garment, const std::string& line, double ratio);
 
 }  // namespace tensegric_fit::tensegric

@@ -204,7 +204,32 @@ TEST_F(FitProgram, UsageErrorsAreTwo) {
   EXPECT_EQ(fit("--scan a.ply --garment B1 --band loose"), 2);
   EXPECT_EQ(fit("--scan a.ply --mesh b.ply"), 2);
   EXPECT_EQ(fit("--scan a.ply --body-triangles 3"), 2);
+  EXPECT_EQ(fit("--scan a.ply --garment ''"), 2);  // an unset variable of a script is not "measure only"
+  EXPECT_EQ(fit("--mesh a.ply --gravity 0,0,-1"), 2);
   EXPECT_EQ(fit("--help"), 0);
+}
+
+TEST_F(FitProgram, NeverOverwritesAnInput) {
+  fs::create_directories(file("out"));
+  fs::copy_file(kScans + "/a/body.ply", file("out/body.ply"));
+  const std::string before = read_file(file("out/body.ply"));
+  EXPECT_EQ(fit("--mesh " + file("out/../out/body.ply")), 2);
+  EXPECT_TRUE(read_file(file("out/body.ply")) == before);
+}
+
+TEST_F(FitProgram, AnInsideOutControlMeshIsRefused) {
+  tensegric_fit::geometry::TriangleMesh shape{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                              {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
+  ASSERT_LT(tensegric_fit::geometry::cone_volume(shape.vertices, shape.triangles), 0);
+  tensegric_fit::geometry::write_ply_mesh(file("shape.ply"), shape);
+  write("fixed.yaml", "nodes: [0, 1, 2]\n");
+  expect_refused(
+      "--mesh " + file("shape.ply") + " --control " + file("shape.ply") + " --fixed " + file("fixed.yaml"),
+      "bad_mesh");
+}
+
+TEST_F(FitProgram, NamesOfAnyBytesReachTheReport) {
+  expect_refused("--scan " + file("br\xfcste.ply"), "broken_file");
 }
 
 TEST_F(FitProgram, RefusesBadScansByName) {
