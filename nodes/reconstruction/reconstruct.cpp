@@ -1,6 +1,7 @@
 #include "reconstruction/reconstruct.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "reconstruction/body_points.hpp"
 #include "reconstruction/floor.hpp"
@@ -23,6 +24,9 @@ using geometry::TriangleMesh;
 
 constexpr double kUnseenEdge = 0.005;  // m; the edge of a foot rounds off below what the sensors see of it
 constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher stands on something else
+
+const double kFlatOnFloor =
+    std::cos(2.5 * M_PI / 180);  // soles that are less level than that do not lie on the floor
 
 void transform(PointCloud& cloud, const Eigen::Isometry3d& by) {
   for (Eigen::Vector3d& p : cloud.points) p = by * p;
@@ -63,8 +67,9 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
   }
   PointCloud body = pick(scan, body_points(scan.points));
   check_shape(body.points, options);
-  if (!floor || lowest_of(body.points) > kOffTheFloor) {
-    Eigen::Isometry3d to_ground = resting_plane(body.points);
+  Eigen::Isometry3d to_ground = resting_plane(body.points);
+  const bool leans = to_ground.linear()(2, 2) < kFlatOnFloor;
+  if (!floor || leans || lowest_of(body.points) > kOffTheFloor) {
     to_ground.pretranslate(Eigen::Vector3d(0, 0, kUnseenEdge));
     transform(body, to_ground);
     from_scan = to_ground * from_scan;

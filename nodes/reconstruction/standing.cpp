@@ -10,7 +10,8 @@ using Triangle = std::array<Eigen::Vector3d, 3>;
 
 const double kLeastUp = std::cos(20 * M_PI / 180);
 constexpr int kMostPivots = 200;
-constexpr double kFar = 10;  // m, beyond every point
+constexpr double kFeet = 0.12;  // m; of a body that leans by 15 degrees one foot is that much above the other
+constexpr double kFar = 10;     // m, beyond every point
 
 /// True where the origin lies in the triangle as seen from above.
 bool covers_origin(const Triangle& t) {
@@ -34,12 +35,16 @@ Eigen::Isometry3d level(const Eigen::Vector3d& normal, double offset, const Eige
 }
 
 Eigen::Isometry3d resting_plane(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   double lowest = points.front().z();
+  for (const Eigen::Vector3d& p : points) lowest = std::min(lowest, p.z());
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  double count = 0;
   for (const Eigen::Vector3d& p : points) {
-    middle += p / static_cast<double>(points.size());
-    lowest = std::min(lowest, p.z());
+    if (p.z() > lowest + kFeet) continue;
+    middle += p;
+    ++count;
   }
+  middle /= count;
   // A plane that starts high up on three far points comes down: the point farthest below it takes the place
   // of one corner, such that the triangle still covers the middle.
   Triangle t{Eigen::Vector3d(kFar, -kFar, kFar), Eigen::Vector3d(0, kFar, kFar),

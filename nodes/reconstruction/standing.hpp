@@ -10,9 +10,10 @@ namespace tensegric_fit::reconstruction {
 /// the origin. The turn is the smallest one.
 Eigen::Isometry3d level(const Eigen::Vector3d& normal, double offset, const Eigen::Vector3d& middle);
 
-/// The plane under all points that they would rest on: the facet of their convex hull that lies below their
-/// middle, as an isometry like `level`'s. A plane steeper than 20 degrees is not believed; the lowest point's
-/// level is taken then. \pre not empty, z roughly up
+/// The plane under all points that the soles lie on: the facet of their convex hull that lies below the
+/// middle of the lowest ones (a scan that leans need not be in balance), as an isometry like `level`'s. A
+/// plane steeper than 20 degrees is not believed; the lowest point's level is taken then. \pre not empty, z
+/// roughly up
 Eigen::Isometry3d resting_plane(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace tensegric_fit::reconstruction

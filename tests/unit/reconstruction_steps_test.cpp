@@ -5,6 +5,7 @@
 #include "reconstruction/repair.hpp"
 #include "reconstruction/resolution.hpp"
 #include "reconstruction/sight_lines.hpp"
+#include "reconstruction/standing.hpp"
 #include "reconstruction_figure.hpp"
 
 namespace {
@@ -43,6 +44,24 @@ TEST(ReconstructionSteps, AFloorIsFoundUnderATilt) {
 
 TEST(ReconstructionSteps, ABodyAloneHasNoFloor) {
   EXPECT_FALSE(find_floor(figure::scan_body(15000, 0.001, 1).points));
+}
+
+TEST(ReconstructionSteps, SolesLieOnTheirPlaneThoughTheBodyWouldFall) {
+  // The rims of two soles, 0.24 m by 0.09 m, under a column of points 1.7 m high.
+  std::vector<Eigen::Vector3d> standing;
+  for (double side : {-1.0, 1.0})
+    for (int i = 0; i < 60; ++i)
+      standing.emplace_back(0.12 * std::cos(i * M_PI / 30), side * 0.11 + 0.045 * std::sin(i * M_PI / 30), 0);
+  for (int i = 20; i < 1700; ++i) standing.emplace_back(0, 0, 0.001 * i);
+  for (double towards : {0.0, 90.0, 215.0}) {
+    const double turn = towards * M_PI / 180;
+    const Eigen::Isometry3d lean(
+        Eigen::AngleAxisd(0.21, Eigen::Vector3d(std::cos(turn), std::sin(turn), 0)));  // 12 degrees
+    std::vector<Eigen::Vector3d> leaning = standing;
+    for (Eigen::Vector3d& p : leaning) p = lean * p;
+    const Eigen::Isometry3d upright = resting_plane(leaning) * lean;
+    for (const Eigen::Vector3d& p : standing) EXPECT_NEAR((upright * p).z(), p.z(), 1e-6) << towards;
+  }
 }
 
 TEST(ReconstructionSteps, NormalsPointOutwardWithAndWithoutHints) {
