@@ -29,6 +29,12 @@ void write_json(const fs::path& path, const nlohmann::ordered_json& json) {
              json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
+// An old result is never taken for a new one, nor a part of one for the whole.
+void remove_results(const fs::path& folder) {
+  std::error_code not_there;
+  for (const char* name : kResults) fs::remove(folder / name, not_there);
+}
+
 // An input that this run's results would take the place of, or null.
 const std::string* endangered_input(const CommandLine& line) {
   std::error_code not_there;
@@ -162,14 +168,13 @@ int run(const CommandLine& line) {
   Run chain(line);
   try {
     fs::create_directories(line.out);
-    for (const char* name : kResults)
-      fs::remove(fs::path(line.out) / name);  // an old result is never taken for a new one
+    remove_results(line.out);
     chain();
     return 0;
   } catch (const geometry::Refusal& refusal) {
     fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());
+    remove_results(line.out);
     try {
-      for (const char* name : kResults) fs::remove(fs::path(line.out) / name);
       write_json(fs::path(line.out) / "report.json", report_of(chain.source(), refusal));
     } catch (const std::exception& error) {
       fmt::print(stderr, "fit: {}\n", error.what());
@@ -177,6 +182,7 @@ int run(const CommandLine& line) {
     return 3;
   } catch (const std::exception& error) {
     fmt::print(stderr, "fit: {}\n", error.what());
+    remove_results(line.out);
     return 1;
   }
 }

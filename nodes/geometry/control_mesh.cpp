@@ -59,11 +59,6 @@ Eigen::Vector3d region_apex(const ControlMesh& control, const ControlRegion& reg
   return sum / count;
 }
 
-double region_volume(const ControlMesh& control, const ControlRegion& region,
-                     const std::vector<Eigen::Vector3d>& outer) {
-  return cone_volume(outer, region_triangles(control, region), region_apex(control, region));
-}
-
 std::vector<int> route_over_edges(const ControlMesh& control, const std::vector<int>& stops) {
   const auto neighbours = neighbours_of(control.outer.size(), control.triangles);
   std::vector<int> route;

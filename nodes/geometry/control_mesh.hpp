@@ -48,10 +48,6 @@ std::vector<Eigen::Vector3i> region_triangles(const ControlMesh& control, const 
 /// The fixed apex of the region's tetrahedra: the centre of gravity of its outer nodes at rest (P1 §3.4).
 Eigen::Vector3d region_apex(const ControlMesh& control, const ControlRegion& region);
 
-/// Volume of the region with its outer nodes at `outer`, m^3, from the apex at rest.
-double region_volume(const ControlMesh& control, const ControlRegion& region,
-                     const std::vector<Eigen::Vector3d>& outer);
-
 /// Nodes along the shortest way over the mesh's edges that visits `stops` in order; ties go to the lower
 /// index. \throw Refusal unknown_line: two stops are in parts of the mesh that no edge joins.
 std::vector<int> route_over_edges(const ControlMesh& control, const std::vector<int>& stops);

@@ -1,7 +1,5 @@
 #include "tensegric/shape_check.hpp"
 
-#include <algorithm>
-
 namespace tensegric_fit::tensegric {
 
 TriangleChange triangle_change(const Model& model, const Positions& x) {
@@ -10,10 +8,7 @@ TriangleChange triangle_change(const Model& model, const Positions& x) {
   for (const Eigen::Vector3i& t : model.control.triangles) {
     const Eigen::Vector3d before = geometry::area_vector(outer[t[0]], outer[t[1]], outer[t[2]]);
     const Eigen::Vector3d after = geometry::area_vector(x[t[0]], x[t[1]], x[t[2]]);
-    const double ratio = after.norm() / before.norm();
-    change.smallest = std::min(change.smallest, ratio);
-    change.largest = std::max(change.largest, ratio);
-    if (ratio < 0.5) ++change.below_half;
+    if (after.norm() < 0.5 * before.norm()) ++change.below_half;
     if (before.dot(after) < 0) ++change.turned_over;
   }
   return change;

@@ -8,9 +8,8 @@
 
 namespace tensegric_fit::tensegric {
 
-/// Area after / before of each control triangle: smallest and largest; and how many triangles turned over.
+/// How many control triangles were compressed below half their area, and how many turned over.
 struct TriangleChange {
-  double smallest = 1, largest = 1;
   int below_half = 0, turned_over = 0;
 };
 

@@ -175,10 +175,13 @@ TEST(ControlMesh, VolumeOfAnOpenPatchFollowsItsNodes) {
   check_control_mesh(control);
   EXPECT_EQ(control.node("tip"), 4);
   EXPECT_EQ(control.node(""), -1);
-  const double before = region_volume(control, control.regions[0], control.outer);
+  const auto volume = [&](const std::vector<Eigen::Vector3d>& outer) {
+    return cone_volume(outer, region_triangles(control, control.regions[0]),
+                       region_apex(control, control.regions[0]));
+  };
   auto raised = control.outer;
   raised[4].z() += 0.5;
-  EXPECT_NEAR(region_volume(control, control.regions[0], raised) - before, 4.0 * 0.5 / 3,
+  EXPECT_NEAR(volume(raised) - volume(control.outer), 4.0 * 0.5 / 3,
               1e-12);  // base area 4
   EXPECT_EQ(route_over_edges(control, {0, 2}), (std::vector<int>{0, 4, 2}));
   EXPECT_EQ(refusal_of([&] {
