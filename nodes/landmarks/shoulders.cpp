@@ -76,12 +76,14 @@ Shoulders find_shoulders(const BodyShape& body, const Trunk& trunk, const Neck& 
       heights.push_back(ridge.z());
     }
     const double turn = turning_down(distances, heights);
-    if (turn > kNearest * s) {
+    if (turn > kNearest * s && !trunk.axilla(side).raised) {  // a raised arm goes on where the shoulder ends
       sum += turn;
       ++weight;
     }
     if (trunk.axilla(side).found) {
-      sum += std::abs(trunk.axilla(side).point.y() - middle) + kBeyondAxilla * s;
+      const double beyond =
+          trunk.axilla(side).raised ? 0 : kBeyondAxilla * s;  // the armpit's skin goes along
+      sum += std::abs(trunk.axilla(side).point.y() - middle) + beyond;
       ++weight;
     }
   }

@@ -9,7 +9,12 @@
 namespace tensegric_fit::landmarks {
 namespace {
 
-constexpr double kAxillaShare = 0.75;  // of stature, where no arm tells
+constexpr double kAxillaShare = 0.75;     // of stature, where no arm tells
+constexpr double kHighestWaist = 0.70;    // of stature
+constexpr double kWidestChest = 1.7;      // of the waist; what reaches further out is a forearm already
+constexpr double kBeyondShoulders = 0.2;  // of stature, from the middle
+constexpr double kUnderArm = 0.025;  // statures under the axilla where the arm tells how far it is raised
+constexpr double kRaised = 0.8;      // of that, from the trunk to the arm: 40 degrees
 
 // The outline at a height that is the trunk of the nearest level, or -1.
 int trunk_among(const std::vector<Outline>& outlines, const BodyLevels& levels, double height) {
@@ -57,20 +62,33 @@ double Trunk::axilla_height() const {
   return kAxillaShare * body_.stature;
 }
 
+int Trunk::level_of_raised_arm(Side side) const {
+  const std::vector<Level>& levels = body_.levels.levels;
+  for (int i = body_.levels.nearest(body_.crotch.height + 0.15 * body_.stature);
+       i + 2 < static_cast<int>(levels.size()) && levels[i].height < 0.9 * body_.stature; ++i)
+    if (levels[i].trunk >= 0 && levels[i + 1].trunk >= 0 &&
+        reach(levels[i].outlines[levels[i].trunk], side) > kBeyondShoulders * body_.stature)
+      return i;
+  return -1;
+}
+
 Axilla Trunk::find_axilla(Side side) const {
   // Going up, the trunk's section suddenly takes in the arm; the last such place is the axilla (a hand or an
   // elbow that touches the body comes before).
   const std::vector<Level>& levels = body_.levels.levels;
   const double jump = 0.02 * body_.stature;  // half the breadth of a slim arm
   int below = -1;
+  double waist = 1e9;
   for (int i = body_.levels.nearest(body_.crotch.height + 0.08 * body_.stature);
        i + 2 < static_cast<int>(levels.size()); ++i) {
     if (levels[i].height > 0.9 * body_.stature) break;
     if (levels[i].trunk < 0 || levels[i + 1].trunk < 0) continue;
     const Outline &here = levels[i].outlines[levels[i].trunk],
                   &above = levels[i + 1].outlines[levels[i + 1].trunk];
-    if (reach(above, side) - reach(here, side) > jump) below = i;
+    if (levels[i].height < kHighestWaist * body_.stature) waist = std::min(waist, reach(here, side));
+    if (reach(here, side) < kWidestChest * waist && reach(above, side) - reach(here, side) > jump) below = i;
   }
+  if (below < 0) below = level_of_raised_arm(side);
   Axilla axilla;
   if (below < 0) return axilla;
 
@@ -91,14 +109,20 @@ Axilla Trunk::find_axilla(Side side) const {
   axilla.found = true;
 
   // An arm that hangs meets the trunk across a gap; a raised one grows out of the trunk's side.
-  const Outline* arm = nullptr;
+  const auto inner_side = [side](const Outline& o) { return side == kLeft ? o.low.y() : -o.high.y(); };
+  const auto arm_among = [&](const std::vector<Outline>& outlines) {
+    const Outline* arm = nullptr;
+    for (const Outline& outline : outlines)
+      if (inner_side(outline) > narrow - jump && (arm == nullptr || inner_side(outline) < inner_side(*arm)))
+        arm = &outline;
+    return arm;
+  };
   const std::vector<Outline> outlines = body_.sliced.outlines_at(low);
-  for (const Outline& outline : outlines) {
-    const double inner = side == kLeft ? outline.low.y() : -outline.high.y();
-    if (inner > narrow - jump && (arm == nullptr || inner < (side == kLeft ? arm->low.y() : -arm->high.y())))
-      arm = &outline;
-  }
-  if (arm != nullptr) {
+  const std::vector<Outline> lower = body_.sliced.outlines_at(low - kUnderArm * body_.stature);
+  const Outline *arm = arm_among(outlines), *lower_arm = arm_among(lower);
+  axilla.raised =
+      lower_arm == nullptr || inner_side(*lower_arm) - narrow > kRaised * kUnderArm * body_.stature;
+  if (arm != nullptr && !axilla.raised) {
     // Skin that fills the armpit joins the arm too low; the axilla is where arm and trunk are one over the
     // arm's depth.
     const double sign = kSign[side], inner = sign * (narrow - 0.02 * body_.stature),
@@ -109,6 +133,17 @@ Axilla Trunk::find_axilla(Side side) const {
     axilla.point = {(junction.above.back + junction.above.front) / 2, junction.above.y, junction.height};
     axilla.filled = junction.height - low > 0.006 * body_.stature;
   } else {
+    // Where the skin under the arm turns from upright to level: the section's reach grows as fast as its
+    // height.
+    const auto turns_out = [&](int i) {
+      return levels[i - 1].trunk >= 0 && reach(levels[i].outlines[levels[i].trunk], side) -
+                                                 reach(levels[i - 1].outlines[levels[i - 1].trunk], side) >
+                                             body_.levels.step;
+    };
+    if (below > 0 && turns_out(below)) {
+      while (below > 1 && turns_out(below - 1)) --below;
+      trunk = levels[below].outlines[levels[below].trunk];
+    }
     axilla.point = trunk.points.front();
     for (const Eigen::Vector3d& p : trunk.points)
       if (kSign[side] * p.y() > kSign[side] * axilla.point.y()) axilla.point = p;

@@ -10,6 +10,7 @@ struct Axilla {
   bool found = false;
   bool filled =
       false;  ///< arm and trunk are joined below it too: skin that touches, or a gap that was filled
+  bool raised = false;  ///< the arm stands out from the trunk by some 40 degrees or more
   Eigen::Vector3d point;
 };
 
@@ -32,6 +33,8 @@ class Trunk {
 
  private:
   Axilla find_axilla(Side side) const;
+  /// A level inside an arm that grows out of the trunk without a sudden step, or -1.
+  int level_of_raised_arm(Side side) const;
 
   const BodyShape& body_;
   Axilla axillae_[2];
