@@ -65,8 +65,15 @@ void write_bag_scan(const std::string& path, const geometry::PointCloud& cloud, 
     for (int i = 0; i < 3; ++i) at[i] = static_cast<float>(p[i]);
     ++at;
   }
+  // as recorded from a latched topic, so that `rosbag play` latches it
+  const auto connection = boost::make_shared<ros::M_string>(
+      ros::M_string{{"topic", kTopic},
+                    {"type", ros::message_traits::datatype(message)},
+                    {"md5sum", ros::message_traits::md5sum(message)},
+                    {"message_definition", ros::message_traits::definition(message)},
+                    {"latching", "1"}});
   rosbag::Bag bag(path, rosbag::bagmode::Write);
-  bag.write(kTopic, stamp, message);
+  bag.write(kTopic, stamp, message, connection);
 }
 
 }  // namespace tensegric_fit::booth

@@ -41,7 +41,8 @@ bool ends_in(const std::string& topic, const std::string& ending) {
 
 class Replay {
  public:
-  explicit Replay(ros::NodeHandle node) : scans_(node.advertise<sensor_msgs::PointCloud2>(kScanTopic, 1)) {
+  explicit Replay(ros::NodeHandle node)
+      : scans_(node.advertise<sensor_msgs::PointCloud2>(kScanTopic, 1, true)) {
     subscribers_ = {
         keep(node, "body/mesh", &FittedScan::body), keep(node, "body/landmarks", &FittedScan::landmarks),
         keep(node, "control/mesh", &FittedScan::control), keep(node, "control/deformed", &FittedScan::fit),
