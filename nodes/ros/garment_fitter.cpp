@@ -1,7 +1,7 @@
 #include "ros/garment_fitter.hpp"
 
 #include "ros/body_messages.hpp"
-#include "tensegric/band.hpp"
+#include "tensegric/problem.hpp"
 
 namespace tensegric_fit::node {
 
@@ -9,21 +9,30 @@ GarmentFitter::GarmentFitter(const tensegric::ModelOptions& model, const tensegr
     : model_options_(model), solver_options_(solver) {}
 
 void GarmentFitter::check(const tensegric::Garment& garment) const {
-  if (const auto known = model()) tensegric::lay_bands(*known, garment);
+  if (const auto known = model()) tensegric::lay_garment(*known, garment, solver_options_);
 }
 
 tensegric::SolverName GarmentFitter::solver_of(const GarmentRequest& request) const {
   return request.solver.empty() ? solver_options_.solver : tensegric::solver_from(request.solver);
 }
 
-tensegric::Solution GarmentFitter::fit(const ControlMesh::ConstPtr& control, const GarmentRequest& request,
-                                       bool from_rest, const tensegric::Progress& progress) {
+std::optional<tensegric::Solution> GarmentFitter::fit(const ControlMesh::ConstPtr& control,
+                                                      const GarmentRequest& request, bool from_rest,
+                                                      const tensegric::Progress& progress) {
   if (control != control_) take(control);
   tensegric::SolverOptions options = solver_options_;
   options.solver = solver_of(request);
   const bool warm = !from_rest && last_ && last_->status == tensegric::Status::converged;
-  last_ = tensegric::solve(*model(), request.garment, options, warm ? &*last_ : nullptr, progress);
-  return *last_;
+  bool stopped = false;
+  tensegric::Solution solution =
+      tensegric::solve(*model(), request.garment, options, warm ? &*last_ : nullptr,
+                       [&](const tensegric::Iterate& iterate, const std::vector<Eigen::Vector3d>& outer) {
+                         stopped = !progress(iterate, outer);
+                         return !stopped;
+                       });
+  if (stopped) return std::nullopt;
+  last_ = std::move(solution);
+  return last_;
 }
 
 std::shared_ptr<const tensegric::Model> GarmentFitter::model() const {

@@ -25,9 +25,10 @@ class GarmentFitter {
   /// The solver that a request is for.
   tensegric::SolverName solver_of(const GarmentRequest& request) const;
 
-  /// For one thread. `from_rest`: without a warm start. \throw Refusal as build_model and solve
-  tensegric::Solution fit(const ControlMesh::ConstPtr& control, const GarmentRequest& request, bool from_rest,
-                          const tensegric::Progress& progress);
+  /// For one thread. `from_rest`: without a warm start. Nothing where `progress` stopped it. \throw Refusal
+  /// as build_model and solve
+  std::optional<tensegric::Solution> fit(const ControlMesh::ConstPtr& control, const GarmentRequest& request,
+                                         bool from_rest, const tensegric::Progress& progress);
 
   /// The newest model; null where there is none.
   std::shared_ptr<const tensegric::Model> model() const;

@@ -56,6 +56,11 @@ void Stage::post(const std::string& scan_id, Work work) {
   wake_.notify_one();
 }
 
+bool Stage::outdated(const std::string& scan_id) const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return stopping_ || newest_scan_ != scan_id || waiting_.has_value();
+}
+
 bool Stage::superseded(const std::string& scan_id) const {
   std::lock_guard<std::mutex> lock(mutex_);
   return stopping_ || newest_scan_ != scan_id;
@@ -101,11 +106,11 @@ void Stage::run(const Job& job) {
 }
 
 void Stage::finish(const Job& job, const Result& result, double milliseconds) {
-  const bool dropped = superseded(job.scan_id);
+  const bool dropped = !result.publish || superseded(job.scan_id);
   if (!dropped) result.publish();
   std::lock_guard<std::mutex> lock(report_mutex_);
   state_.word = dropped ? "superseded" : "done";
-  state_.message = dropped ? "dropped scan " + job.scan_id + ", a newer one came" : "done";
+  state_.message = dropped ? "dropped work on scan " + job.scan_id + ": something newer came" : "done";
   state_.milliseconds = milliseconds;
   state_.facts = result.facts;
   report();

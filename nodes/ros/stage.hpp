@@ -24,7 +24,8 @@ class Stage {
  public:
   using Facts = std::vector<std::pair<std::string, std::string>>;
 
-  /// What work ends with: how to publish it, and what to say of it on /diagnostics.
+  /// What work ends with: how to publish it (empty where it stopped half way), and what to say of it on
+  /// /diagnostics.
   struct Result {
     std::function<void()> publish;
     Facts facts;
@@ -43,8 +44,8 @@ class Stage {
   /// Work for that scan, in place of any that waits.
   void post(const std::string& scan_id, Work work);
 
-  /// True once another scan was begun. For work that can stop half way.
-  bool superseded(const std::string& scan_id) const;
+  /// True once another scan was begun or newer work waits. For work that can stop half way.
+  bool outdated(const std::string& scan_id) const;
 
   /// Says that an input was refused before any work began.
   void refuse(const std::string& scan_id, const geometry::Refusal& refusal);
@@ -63,6 +64,7 @@ class Stage {
   };
 
   void serve();
+  bool superseded(const std::string& scan_id) const;
   void run(const Job& job);
   void fail(const std::string& scan_id, const std::string& word, const std::string& code,
             const std::string& message);

@@ -146,10 +146,12 @@ class TensegricNode {
         progress_.publish(to_message(name, iterate, outer, now));
         told = now;
       }
-      return !stage_.superseded(control->scan_id);
+      return !stage_.outdated(control->scan_id);
     };
+    std::optional<tensegric::Solution> solution = fitter_.fit(control, request, from_rest, progress);
+    if (!solution) return {};
     auto worn = std::make_shared<WornGarment>();
-    worn->solution = fitter_.fit(control, request, from_rest, progress);
+    worn->solution = std::move(*solution);
     worn->header = control->header;
     worn->control = fitter_.model()->control;
     const auto message =
