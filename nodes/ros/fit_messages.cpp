@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "geometry/status.hpp"
 #include "ros/flat.hpp"
@@ -20,28 +21,40 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
   throw geometry::Refusal(geometry::refusal::kBadGarment, fmt::format("line '{}': {}", line.name, what));
 }
 
-bool ascending(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }) &&
-         std::is_sorted(values.begin(), values.end());
+// The rules of garment files.
+std::vector<std::pair<double, double>> table_in(const GarmentLine& line) {
+  if (line.stretch.empty() || line.stretch.size() != line.tension.size())
+    refuse(line, "a table needs a tension for each stretch");
+  std::vector<std::pair<double, double>> table;
+  for (std::size_t i = 0; i < line.stretch.size(); ++i) {
+    const double stretch = line.stretch[i], tension = line.tension[i];
+    if (!std::isfinite(stretch) || stretch < 1 || !(tension >= 0 && tension <= tensegric::kHighestTension))
+      refuse(line, "a table needs stretches of at least 1 and tensions of at least 0");
+    if (stretch == 1 && tension != 0) refuse(line, "a table must have no tension at stretch 1");
+    if (table.empty() && stretch > 1) table.emplace_back(1, 0);
+    if (!table.empty() && (stretch <= table.back().first || tension < table.back().second))
+      refuse(line, "stretch and tension must ascend");
+    table.emplace_back(stretch, tension);
+  }
+  if (table.size() < 2) refuse(line, "a table needs a row beyond stretch 1");
+  return table;
 }
 
 TensionLaw law_in(const GarmentLine& line) {
   TensionLaw law;
   if (line.law.empty() || line.law == GarmentLine::RIGID) return law;
   if (line.law == GarmentLine::STIFFNESS) {
-    if (!(line.stiffness > 0) || !std::isfinite(line.stiffness)) refuse(line, "stiffness must be above 0");
+    if (!(line.stiffness > 0 && line.stiffness <= tensegric::kHighestTension))
+      refuse(line,
+             fmt::format("stiffness {:g} is not in (0, {:g}]", line.stiffness, tensegric::kHighestTension));
     law.kind = TensionLaw::Kind::stiffness;
     law.stiffness = line.stiffness;
     return law;
   }
   if (line.law != GarmentLine::TABLE)
     refuse(line, fmt::format("law '{}' is not one of: rigid, stiffness, table", line.law));
-  if (line.stretch.size() < 2 || line.stretch.size() != line.tension.size())
-    refuse(line, "a table needs two rows or more, and a tension for each stretch");
-  if (!ascending(line.stretch) || !ascending(line.tension)) refuse(line, "stretch and tension must ascend");
   law.kind = TensionLaw::Kind::table;
-  for (std::size_t i = 0; i < line.stretch.size(); ++i)
-    law.table.emplace_back(line.stretch[i], line.tension[i]);
+  law.table = table_in(line);
   return law;
 }
 
@@ -49,7 +62,9 @@ tensegric::GarmentLine line_in(const GarmentLine& message) {
   tensegric::GarmentLine line;
   line.name = message.name;
   if (message.name.empty()) refuse(message, "a line needs a name");
-  if (!(message.ratio > 0) || !std::isfinite(message.ratio)) refuse(message, "ratio must be above 0");
+  if (!(message.ratio >= tensegric::kLowestRatio && message.ratio <= tensegric::kHighestRatio))
+    refuse(message, fmt::format("ratio {:g} is not in [{:g}, {:g}]", message.ratio, tensegric::kLowestRatio,
+                                tensegric::kHighestRatio));
   line.ratio = message.ratio;
   line.law = law_in(message);
   if (!(message.tension_limit >= 0)) refuse(message, "tension_limit must not be negative");
@@ -110,7 +125,13 @@ GarmentRequest request_in(const Garment& message) {
   GarmentRequest request;
   request.garment.name = message.name;
   request.garment.regions = message.regions;
-  for (const GarmentLine& line : message.lines) request.garment.lines.push_back(line_in(line));
+  if (message.lines.empty())
+    throw geometry::Refusal(geometry::refusal::kBadGarment, "the garment has no lines");
+  std::set<std::string> names;
+  for (const GarmentLine& line : message.lines) {
+    if (!names.insert(line.name).second) refuse(line, "another line has the same name");
+    request.garment.lines.push_back(line_in(line));
+  }
   if (!message.solver.empty()) tensegric::solver_from(message.solver);
   request.solver = message.solver;
   return request;

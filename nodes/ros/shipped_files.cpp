@@ -19,7 +19,8 @@ std::string shipped_file(const std::string& folder, const std::string& word, con
   const fs::path given(word);
   const fs::path file =
       given.has_parent_path() || given.extension() == ".yaml" ? given : fs::path(folder) / (word + ".yaml");
-  if (word.empty() || !fs::is_regular_file(file))
+  std::error_code unreadable;
+  if (word.empty() || !fs::is_regular_file(file, unreadable))
     throw geometry::Refusal(code, "there is no file '" + file.string() + "'");
   return file.string();
 }

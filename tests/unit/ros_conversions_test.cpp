@@ -175,7 +175,7 @@ TEST(FitMessages, ImpossibleGarmentsAreRefusedByName) {
   good.lines[0].ratio = 0.9;
   EXPECT_EQ(code_of([&] { request_in(good); }), "accepted");
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double ratio : {0.0, -1.0, nan}) {
+  for (const double ratio : {0.0, -1.0, nan, 1e300}) {
     Garment bad = good;
     bad.lines[0].ratio = ratio;
     EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment") << ratio;
@@ -184,9 +184,13 @@ TEST(FitMessages, ImpossibleGarmentsAreRefusedByName) {
   bad.lines[0].law = "sticky";
   EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment");
   bad = good;
-  bad.lines[0].law = GarmentLine::TABLE;
-  bad.lines[0].stretch = {1, 1.2};
-  bad.lines[0].tension = {3, 1};  // descends
+  bad.lines[0].law = GarmentLine::STIFFNESS;  // and none given
+  EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment");
+  bad = good;
+  bad.lines.push_back(good.lines[0]);  // two of one name
+  EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment");
+  bad = good;
+  bad.lines.clear();
   EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment");
   bad = good;
   bad.lines[0].tension_limit = nan;
@@ -194,6 +198,33 @@ TEST(FitMessages, ImpossibleGarmentsAreRefusedByName) {
   bad = good;
   bad.solver = "magic";
   EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_option");
+}
+
+TEST(FitMessages, TablesFollowTheRulesOfGarmentFiles) {
+  Garment garment;
+  garment.lines.resize(1);
+  GarmentLine& line = garment.lines[0];
+  line.name = "chest";
+  line.ratio = 0.9;
+  line.law = GarmentLine::TABLE;
+  using Values = std::vector<double>;
+  const std::vector<std::pair<Values, Values>> bad = {{{}, {}},
+                                                      {{1, 1.2}, {0}},
+                                                      {{1}, {0}},
+                                                      {{1, 1.2}, {3, 4}},    // tension at rest
+                                                      {{1.1, 1.1}, {0, 1}},  // two tensions for one stretch
+                                                      {{1.1, 1.2}, {3, 1}},  // descends
+                                                      {{0.5, 1.2}, {0, 1}},  // pushes
+                                                      {{1, 1.2}, {0, std::nan("")}}};
+  for (const auto& [stretch, tension] : bad) {
+    line.stretch = stretch;
+    line.tension = tension;
+    EXPECT_EQ(code_of([&] { request_in(garment); }), "bad_garment") << testing::PrintToString(stretch);
+  }
+  line.stretch = {1.1, 1.2};
+  line.tension = {2, 3};
+  EXPECT_EQ(request_in(garment).garment.lines.at(0).law.table,
+            (std::vector<std::pair<double, double>>{{1, 0}, {1.1, 2}, {1.2, 3}}));
 }
 
 TEST(FitMessages, ResultsKeepTheirValues) {
@@ -312,8 +343,10 @@ TEST(Wardrobe, RefusesByName) {
   const Wardrobe wardrobe(kGarments);
   SetGarment::Request request;
   EXPECT_EQ(code_of([&] { wardrobe.take(request); }), "bad_garment");  // nothing asked for
-  request.name = "no_such_garment";
-  EXPECT_EQ(code_of([&] { wardrobe.take(request); }), "bad_garment");
+  for (const std::string& name : {std::string("no_such_garment"), std::string("/"), std::string(5000, 'x')}) {
+    request.name = name;
+    EXPECT_EQ(code_of([&] { wardrobe.take(request); }), "bad_garment");
+  }
   request.name = "B1";
   request.lines = {"no_such_line"};
   request.ratios = {0.9};
