@@ -81,7 +81,8 @@ void write_files(const FittedScan& scan, const fs::path& folder) {
   geometry::write_ply_mesh(folder / "deformed.ply", {points_in(scan.deformed->vertices), body.triangles},
                            inspect::distortion_colours(distortion));
   std::ofstream report(folder / "report.json");
-  report << report_of(scan).dump(2) << '\n';
+  // names may come from any publisher: what is no UTF-8 is replaced, not thrown at
+  report << report_of(scan).dump(2, ' ', false, ordered_json::error_handler_t::replace) << '\n';
   report.close();
   if (!report) throw std::runtime_error("cannot write " + (folder / "report.json").string());
 }
@@ -93,8 +94,8 @@ std::vector<std::string> export_fit(const FittedScan& scan, const std::string& d
   if (!wanted.has_filename()) wanted = wanted.parent_path();  // a slash at the end
   if (!wanted.is_absolute() || !wanted.has_filename())
     refuse(geometry::refusal::kBadOption, fmt::format("directory '{}' is not an absolute path", directory));
-  std::error_code ignored;
-  if (fs::exists(wanted) && !fs::is_empty(wanted, ignored))
+  std::error_code ignored;  // a path that cannot be looked at cannot be written either, which says why
+  if (fs::exists(wanted, ignored) && !fs::is_empty(wanted, ignored))
     refuse(geometry::refusal::kBadOption,
            fmt::format("'{}' is there already and is not overwritten", wanted.string()));
 

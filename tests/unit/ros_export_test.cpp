@@ -34,7 +34,7 @@ class ExportFitTest : public testing::Test {
     measures.girths = {{"waist", 0.7, 1, ""}};
 
     const auto fit = boost::make_shared<FitState>();
-    fit->garment = "B1";
+    fit->garment = "B1\xff";  // no UTF-8: anyone may publish a garment
     fit->outer = {0, 0, 0, 1, 0, 0, 0, 1, 0.25};
     const auto deformed = boost::make_shared<DeformedMesh>();
     deformed->vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0.25};
@@ -68,7 +68,7 @@ TEST_F(ExportFitTest, WritesMeshesMeasuresAndParameters) {
             Eigen::Vector3d(0, 1, 0.25));
   const nlohmann::json report = nlohmann::json::parse(std::ifstream(folder / "report.json"));
   EXPECT_EQ(report["scan"]["scan_id"], "1.000000000-00000001");
-  EXPECT_EQ(report["garment"], "B1");
+  EXPECT_EQ(report["garment"], "B1\uFFFD");
   EXPECT_EQ(report["girths"]["waist"], 0.7);
   EXPECT_EQ(report["landmarks"]["navel"]["position"][2], 0.3);
 }
@@ -81,6 +81,8 @@ TEST_F(ExportFitTest, OverwritesNothingAndLeavesNothingHalfDone) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
   EXPECT_EQ(refused("relative/path"), "bad_option");
   EXPECT_EQ(refused(""), "bad_option");
+
+  EXPECT_EQ(refused(root_ / std::string(300, 'x')), "broken_file");  // a longer name than folders have
 
   std::ofstream(root_ / "file") << "no folder";
   EXPECT_EQ(refused(root_ / "file" / "below"), "broken_file");
