@@ -8,7 +8,8 @@ namespace tensegric_fit::node {
 namespace {
 
 constexpr int kImageHeight = 900;
-constexpr double kMargin = 1.05;  // picture height / mesh height
+constexpr double kMargin = 1.05;    // picture height / mesh height
+constexpr double kFlattest = 0.25;  // height / width of a picture, whatever the mesh
 
 std::vector<inspect::Colour> plain_colours(const geometry::TriangleMesh& mesh,
                                            const std::vector<double>& distortion) {
@@ -35,8 +36,9 @@ sensor_msgs::Image::ConstPtr front_image(const std_msgs::Header& header, const g
   const auto [low, high] = geometry::bounding_box(placed);
   const Eigen::Vector3d size = high - low;
 
-  const inspect::View view = inspect::front_view(
-      body_from_scan, body_from_scan.inverse() * Eigen::Vector3d((low + high) / 2), kMargin * size.z());
+  const inspect::View view =
+      inspect::front_view(body_from_scan, body_from_scan.inverse() * Eigen::Vector3d((low + high) / 2),
+                          kMargin * std::max(size.z(), kFlattest * size.y()));
   const int width =
       std::max(1, static_cast<int>(kImageHeight * (size.y() + (kMargin - 1) * size.z()) / view.height));
   return inspect::image(

@@ -3,13 +3,14 @@
 
 #include <ros/ros.h>
 
+#include <exception>
 #include <string>
 
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::node {
 
-/// Exit codes are those of `fit`: 0 shut down, 2 a parameter or file of its own was refused.
+/// Exit codes: 0 shut down, 1 an error nobody foresaw, 2 a parameter or file of its own was refused.
 template <typename Node>
 int run_node(int argc, char** argv, const std::string& name) {
   ros::init(argc, argv, name);
@@ -20,6 +21,9 @@ int run_node(int argc, char** argv, const std::string& name) {
   } catch (const geometry::Refusal& refusal) {
     ROS_FATAL("%s: %s: %s", name.c_str(), refusal.code().c_str(), refusal.what());
     return 2;
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s: %s", name.c_str(), error.what());
+    return 1;
   }
 }
 
