@@ -165,6 +165,18 @@ TEST_F(PipelineTest, AnotherGarmentNeedsNoOtherScan) {
               1e-4);  // the bound on a feasible request
 }
 
+TEST_F(PipelineTest, TheLastOfManyGarmentsIsTheOneThatStays) {
+  client_->forget();
+  double ratio = 1;
+  for (int i = 0; i < 50; ++i) EXPECT_TRUE(set_garment(b1_at(ratio -= 0.001)).accepted);
+  listen(1);  // for any that come late
+  ASSERT_FALSE(client_->fits.empty());
+  EXPECT_NEAR(ratio_of(*client_->fits.back(), "chest"), ratio,
+              1e-4);  // as above; the steps are ten times that
+  EXPECT_EQ(client_->deformed.size(), client_->fits.size());
+  for (const FitState::ConstPtr& fit : client_->fits) EXPECT_EQ(fit->status, FitState::CONVERGED);
+}
+
 TEST_F(PipelineTest, AGarmentFromTheTopicIsWornToo) {
   client_->forget();
   ros::NodeHandle node;
@@ -200,6 +212,13 @@ TEST_F(PipelineTest, ARefusedGarmentLeavesTheOldOneOn) {
   response = set_garment(own);
   EXPECT_FALSE(response.accepted);
   EXPECT_EQ(response.code, "unknown_line");
+
+  own.garment.regions = {"hat"};
+  own.garment.lines[0].name = "chest";
+  own.garment.lines[0].through.clear();
+  response = set_garment(own);
+  EXPECT_FALSE(response.accepted);
+  EXPECT_EQ(response.code, "bad_garment");
   listen(1);
   EXPECT_TRUE(client_->fits.empty());
 }
