@@ -10,6 +10,7 @@ constexpr int kPlaces = 13;  // lateral positions tried
 constexpr double kShareOfLimb = 0.5;
 constexpr double kApart = 0.0025;  // between sections
 constexpr int kReach = 2;          // sections each way over which lengthening is taken: 5 mm
+constexpr int kGrown = 4;          // sections above, 10 mm, where the bridge must have that share
 
 }  // namespace
 
@@ -43,9 +44,9 @@ Junction find_junction(const SlicedMesh& body, const JunctionSearch& search) {
   }
   Junction junction{search.low, {}};
   double most = 0;
-  for (int i = kReach; i + kReach < static_cast<int>(bridges.size()); ++i) {
+  for (int i = kReach; i + kGrown < static_cast<int>(bridges.size()); ++i) {
     const double before = bridges[i - kReach].length, after = bridges[i + kReach].length;
-    if (after - before <= most || after < kShareOfLimb * search.limb_depth) continue;
+    if (after - before <= most || bridges[i + kGrown].length < kShareOfLimb * search.limb_depth) continue;
     most = after - before;
     int crossing = i - kReach;  // where it is half way from the one to the other
     while (bridges[crossing + 1].length < (before + after) / 2) ++crossing;
