@@ -14,7 +14,7 @@ constexpr double kHighestWaist = 0.70;    // of stature
 constexpr double kWidestChest = 1.7;      // of the waist; what reaches further out is a forearm already
 constexpr double kBeyondShoulders = 0.2;  // of stature, from the middle
 constexpr double kUnderArm = 0.025;  // statures under the axilla where the arm tells how far it is raised
-constexpr double kRaised = 0.8;      // of that, from the trunk to the arm: 40 degrees
+constexpr double kRaised = 1.5;      // times that, from the trunk to the arm: 56 degrees
 
 // The outline at a height that is the trunk of the nearest level, or -1.
 int trunk_among(const std::vector<Outline>& outlines, const BodyLevels& levels, double height) {
