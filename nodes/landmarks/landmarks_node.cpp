@@ -54,6 +54,11 @@ class LandmarksNode {
 
   /// tf: where the body's frame lies in the scan's, for rviz and for whoever works in body coordinates.
   void publish_body_frame(const std_msgs::Header& header, const Eigen::Isometry3d& body_from_scan) {
+    if (header.frame_id == body_frame_) {  // tf knows no frame within itself
+      ROS_WARN_ONCE("landmarks: the scan's frame is called '%s', too: ~body_frame needs another name for tf",
+                    body_frame_.c_str());
+      return;
+    }
     tf2_msgs::TFMessage message;
     message.transforms.emplace_back();
     message.transforms.back().header = header;
