@@ -120,6 +120,7 @@ bool Kkt::usable() const {
 // law of inertia, where the matrix has as many negative pivots as the complement has negative eigenvalues.
 bool Kkt::factorise(const Balance& at, const Load& load) {
   factor_.factorize(hessian_.lower());
+  ++factorisations_;
   if (!usable()) return false;
   solved_ = factor_.solve(jacobian_);
   const int count = regions_ + bands_;

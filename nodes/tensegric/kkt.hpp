@@ -68,6 +68,9 @@ class Kkt {
   /// Gradients of the conditions, one a column, as of the last step.
   const Eigen::MatrixXd& gradients() const { return jacobian_; }
 
+  /// Factorisations so far: what a solution costs on a fine mesh.
+  int factorisations() const { return factorisations_; }
+
   /// Energy of members, gravity and the bands that are not kept at length.
   double energy(const Balance& at, const Load& load) const;
 
@@ -83,6 +86,7 @@ class Kkt {
   const Problem& problem_;
   int regions_, bands_;
   double least_raise_, raise_;  // of the diagonal: the smallest tried, and the last that served
+  int factorisations_ = 0;
   NodeMatrix hessian_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
   Eigen::MatrixXd jacobian_, solved_;  // columns: gradients of volumes and lengths; the same, solved for

@@ -10,6 +10,7 @@ namespace {
 // symmetric one stays symmetric.
 constexpr Tolerance kAtSaddle{1e-5, 1e-6, 1e-6};
 constexpr int kMostIterations = 300, kMostHoldChanges = 20, kMostHalvings = 14;
+constexpr int kMostFactorisations = 400;  // 20 to 60 are usual; on fine meshes each takes long
 
 }  // namespace
 
@@ -40,8 +41,9 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
       defect = kkt_.defect(at, load);
     }
     if (within(defect, tolerance)) return true;
-    if (i == most || iterations_ >= most_iterations_) {
-      stopped_ = iterations_ >= most_iterations_;
+    const bool spent = iterations_ >= most_iterations_ || kkt_.factorisations() >= kMostFactorisations;
+    if (i == most || spent) {
+      stopped_ = spent;
       return within(defect, kWanted);
     }
     const Step step = kkt_.step(at, load, defect, within(defect, kAtSaddle));
