@@ -8,6 +8,8 @@ namespace tensegric_fit::landmarks {
 namespace {
 
 constexpr double kApart = 0.0025;
+constexpr int kEnd = 3;  // levels, 7.5 mm; a least girth this near the end of the search is the end's
+constexpr double kNoise = 0.0005;  // m, of a girth
 constexpr int kFit = 8;  // levels each way, 20 mm, over which a parabola takes the noise out of the minimum
 
 }  // namespace
@@ -31,10 +33,18 @@ WaistLevel find_waist(const BodyShape& body, const Trunk& trunk, double lowest, 
       "the girth has no minimum between hips and bust; level of the navel by proportion"};
   const int count = static_cast<int>(girths.size());
   if (count < 2 * kFit) return by_proportion;
-  // Inner: the girth grows again on both sides, by more than the noise.
-  const int least = static_cast<int>(std::min_element(girths.begin(), girths.end()) - girths.begin());
-  const double noise = 0.0005;
-  if (girths.front() < girths[least] + noise || girths.back() < girths[least] + noise) return by_proportion;
+  // Inner: on both sides the girth grows again, by more than the noise. Of several such levels the least; a
+  // thick waist can be wider than the rib cage at the end of the search.
+  int least = -1;
+  for (int i = kEnd; i < count - kEnd; ++i) {
+    const double below = *std::max_element(girths.begin(), girths.begin() + i);
+    const double above = *std::max_element(girths.begin() + i, girths.end());
+    const bool local =
+        girths[i] <= *std::min_element(girths.begin() + i - kEnd, girths.begin() + i + kEnd + 1);
+    if (local && std::min(below, above) > girths[i] + kNoise && (least < 0 || girths[i] < girths[least]))
+      least = i;
+  }
+  if (least < 0) return by_proportion;
 
   const int first = std::max(0, least - kFit), last = std::min(count - 1, least + kFit);
   Eigen::MatrixXd terms(last - first + 1, 3);
