@@ -1,12 +1,12 @@
 /// body/mesh + body/landmarks -> control/mesh
 #include "control_mesh/fit_template.hpp"
+#include "geometry/shipped_files.hpp"
 #include "inspect/markers.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/display.hpp"
 #include "ros/parameters.hpp"
 #include "ros/run_node.hpp"
 #include "ros/scan_join.hpp"
-#include "ros/shipped_files.hpp"
 #include "ros/stage.hpp"
 
 namespace tensegric_fit::node {
@@ -28,9 +28,10 @@ class ControlMeshNode {
     options_.control_triangles =
         parameters.integer("control_triangles", options_.control_triangles, 1, 100000);
     const std::string name = parameters.text("template", "bust");
-    const std::string folder = parameters.text("template_directory", shipped_folder("templates"));
+    const std::string folder = parameters.text("template_directory", geometry::shipped_folder("templates"));
     parameters.check_all_known();
-    pattern_ = control_mesh::load_template(shipped_file(folder, name, geometry::refusal::kBadTemplate));
+    pattern_ =
+        control_mesh::load_template(geometry::yaml_file(folder, name, geometry::refusal::kBadTemplate));
 
     control_ = node.advertise<ControlMesh>("control/mesh", 1, true);
     const ros::TransportHints prompt = ros::TransportHints().tcpNoDelay();

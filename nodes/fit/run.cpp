@@ -9,9 +9,9 @@
 
 #include "booth/scan_file.hpp"
 #include "control_mesh/shape_control.hpp"
-#include "fit/files.hpp"
 #include "fit/report.hpp"
 #include "geometry/ply.hpp"
+#include "geometry/shipped_files.hpp"
 #include "inspect/fit_pictures.hpp"
 
 namespace tensegric_fit::fit {
@@ -104,7 +104,9 @@ class Run {
 
   tensegric::Garment load_garment() const {
     if (line_.garment.empty()) return {};
-    return adjusted(tensegric::load_garment(garment_file(line_.garment)), line_);
+    return adjusted(tensegric::load_garment(geometry::yaml_file(
+                        geometry::shipped_folder("garments"), line_.garment, geometry::refusal::kBadGarment)),
+                    line_);
   }
 
   Fitting prepare_fitting(const tensegric::Garment& garment) {
@@ -117,7 +119,8 @@ class Run {
     if (garment.regions.size() != 1)
       throw geometry::Refusal(geometry::refusal::kBadGarment,
                               "garment " + garment.name + " must name one region");
-    const auto pattern = control_mesh::load_template(template_file(garment.regions.front()));
+    const auto pattern = control_mesh::load_template(geometry::yaml_file(
+        geometry::shipped_folder("templates"), garment.regions.front(), geometry::refusal::kBadGarment));
     return prepare(body_, pattern, settings_, times_);
   }
 

@@ -1,14 +1,14 @@
 #include "ros/wardrobe.hpp"
 
+#include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
-#include "ros/shipped_files.hpp"
 
 namespace tensegric_fit::node {
 
 using geometry::Refusal;
 
 GarmentRequest Wardrobe::take(const std::string& word) const {
-  return {tensegric::load_garment(shipped_file(folder_, word, geometry::refusal::kBadGarment)), ""};
+  return {tensegric::load_garment(geometry::yaml_file(folder_, word, geometry::refusal::kBadGarment)), ""};
 }
 
 GarmentRequest Wardrobe::take(const SetGarment::Request& request) const {

@@ -3,13 +3,13 @@
 
 #include <chrono>
 
+#include "geometry/shipped_files.hpp"
 #include "inspect/markers.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/display.hpp"
 #include "ros/garment_fitter.hpp"
 #include "ros/parameters.hpp"
 #include "ros/run_node.hpp"
-#include "ros/shipped_files.hpp"
 #include "ros/stage.hpp"
 #include "ros/wardrobe.hpp"
 
@@ -27,7 +27,7 @@ struct Setup {
   tensegric::SolverOptions solver;
   double progress_period = 0.1;  ///< seconds between states that are published while solving
   std::string garment = "B1";    ///< worn until another is asked for, and after a reset
-  std::string garment_directory = shipped_folder("garments");
+  std::string garment_directory = geometry::shipped_folder("garments");
 };
 
 Setup setup_from(const ros::NodeHandle& private_node) {

@@ -1,0 +1,16 @@
+/// Where the shipped garments and templates lie: share/tensegric_fit beside the program, installed or not, so
+/// that no environment is needed to find them.
+#pragma once
+
+#include <string>
+
+namespace tensegric_fit::geometry {
+
+/// The shipped folder of that name: garments, templates.
+std::string shipped_folder(const std::string& name);
+
+/// `word` itself where it is a path or ends in .yaml, else the file of that name in `folder`.
+/// \throw Refusal `code`, naming the files that there are: no such file
+std::string yaml_file(const std::string& folder, const std::string& word, const std::string& code);
+
+}  // namespace tensegric_fit::geometry
