@@ -173,8 +173,20 @@ TEST_F(PipelineTest, TheLastOfManyGarmentsIsTheOneThatStays) {
   ASSERT_FALSE(client_->fits.empty());
   EXPECT_NEAR(ratio_of(*client_->fits.back(), "chest"), ratio,
               1e-4);  // as above; the steps are ten times that
-  EXPECT_EQ(client_->deformed.size(), client_->fits.size());
   for (const FitState::ConstPtr& fit : client_->fits) EXPECT_EQ(fit->status, FitState::CONVERGED);
+
+  // The body may skip fits that are out of date, never the last one: the same garment again leaves it as it
+  // is.
+  ASSERT_FALSE(client_->deformed.empty());
+  const DeformedMesh::ConstPtr last = client_->deformed.back();
+  client_->forget();
+  ASSERT_TRUE(set_garment(b1_at(ratio)).accepted);
+  ASSERT_TRUE(wait_for([] { return !client_->deformed.empty(); }));
+  const DeformedMesh::ConstPtr again = client_->deformed.back();
+  ASSERT_EQ(again->vertices.size(), last->vertices.size());
+  for (std::size_t i = 0; i < last->vertices.size(); ++i)
+    ASSERT_NEAR(again->vertices[i], last->vertices[i],
+                1e-5);  // m; a step of the ratio moves the bust by 0.2 mm
 }
 
 TEST_F(PipelineTest, AGarmentFromTheTopicIsWornToo) {
