@@ -1,4 +1,7 @@
 /// body/mesh + body/landmarks -> control/mesh
+#include <optional>
+#include <sstream>
+
 #include "control_mesh/fit_template.hpp"
 #include "geometry/shipped_files.hpp"
 #include "inspect/markers.hpp"
@@ -27,11 +30,13 @@ class ControlMeshNode {
     Parameters parameters(private_node);
     options_.control_triangles =
         parameters.integer("control_triangles", options_.control_triangles, 1, 100000);
-    const std::string name = parameters.text("template", "bust");
+    std::istringstream names(parameters.text("template", "bust"));
     const std::string folder = parameters.text("template_directory", geometry::shipped_folder("templates"));
     parameters.check_all_known();
-    pattern_ =
-        control_mesh::load_template(geometry::yaml_file(folder, name, geometry::refusal::kBadTemplate));
+    for (std::string name; std::getline(names, name, '+');)
+      patterns_.push_back(
+          control_mesh::load_template(geometry::yaml_file(folder, name, geometry::refusal::kBadTemplate)));
+    if (patterns_.empty()) throw geometry::Refusal(geometry::refusal::kBadOption, "template is empty");
 
     control_ = node.advertise<ControlMesh>("control/mesh", 1, true);
     const ros::TransportHints prompt = ros::TransportHints().tcpNoDelay();
@@ -53,14 +58,34 @@ class ControlMeshNode {
     body->mesh = mesh_in(mesh);
     const geometry::BodyMeasures measures = measures_in(landmarks);
     body->body_from_scan = measures.body_from_scan;
-    body->control = control_mesh::fit_template(pattern_, body->mesh, measures, options_);
+    std::string left_out;
+    body->control = cover(body->mesh, measures, left_out);
     const ControlMesh message = to_message(tag_in(mesh), body->control);
     return {[this, message, body] {
               control_.publish(message);
               show(body);
             },
             {{"nodes", std::to_string(body->control.outer.size())},
-             {"triangles", std::to_string(body->control.triangles.size())}}};
+             {"triangles", std::to_string(body->control.triangles.size())},
+             {"left_out", left_out}}};
+  }
+
+  /// A region that this body lacks is left out, and named with the reason. \throw Refusal: none is left
+  geometry::ControlMesh cover(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,
+                              std::string& left_out) const {
+    std::vector<geometry::ControlMesh> parts;
+    std::optional<geometry::Refusal> first;
+    for (const control_mesh::Template& pattern : patterns_) {
+      try {
+        parts.push_back(control_mesh::fit_template(pattern, body, measures, options_));
+      } catch (const geometry::Refusal& refusal) {
+        if (!first) first = refusal;
+        left_out += (left_out.empty() ? "" : "; ") + pattern.name + ": " + refusal.what();
+      }
+    }
+    if (parts.empty()) throw *first;
+    if (!left_out.empty()) ROS_WARN("left out: %s", left_out.c_str());
+    return geometry::joined(parts);
   }
 
   void show(const std::shared_ptr<const CoveredBody>& body) {
@@ -80,7 +105,7 @@ class ControlMeshNode {
   }
 
   control_mesh::Options options_;
-  control_mesh::Template pattern_;
+  std::vector<control_mesh::Template> patterns_;
   ros::Publisher control_;
   Display display_;
   ros::Subscriber mesh_, landmarks_;

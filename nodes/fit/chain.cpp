@@ -59,14 +59,16 @@ Body take_mesh(geometry::TriangleMesh mesh) {
   return body;
 }
 
-Fitting prepare(const Body& body, const control_mesh::Template& pattern, const Settings& settings,
-                StageTimes& times) {
-  geometry::ControlMesh control;
+Fitting prepare(const Body& body, const std::vector<control_mesh::Template>& patterns,
+                const Settings& settings, StageTimes& times) {
+  std::vector<geometry::ControlMesh> parts;
   {
     const Stopwatch watch(times.control_mesh);
-    control = control_mesh::fit_template(pattern, body.mesh.mesh, body.measures, settings.control_mesh);
+    for (const control_mesh::Template& pattern : patterns)
+      parts.push_back(
+          control_mesh::fit_template(pattern, body.mesh.mesh, body.measures, settings.control_mesh));
   }
-  return prepare(body, std::move(control), settings, times);
+  return prepare(body, geometry::joined(parts), settings, times);
 }
 
 Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings& settings,

@@ -62,9 +62,10 @@ Body take_mesh(geometry::TriangleMesh mesh);
 /// The same, measured.
 Body measure_mesh(geometry::TriangleMesh mesh, const Settings& settings, StageTimes& times);
 
-/// 3: landmarks -> control mesh -> model, and the binding of the body's vertices.
-Fitting prepare(const Body& body, const control_mesh::Template& pattern, const Settings& settings,
-                StageTimes& times);
+/// 3: landmarks -> control mesh -> model, and the binding of the body's vertices. One piece of control mesh a
+/// template.
+Fitting prepare(const Body& body, const std::vector<control_mesh::Template>& patterns,
+                const Settings& settings, StageTimes& times);
 
 /// The same for a control mesh that is given (P1 §3.2).
 Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings& settings, StageTimes& times);

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "fit/effects.hpp"
+
 namespace tensegric_fit::fit {
 namespace {
 
@@ -54,8 +56,8 @@ void add_measures(const geometry::BodyMeasures& measures, Json& report) {
   add("girths", measures.girths);
 }
 
-void add_fit(const Fitting& fitting, const Fit& fit, const Settings& settings, const StageTimes& times,
-             Json& report) {
+void add_fit(const Body& body, const Fitting& fitting, const Fit& fit, const Settings& settings,
+             const StageTimes& times, Json& report) {
   const tensegric::Solution& solution = fit.solution;
   report["control"] = {{"nodes", fitting.control.outer.size()},
                        {"triangles", fitting.control.triangles.size()},
@@ -85,6 +87,10 @@ void add_fit(const Fitting& fitting, const Fit& fit, const Settings& settings, c
                                  {"control_volume", {region.volume_before, region.volume_after}},
                                  {"body_volume", {fit.body_volumes_before[r], fit.body_volumes_after[r]}}});
   }
+  report["effects"] = Json::object();
+  for (const Effect& effect : effects_of(body, fit))
+    report["effects"][effect.name] = {
+        {"before", effect.before}, {"after", effect.after}, {"mm", 1e3 * (effect.after - effect.before)}};
   const auto [low, high] = std::minmax_element(fit.distortion.begin(), fit.distortion.end());
   Json tight = Json::array();
   for (std::size_t v = 0; v < fit.distortion.size(); ++v)
@@ -119,7 +125,7 @@ Json report_of(const Source& source, const Body& body, const Fitting* fitting, c
   for (const auto& hole : body.mesh.holes)
     report["body"]["holes"].push_back({{"centre", json_of(hole.centre)}, {"area", hole.area}});
   add_measures(body.measures, report);
-  if (fit != nullptr) add_fit(*fitting, *fit, settings, times, report);
+  if (fit != nullptr) add_fit(body, *fitting, *fit, settings, times, report);
   return report;
 }
 

@@ -104,9 +104,7 @@ class Run {
 
   tensegric::Garment load_garment() const {
     if (line_.garment.empty()) return {};
-    return adjusted(tensegric::load_garment(geometry::yaml_file(
-                        geometry::shipped_folder("garments"), line_.garment, geometry::refusal::kBadGarment)),
-                    line_);
+    return adjusted(tensegric::take_garment(line_.garment, geometry::shipped_folder("garments")), line_);
   }
 
   Fitting prepare_fitting(const tensegric::Garment& garment) {
@@ -116,12 +114,11 @@ class Run {
       const geometry::TriangleMesh control = geometry::read_ply_mesh(line_.control);
       return prepare(body_, control_mesh::control_from_shape(control, fixing), settings_, times_);
     }
-    if (garment.regions.size() != 1)
-      throw geometry::Refusal(geometry::refusal::kBadGarment,
-                              "garment " + garment.name + " must name one region");
-    const auto pattern = control_mesh::load_template(geometry::yaml_file(
-        geometry::shipped_folder("templates"), garment.regions.front(), geometry::refusal::kBadGarment));
-    return prepare(body_, pattern, settings_, times_);
+    std::vector<control_mesh::Template> patterns;
+    for (const std::string& region : garment.regions)
+      patterns.push_back(control_mesh::load_template(geometry::yaml_file(
+          geometry::shipped_folder("templates"), region, geometry::refusal::kBadGarment)));
+    return prepare(body_, patterns, settings_, times_);
   }
 
   void save_pictures(const Fitting& fitting, const Fit& fit) const {

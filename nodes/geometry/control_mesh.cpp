@@ -38,6 +38,39 @@ void check_control_mesh(const ControlMesh& control) {
   for (const ControlLine& line : control.lines) check_indices(line.nodes, count, "line " + line.name);
 }
 
+ControlMesh joined(const std::vector<ControlMesh>& parts) {
+  ControlMesh all;
+  std::set<std::string> taken;
+  const auto take = [&taken](const std::string& kind, const std::string& name) {
+    if (!name.empty() && !taken.insert(kind + " " + name).second)
+      throw Refusal(refusal::kBadTemplate,
+                    "two control meshes for one body both have a " + kind + " '" + name + "'");
+  };
+  const auto append = [](auto& list, const auto& more) { list.insert(list.end(), more.begin(), more.end()); };
+  for (const ControlMesh& part : parts) {
+    const int nodes = static_cast<int>(all.outer.size()), triangles = static_cast<int>(all.triangles.size());
+    for (const std::string& name : part.names) take("node", name);
+    append(all.outer, part.outer);
+    append(all.inner, part.inner);
+    append(all.outer_fixed, part.outer_fixed);
+    append(all.inner_fixed, part.inner_fixed);
+    append(all.names, part.names);
+    for (const Eigen::Vector3i& t : part.triangles)
+      all.triangles.push_back(t + Eigen::Vector3i::Constant(nodes));
+    for (ControlRegion region : part.regions) {
+      take("region", region.name);
+      for (int& t : region.triangles) t += triangles;
+      all.regions.push_back(std::move(region));
+    }
+    for (ControlLine line : part.lines) {
+      take("line", line.name);
+      for (int& node : line.nodes) node += nodes;
+      all.lines.push_back(std::move(line));
+    }
+  }
+  return all;
+}
+
 std::vector<Eigen::Vector3i> region_triangles(const ControlMesh& control, const ControlRegion& region) {
   std::vector<Eigen::Vector3i> triangles;
   triangles.reserve(region.triangles.size());

@@ -42,6 +42,10 @@ struct ControlMesh {
 /// edge.
 void check_control_mesh(const ControlMesh& control);
 
+/// Several control meshes of one body as one: their pieces stay apart, nodes are numbered on.
+/// \throw Refusal bad_template: two of them have a node, a region or a line of the same name
+ControlMesh joined(const std::vector<ControlMesh>& parts);
+
 /// The region's own triangles.
 std::vector<Eigen::Vector3i> region_triangles(const ControlMesh& control, const ControlRegion& region);
 

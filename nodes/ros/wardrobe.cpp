@@ -1,6 +1,5 @@
 #include "ros/wardrobe.hpp"
 
-#include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::node {
@@ -8,7 +7,7 @@ namespace tensegric_fit::node {
 using geometry::Refusal;
 
 GarmentRequest Wardrobe::take(const std::string& word) const {
-  return {tensegric::load_garment(geometry::yaml_file(folder_, word, geometry::refusal::kBadGarment)), ""};
+  return {tensegric::take_garment(word, folder_), ""};
 }
 
 GarmentRequest Wardrobe::take(const SetGarment::Request& request) const {

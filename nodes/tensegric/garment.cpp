@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "geometry/checked_yaml.hpp"
+#include "geometry/shipped_files.hpp"
 
 namespace tensegric_fit::tensegric {
 namespace {
@@ -81,6 +83,11 @@ GarmentLine read_line(const YAML::Node& node, const std::string& where) {
   return line;
 }
 
+bool has_line(const Garment& garment, const std::string& name) {
+  return std::any_of(garment.lines.begin(), garment.lines.end(),
+                     [&name](const GarmentLine& line) { return line.name == name; });
+}
+
 }  // namespace
 
 Garment load_garment(const std::string& path) {
@@ -94,12 +101,34 @@ Garment load_garment(const std::string& path) {
     throw Refusal(kBadGarment, path + ": 'lines' must list one line or more");
   for (std::size_t i = 0; i < root["lines"].size(); ++i) {
     const GarmentLine line = read_line(root["lines"][i], path + ": line " + std::to_string(i + 1));
-    const bool taken = std::any_of(garment.lines.begin(), garment.lines.end(),
-                                   [&line](const GarmentLine& other) { return other.name == line.name; });
-    if (taken) throw Refusal(kBadGarment, path + ": two lines are named '" + line.name + "'");
+    if (has_line(garment, line.name))
+      throw Refusal(kBadGarment, path + ": two lines are named '" + line.name + "'");
     garment.lines.push_back(line);
   }
   return garment;
+}
+
+Garment take_garment(const std::string& words, const std::string& folder) {
+  std::error_code no_file;
+  if (std::filesystem::is_regular_file(words, no_file) || words.find('+') == std::string::npos)
+    return load_garment(geometry::yaml_file(folder, words, kBadGarment));
+  Garment all;
+  all.name = words;
+  for (std::size_t start = 0; start <= words.size();) {
+    const std::size_t end = std::min(words.find('+', start), words.size());
+    const Garment one =
+        load_garment(geometry::yaml_file(folder, words.substr(start, end - start), kBadGarment));
+    for (const std::string& region : one.regions)
+      if (std::find(all.regions.begin(), all.regions.end(), region) == all.regions.end())
+        all.regions.push_back(region);
+    for (const GarmentLine& line : one.lines) {
+      if (has_line(all, line.name))
+        throw Refusal(kBadGarment, "of " + words + " two garments have a line '" + line.name + "'");
+      all.lines.push_back(line);
+    }
+    start = end + 1;
+  }
+  return all;
 }
 
 void set_ratio(Garment& garment, const std::string& line, double ratio) {

@@ -39,6 +39,10 @@ struct Garment {
 /// \throw Refusal bad_garment naming file and key
 Garment load_garment(const std::string& path);
 
+/// The garment that `words` mean: a name in `folder` or a file, or several of them worn at once, joined by
+/// '+' (B1+H2). \throw Refusal bad_garment: no such garment; two of them have a line of the same name
+Garment take_garment(const std::string& words, const std::string& folder);
+
 /// Sets the ratio of the line of that name, or of every line where `line` is empty. \throw Refusal
 /// unknown_line; bad_garment: ratio out of range
 void set_ratio(Garment& garment, const std::string& line, double ratio);

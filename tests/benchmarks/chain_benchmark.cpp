@@ -62,7 +62,7 @@ void scan_to_first_view(benchmark::State& state) {
   for (auto _ : state) {
     fit::StageTimes times;
     body = fit::measure_scan(c.scan, {}, times);
-    worn = fit::wear(body, fit::prepare(body, pattern, {}, times), b1(0.9), {}, times);
+    worn = fit::wear(body, fit::prepare(body, {pattern}, {}, times), b1(0.9), {}, times);
   }
   report_fit(state, worn);
   state.counters["points"] = static_cast<double>(c.scan.points.size());
@@ -76,7 +76,7 @@ void garment_change(benchmark::State& state) {
   fit::StageTimes times;
   static const fit::Body body = fit::measure_scan(customer().scan, {}, times);
   const auto pattern = control_mesh::load_template(kLaunch + "/templates/bust.yaml");
-  const fit::Fitting fitting = fit::prepare(body, pattern, settings, times);
+  const fit::Fitting fitting = fit::prepare(body, {pattern}, settings, times);
   const fit::Fit start = fit::wear(body, fitting, b1(0.94), settings, times);
   const tensegric::Garment tighter = b1(0.93);
   fit::Fit worn;

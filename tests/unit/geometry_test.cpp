@@ -291,4 +291,32 @@ TEST(CheckedYaml, NamesTheKey) {
   EXPECT_EQ(refusal_of([&] { required<double>(map, "law", "line", "bad_garment"); }), "bad_garment");
 }
 
+TEST(Joined, KeepsPiecesApartAndNumbersOn) {
+  ControlMesh one;
+  one.outer = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  one.inner = {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}};
+  one.triangles = {{0, 1, 2}};
+  one.outer_fixed = one.inner_fixed = {1, 0, 0};
+  one.names = {"a", "", ""};
+  one.regions = {{"bust", {0}}};
+  one.lines = {{"chest", {0, 1}}};
+  ControlMesh other = one;
+  for (auto* layer : {&other.outer, &other.inner})
+    for (Eigen::Vector3d& p : *layer) p.z() += 5;
+  other.names[0] = "b";
+  EXPECT_THROW(joined({one, other}), Refusal);  // both have a region bust
+  other.regions[0].name = "hips";
+  EXPECT_THROW(joined({one, other}), Refusal);  // both have a line chest
+  other.lines[0].name = "hip";
+  const ControlMesh both = joined({one, other});
+  EXPECT_NO_THROW(check_control_mesh(both));
+  EXPECT_EQ(both.triangles[1], Eigen::Vector3i(3, 4, 5));
+  EXPECT_EQ(both.regions[1].triangles, std::vector<int>{1});
+  EXPECT_EQ(both.lines[1].nodes, (std::vector<int>{3, 4}));
+  EXPECT_EQ(both.node("b"), 3);
+  EXPECT_EQ(both.outer[3], other.outer[0]);
+  other.names[0] = "a";
+  EXPECT_THROW(joined({one, other}), Refusal);
+}
+
 }  // namespace

@@ -97,5 +97,17 @@ TEST(Garment, ShippedGarmentsAreRead) {
   }
 }
 
+TEST(Garment, SeveralAreWornAtOnce) {
+  const std::string folder = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/garments";
+  const Garment b1 = take_garment("B1", folder), b4 = take_garment("B4", folder);
+  const Garment both = take_garment("B1+B4", folder);
+  EXPECT_EQ(both.name, "B1+B4");
+  EXPECT_EQ(both.regions, std::vector<std::string>{"bust"});  // named once
+  ASSERT_EQ(both.lines.size(), b1.lines.size() + b4.lines.size());
+  EXPECT_EQ(both.lines.back().name, b4.lines.back().name);
+  for (const char* wrong : {"B1+B1", "B1+", "+", "B1+none"})
+    EXPECT_THROW(take_garment(wrong, folder), geometry::Refusal) << wrong;
+}
+
 }  // namespace
 }  // namespace tensegric_fit::tensegric
