@@ -139,8 +139,10 @@ class Run {
 
   void write_fit(const Fitting& fitting, const Fit& fit) {
     say("pictures, report");
-    write_mesh("control.ply", {fitting.control.outer, fitting.control.triangles});
-    write_mesh("control_deformed.ply", {fit.solution.outer, fitting.control.triangles});
+    for (const auto& [name, nodes] :
+         {std::pair{"control.ply", &fitting.control.outer}, {"control_deformed.ply", &fit.solution.outer}})
+      geometry::write_ply_mesh(path(name), {*nodes, fitting.control.triangles}, {},
+                               geometry::Coordinates::float64);
     write_mesh("deformed.ply", {fit.deformed, body_.mesh.mesh.triangles});
     write_text(path("history.csv"), history_csv(body_, fitting, fit.solution));
     save_pictures(fitting, fit);

@@ -68,19 +68,25 @@ TriangleMesh read_ply_mesh(const std::string& path) {
 }
 
 void write_ply_mesh(const std::string& path, const TriangleMesh& mesh,
-                    const std::vector<std::array<std::uint8_t, 3>>& colours) {
+                    const std::vector<std::array<std::uint8_t, 3>>& colours, Coordinates coordinates) {
+  const bool exact = coordinates == Coordinates::float64;
+  const std::string type = exact ? "double" : "float";
   const bool coloured = colours.size() == mesh.vertices.size() && !colours.empty();
   const std::string unfinished = path + ".part";
   {
     std::ofstream file(unfinished, std::ios::binary | std::ios::trunc);
     file << "ply\nformat binary_little_endian 1.0\ncomment tensegric_fit, metres\nelement vertex "
-         << mesh.vertices.size() << "\nproperty float x\nproperty float y\nproperty float z\n";
+         << mesh.vertices.size() << "\n";
+    for (const char* axis : {"x", "y", "z"}) file << "property " << type << " " << axis << "\n";
     if (coloured) file << "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     file << "element face " << mesh.triangles.size()
          << "\nproperty list uchar int vertex_indices\nend_header\n";
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       const Eigen::Vector3f p = mesh.vertices[v].cast<float>();
-      file.write(reinterpret_cast<const char*>(p.data()), 3 * sizeof(float));
+      if (exact)
+        file.write(reinterpret_cast<const char*>(mesh.vertices[v].data()), 3 * sizeof(double));
+      else
+        file.write(reinterpret_cast<const char*>(p.data()), 3 * sizeof(float));
       if (coloured) file.write(reinterpret_cast<const char*>(colours[v].data()), 3);
     }
     for (const Eigen::Vector3i& t : mesh.triangles) {

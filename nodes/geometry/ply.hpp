@@ -23,9 +23,13 @@ void read_ply(const std::string& path, pcl::PolygonMesh& mesh);
 /// bad_mesh
 TriangleMesh read_ply_mesh(const std::string& path);
 
-/// Writes binary little-endian, float32 coordinates; `colours` is empty or has one RGB triple a vertex.
+/// Bodies are written as float32, control meshes as float64: they are what exactness is checked on.
+enum class Coordinates { float32, float64 };
+
+/// Writes binary little-endian; `colours` is empty or has one RGB triple a vertex.
 /// The file appears whole or not at all. \throw std::runtime_error where it cannot be written
 void write_ply_mesh(const std::string& path, const TriangleMesh& mesh,
-                    const std::vector<std::array<std::uint8_t, 3>>& colours = {});
+                    const std::vector<std::array<std::uint8_t, 3>>& colours = {},
+                    Coordinates coordinates = Coordinates::float32);
 
 }  // namespace tensegric_fit::geometry

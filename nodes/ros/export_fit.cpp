@@ -76,8 +76,10 @@ void write_files(const FittedScan& scan, const fs::path& folder) {
   const geometry::ControlMesh control = control_in(*scan.control);
   const std::vector<double> distortion(scan.deformed->distortion.begin(), scan.deformed->distortion.end());
   geometry::write_ply_mesh(folder / "body.ply", body);
-  geometry::write_ply_mesh(folder / "control.ply", {control.outer, control.triangles});
-  geometry::write_ply_mesh(folder / "control_deformed.ply", {points_in(scan.fit->outer), control.triangles});
+  geometry::write_ply_mesh(folder / "control.ply", {control.outer, control.triangles}, {},
+                           geometry::Coordinates::float64);
+  geometry::write_ply_mesh(folder / "control_deformed.ply", {points_in(scan.fit->outer), control.triangles},
+                           {}, geometry::Coordinates::float64);
   geometry::write_ply_mesh(folder / "deformed.ply", {points_in(scan.deformed->vertices), body.triangles},
                            inspect::distortion_colours(distortion));
   std::ofstream report(folder / "report.json");

@@ -202,6 +202,8 @@ TEST(Ply, RoundTripKeepsVertexOrder) {
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
     EXPECT_LT((back.vertices[v] - mesh.vertices[v]).norm(), 1e-7);  // float32
   EXPECT_EQ(back.triangles, mesh.triangles);
+  write_ply_mesh(path, mesh, {}, Coordinates::float64);
+  EXPECT_EQ(read_ply_mesh(path).vertices, mesh.vertices);  // to the last bit
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 10);
   EXPECT_EQ(refusal_of([&] { read_ply_mesh(path); }), "broken_file");
   std::filesystem::resize_file(path, 40);
