@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/decimate.hpp"
 #include "reconstruction/body_points.hpp"
 #include "reconstruction/floor.hpp"
 #include "reconstruction/normals.hpp"
 #include "reconstruction/poisson.hpp"
 #include "reconstruction/repair.hpp"
-#include "reconstruction/resolution.hpp"
 #include "reconstruction/sight_lines.hpp"
 #include "reconstruction/soles.hpp"
 #include "reconstruction/standing.hpp"
@@ -96,7 +96,7 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   for (Eigen::Vector3d& v : mesh.vertices) v.z() = std::max(v.z(), 0.0);
   // 5. As many triangles as asked for; what of the surface nobody saw.
   BodyMesh result;
-  result.mesh = with_triangles(mesh, options.body_triangles);
+  result.mesh = geometry::with_triangles(mesh, options.body_triangles);
   result.points_used = seen;
   body.points.resize(seen);
   result.filled = filled_vertices(result.mesh, body.points, options.support_distance);

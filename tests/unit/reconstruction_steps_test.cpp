@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "geometry/decimate.hpp"
 #include "reconstruction/floor.hpp"
 #include "reconstruction/normals.hpp"
 #include "reconstruction/repair.hpp"
-#include "reconstruction/resolution.hpp"
 #include "reconstruction/sight_lines.hpp"
 #include "reconstruction/standing.hpp"
 #include "reconstruction_figure.hpp"
@@ -20,7 +20,7 @@ TriangleMesh sphere(const Eigen::Vector3d& centre, int triangles) {
   for (int axis = 0; axis < 3; ++axis)
     for (double sign : {1.0, -1.0}) mesh.vertices.push_back(sign * Eigen::Vector3d::Unit(axis));
   mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
-  mesh = with_triangles(mesh, triangles);
+  mesh = geometry::with_triangles(mesh, triangles);
   for (Eigen::Vector3d& v : mesh.vertices) v = centre + v.normalized();
   return mesh;
 }
@@ -111,12 +111,12 @@ TEST(ReconstructionSteps, AGapThatOneCanLookThroughGetsItsWalls) {
 TEST(ReconstructionSteps, ResolutionKeepsTheSurfaceClosed) {
   const TriangleMesh fine = sphere(Eigen::Vector3d::Zero(), 8192);
   for (const int triangles : {500, 3001, 20000}) {
-    const TriangleMesh mesh = with_triangles(fine, triangles);
+    const TriangleMesh mesh = geometry::with_triangles(fine, triangles);
     EXPECT_NEAR(static_cast<double>(mesh.triangles.size()), triangles, 2);
     EXPECT_TRUE(geometry::is_closed(mesh));
     EXPECT_NEAR(volume(mesh), volume(fine), 0.03 * volume(fine));  // 500 facets lie inside by about that
   }
-  EXPECT_NEAR(volume(with_triangles(fine, 20000)), volume(fine), 1e-9);  // splitting moves nothing
+  EXPECT_NEAR(volume(geometry::with_triangles(fine, 20000)), volume(fine), 1e-9);  // splitting moves nothing
 }
 
 TEST(ReconstructionSteps, RepairKeepsWhatIsSoundAndTheLargestPiece) {

@@ -1,4 +1,4 @@
-#include "reconstruction/resolution.hpp"
+#include "geometry/decimate.hpp"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
@@ -7,7 +7,9 @@
 #include <queue>
 #include <tuple>
 
-namespace tensegric_fit::reconstruction {
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::geometry {
 namespace {
 
 struct Traits : OpenMesh::DefaultTraits {
@@ -16,17 +18,19 @@ struct Traits : OpenMesh::DefaultTraits {
 };
 using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
-Mesh to_open_mesh(const geometry::TriangleMesh& mesh) {
+Mesh to_open_mesh(const TriangleMesh& mesh) {
   Mesh result;
   result.reserve(mesh.vertices.size(), 3 * mesh.triangles.size() / 2, mesh.triangles.size());
   for (const Eigen::Vector3d& v : mesh.vertices) result.add_vertex({v.x(), v.y(), v.z()});
   for (const Eigen::Vector3i& t : mesh.triangles)
-    result.add_face(Mesh::VertexHandle(t[0]), Mesh::VertexHandle(t[1]), Mesh::VertexHandle(t[2]));
+    if (!result.add_face(Mesh::VertexHandle(t[0]), Mesh::VertexHandle(t[1]), Mesh::VertexHandle(t[2]))
+             .is_valid())
+      throw Refusal(refusal::kBadMesh, "the mesh is not manifold: sheets meet in one edge or vertex");
   return result;
 }
 
-geometry::TriangleMesh from_open_mesh(const Mesh& mesh) {
-  geometry::TriangleMesh result;
+TriangleMesh from_open_mesh(const Mesh& mesh) {
+  TriangleMesh result;
   for (const auto v : mesh.vertices())
     result.vertices.emplace_back(mesh.point(v)[0], mesh.point(v)[1], mesh.point(v)[2]);
   for (const auto face : mesh.faces()) {
@@ -71,7 +75,7 @@ void split_to(Mesh& mesh, std::size_t triangles) {
 
 }  // namespace
 
-geometry::TriangleMesh with_triangles(const geometry::TriangleMesh& mesh, int triangles) {
+TriangleMesh with_triangles(const TriangleMesh& mesh, int triangles) {
   Mesh work = to_open_mesh(mesh);
   const auto wanted = static_cast<std::size_t>(triangles);
   if (work.n_faces() > wanted) collapse_to(work, wanted);
@@ -79,4 +83,4 @@ geometry::TriangleMesh with_triangles(const geometry::TriangleMesh& mesh, int tr
   return from_open_mesh(work);
 }
 
-}  // namespace tensegric_fit::reconstruction
+}  // namespace tensegric_fit::geometry

@@ -1,0 +1,15 @@
+/// The number of triangles of a mesh.
+#pragma once
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::geometry {
+
+/// The same surface with `triangles` triangles, or one less: edges are collapsed by quadric error (Garland
+/// and Heckbert 1997) without turning a triangle over, or the longest are split. What was closed stays so,
+/// and each piece keeps its holes. Keeps more triangles where no edge can be collapsed any more. \pre the
+/// mesh has passed check_mesh and is not empty. \throw Refusal bad_mesh: an edge or a vertex in which sheets
+/// meet
+TriangleMesh with_triangles(const TriangleMesh& mesh, int triangles);
+
+}  // namespace tensegric_fit::geometry
