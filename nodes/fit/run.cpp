@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
@@ -19,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kResults[] = {"report.json",   "body.ply",    "control.ply", "control_deformed.ply",
-                                    "deformed.ply",  "history.csv", "front.png",   "side.png",
-                                    "distortion.png"};
+constexpr const char* kResults[] = {"report.json",  "body.ply",      "control.ply", "control_deformed.ply",
+                                    "deformed.ply", "history.csv",   "front.png",   "side.png",
+                                    "back.png",     "distortion.png"};
 
 // Names in files may hold any bytes; a report is UTF-8.
 void write_json(const fs::path& path, const nlohmann::ordered_json& json) {
@@ -123,7 +124,7 @@ class Run {
 
   void save_pictures(const Fitting& fitting, const Fit& fit) const {
     inspect::FitScene scene{
-        body_.mesh.mesh, fit.deformed, fit.distortion, body_.measures, fitting.control.outer, {}, {}};
+        body_.mesh.mesh, fit.deformed, fit.distortion, body_.measures, parts_of(fitting.control), {}, {}};
     for (const auto& line : fit.solution.lines) {
       auto& before = scene.lines_before.emplace_back();
       auto& after = scene.lines_after.emplace_back();
@@ -134,7 +135,25 @@ class Run {
     }
     save_picture("front.png", inspect::front_picture(scene));
     save_picture("side.png", inspect::side_picture(scene));
+    if (std::any_of(scene.parts.begin(), scene.parts.end(), [](const auto& part) { return part.behind; }))
+      save_picture("back.png", inspect::back_picture(scene));
     save_picture("distortion.png", inspect::distortion_picture(scene));
+  }
+
+  // One a region; from behind where most of its skin faces backwards.
+  std::vector<inspect::Part> parts_of(const geometry::ControlMesh& control) const {
+    std::vector<inspect::Part> parts;
+    for (const geometry::ControlRegion& region : control.regions) {
+      inspect::Part part;
+      Eigen::Vector3d faced = Eigen::Vector3d::Zero();
+      for (const Eigen::Vector3i& t : geometry::region_triangles(control, region)) {
+        faced += geometry::area_vector(control.outer[t[0]], control.outer[t[1]], control.outer[t[2]]);
+        for (int k = 0; k < 3; ++k) part.nodes.push_back(control.outer[t[k]]);
+      }
+      part.behind = (body_.measures.body_from_scan.linear() * faced).x() < 0;
+      parts.push_back(std::move(part));
+    }
+    return parts;
   }
 
   void write_fit(const Fitting& fitting, const Fit& fit) {

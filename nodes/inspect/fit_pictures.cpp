@@ -34,8 +34,10 @@ View framed(MakeView make, const geometry::BodyMeasures& measures, const std::ve
 }
 
 View framed(MakeView make, const FitScene& scene) {
-  return scene.focus.empty() ? framed(make, scene.measures, scene.before.vertices, 1.1)
-                             : framed(make, scene.measures, scene.focus, 1.45);
+  if (scene.parts.empty()) return framed(make, scene.measures, scene.before.vertices, 1.1);
+  std::vector<Eigen::Vector3d> all;
+  for (const Part& part : scene.parts) all.insert(all.end(), part.nodes.begin(), part.nodes.end());
+  return framed(make, scene.measures, all, 1.45);
 }
 
 std::vector<Polyline> garment_lines(const std::vector<std::vector<Eigen::Vector3d>>& lines,
@@ -69,17 +71,26 @@ cv::Mat front_picture(const FitScene& scene) {
 cv::Mat side_picture(const FitScene& scene) {
   return before_and_after(scene, side_view);
 }
-cv::Mat oblique_picture(const FitScene& scene) {
-  return before_and_after(scene, oblique_view);
+cv::Mat back_picture(const FitScene& scene) {
+  return before_and_after(scene, back_view);
 }
 
 cv::Mat distortion_picture(const FitScene& scene) {
   const geometry::TriangleMesh after{scene.after, scene.before.triangles};
   const std::vector<Colour> colours = distortion_colours(scene.distortion);
   const std::vector<Polyline> lines = garment_lines(scene.lines_after, kInk);
-  const cv::Mat picture =
-      side_by_side(draw(after, colours, lines, framed(front_view, scene), kPanel, kPanel),
-                   draw(after, colours, lines, framed(oblique_view, scene), kPanel, kPanel));
+  std::vector<Part> rows = scene.parts;
+  if (rows.empty()) rows.push_back({scene.before.vertices, false});
+  std::vector<cv::Mat> pictures;
+  for (const Part& row : rows) {
+    const auto from = [&](MakeView make) {
+      return draw(after, colours, lines, framed(make, scene.measures, row.nodes, 1.45), kPanel, kPanel);
+    };
+    pictures.push_back(row.behind ? side_by_side(from(back_view), from(oblique_back_view))
+                                  : side_by_side(from(front_view), from(oblique_view)));
+  }
+  cv::Mat picture;
+  cv::vconcat(pictures, picture);
   return with_distortion_scale(with_caption(picture, "area of the skin after / before"));
 }
 

@@ -11,23 +11,29 @@
 
 namespace tensegric_fit::inspect {
 
+/// A part of the body that a garment changes.
+struct Part {
+  std::vector<Eigen::Vector3d> nodes;  ///< what the pictures are to show of it
+  bool behind = false;                 ///< it is seen from behind
+};
+
 /// A body before and after. Only borrowed: the meshes and measures must outlive the scene.
 struct FitScene {
   const geometry::TriangleMesh& before;
-  const std::vector<Eigen::Vector3d>& after;  ///< one a vertex of `before`
-  const std::vector<double>& distortion;      ///< one a vertex of `before`
-  const geometry::BodyMeasures& measures;     ///< for the frame
-  std::vector<Eigen::Vector3d> focus;  ///< what the pictures are to show, such as control nodes; empty: all
+  const std::vector<Eigen::Vector3d>& after;                            ///< one a vertex of `before`
+  const std::vector<double>& distortion;                                ///< one a vertex of `before`
+  const geometry::BodyMeasures& measures;                               ///< for the frame
+  std::vector<Part> parts;                                              ///< empty: the whole body
   std::vector<std::vector<Eigen::Vector3d>> lines_before, lines_after;  ///< constraining lines
 };
 
 /// Before on the left, after on the right (P1 Fig. 6, Fig. 7, Fig. 5): BGR, 1512 x 796. All \throw as draw()
 cv::Mat front_picture(const FitScene& scene);
 cv::Mat side_picture(const FitScene& scene);
-cv::Mat oblique_picture(const FitScene& scene);
+cv::Mat back_picture(const FitScene& scene);
 
-/// After, coloured by distortion, from the front and from an angle, with the scale (P1 Fig. 8): BGR, 1515 x
-/// 750.
+/// After, coloured by distortion, with the scale (P1 Fig. 8): BGR, 1512 wide. A row a part, of 750: from the
+/// front and from an angle, or from behind.
 cv::Mat distortion_picture(const FitScene& scene);
 
 /// The body alone with the tapes of its girths: BGR, 900 x 900.

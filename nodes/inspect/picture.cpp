@@ -117,6 +117,15 @@ View oblique_view(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d
   return view_along(body_from_scan, {-1, -0.75, -0.3}, centre, height);
 }
 
+View back_view(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d& centre, double height) {
+  return view_along(body_from_scan, {1, 0, 0}, centre, height);
+}
+
+View oblique_back_view(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d& centre,
+                       double height) {
+  return view_along(body_from_scan, {1, -0.75, -0.3}, centre, height);
+}
+
 cv::Mat draw(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours,
              const std::vector<Polyline>& lines, const View& view, int width, int height) {
   geometry::check_mesh(mesh);

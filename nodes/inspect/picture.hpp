@@ -27,6 +27,10 @@ View side_view(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d& c
 /// From before her, her left and a little above (P1 Fig. 5).
 View oblique_view(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d& centre, double height);
 
+View back_view(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d& centre, double height);
+/// From behind her, her left and a little above.
+View oblique_back_view(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d& centre, double height);
+
 /// A line in the scan's frame, drawn where it is visible.
 struct Polyline {
   std::vector<Eigen::Vector3d> points;

@@ -142,6 +142,8 @@ TEST(View, FollowsTheBodysFrame) {
             tolerance);  // she looks to the left
   EXPECT_GT(ball_at({0, 0.3, 0}, oblique_view).x(), 20);
   EXPECT_LT(ball_at({0.3, 0, 0}, oblique_view).x(), -10);
+  EXPECT_LT(ball_at({0, 0.3, 0}, back_view).x(), -20);  // her left is on the left
+  EXPECT_LT(ball_at({0, 0.3, 0}, oblique_back_view).x(), -20);
 }
 
 TEST(Picture, RefusesByName) {
@@ -158,7 +160,7 @@ TEST(FitPictures, AnUndeformedBodyLooksTheSameBeforeAndAfter) {
   const std::vector<double> ones(body.vertices.size(), 1);
   const geometry::BodyMeasures measures;
   const FitScene scene{body, body.vertices, ones, measures, {}, {}, {}};
-  for (const cv::Mat& picture : {front_picture(scene), side_picture(scene), oblique_picture(scene)}) {
+  for (const cv::Mat& picture : {front_picture(scene), side_picture(scene), back_picture(scene)}) {
     ASSERT_EQ(picture.size(), cv::Size(1512, 796));
     const cv::Rect left(0, 46, 750, 750), right(762, 46, 750, 750);  // under the captions
     EXPECT_TRUE(same_bytes(picture(left), picture(right)));
