@@ -19,6 +19,9 @@ std::vector<std::pair<int, int>> coupled_nodes(const Problem& problem) {
       pairs.emplace_back(problem.free_index[a], problem.free_index[b]);
   };
   for (const Member& m : problem.model.members) couple(m.a, m.b);
+  for (const UnitVolume& unit : problem.units)
+    for (int i = 1; i < 6; ++i)
+      for (int j = 0; j < i; ++j) couple(unit.nodes[i], unit.nodes[j]);
   for (const Band& band : problem.bands)
     for (std::size_t i = 1; i < band.nodes.size(); ++i) couple(band.nodes[i - 1], band.nodes[i]);
   return pairs;
@@ -57,6 +60,7 @@ Defect Kkt::defect(const Balance& at, const Load& load) const {
   result.gradient = Eigen::VectorXd::Zero(3 * problem_.free_nodes);
   result.conditions.resize(regions_ + bands_);
   add_member_gradient(problem_.model, at.x, problem_.free_index, result.gradient);
+  add_fold_gradient(problem_.units, at.x, problem_.free_index, result.gradient);
   for (std::size_t i = 0; i < problem_.model.control.outer.size(); ++i)
     if (problem_.free_index[i] >= 0) result.gradient.segment<3>(3 * problem_.free_index[i]) -= load.gravity;
   for (int r = 0; r < regions_; ++r) {
@@ -81,7 +85,7 @@ Defect Kkt::defect(const Balance& at, const Load& load) const {
 }
 
 double Kkt::energy(const Balance& at, const Load& load) const {
-  double energy = member_energy(problem_.model, at.x);
+  double energy = member_energy(problem_.model, at.x) + fold_energy(problem_.units, at.x);
   for (std::size_t i = 0; i < problem_.model.control.outer.size(); ++i)
     if (problem_.free_index[i] >= 0) energy -= load.gravity.dot(at.x[i] - problem_.rest[i]);
   for (int b = 0; b < bands_; ++b) {
@@ -105,6 +109,7 @@ void Kkt::jacobian(const Positions& x) {
 void Kkt::assemble(const Balance& at) {
   hessian_.clear();
   add_member_hessian(problem_.model, at.x, problem_.free_index, hessian_);
+  add_fold_hessian(problem_.units, at.x, problem_.free_index, hessian_);
   for (int b = 0; b < bands_; ++b)
     add_length_hessian(problem_.bands[b], at.x, problem_.free_index, std::max(0.0, at.tensions[b]), hessian_);
   for (int r = 0; r < regions_; ++r)

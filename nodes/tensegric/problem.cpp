@@ -45,7 +45,9 @@ Problem lay_garment(const Model& model, const Garment& garment, const SolverOpti
                   model.rest_positions(),
                   lay_bands(model, garment),
                   {},
+                  {},
                   model.mean_tension()};
+  problem.units = unit_volumes(model, problem.free_index);
   for (const geometry::ControlRegion& region : model.control.regions)
     problem.volumes.push_back(region_volume_of(model, region));
   return problem;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tensegric/band.hpp"
+#include "tensegric/fold_barrier.hpp"
 #include "tensegric/region_volume.hpp"
 #include "tensegric/solver.hpp"
 
@@ -17,6 +18,7 @@ struct Problem {
   Positions rest;
   std::vector<Band> bands;
   std::vector<RegionVolume> volumes;
+  std::vector<UnitVolume> units;
   double force_scale;  ///< mean tension of the tensile parts at rest
 };
 

@@ -1,0 +1,129 @@
+#include "tensegric/fold_barrier.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+namespace tensegric_fit::tensegric {
+namespace {
+
+constexpr double kBegins = 0.7;  // s0
+constexpr double kStiffness =
+    0.3;                        // times k and the mean edge: keeps triangles above half their area at 0.90
+constexpr double kFlat = 1e-3;  // volume at rest / that of an upright unit, below which there is no barrier
+
+// From the apex to the three corners.
+struct Spokes {
+  Eigen::Vector3d a, b, c;
+};
+
+Spokes spokes(const UnitVolume& unit, const Positions& x) {
+  const auto& n = unit.nodes;
+  const Eigen::Vector3d apex = (x[n[3]] + x[n[4]] + x[n[5]]) / 3;
+  return {x[n[0]] - apex, x[n[1]] - apex, x[n[2]] - apex};
+}
+
+// Of the six nodes; the three of the apex have the same.
+std::array<Eigen::Vector3d, 6> share_gradient(const UnitVolume& unit, const Spokes& s) {
+  const Eigen::Vector3d a = s.b.cross(s.c) / unit.rest, b = s.c.cross(s.a) / unit.rest,
+                        c = s.a.cross(s.b) / unit.rest, apex = -(a + b + c) / 3;
+  return {a, b, c, apex, apex, apex};
+}
+
+struct Barrier {
+  double energy, slope, curvature;  // by the share
+};
+
+Barrier barrier(const UnitVolume& unit, double share) {
+  const double below = share - kBegins, log = std::log(share / kBegins);
+  return {-unit.stiffness * below * below * log, -unit.stiffness * (2 * below * log + below * below / share),
+          -unit.stiffness * (2 * log + 4 * below / share - below * below / (share * share))};
+}
+
+// cross(v) * w = v x w
+Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+}  // namespace
+
+std::vector<UnitVolume> unit_volumes(const Model& model, const std::vector<int>& free_index) {
+  const int count = static_cast<int>(model.control.outer.size());
+  const Positions rest = model.rest_positions();
+  std::vector<UnitVolume> units;
+  const auto place = [&](const Eigen::Vector3i& corners, const Eigen::Vector3i& below, int side) {
+    UnitVolume unit{{corners[0], corners[1], corners[2], below[0], below[1], below[2]}, 0, 0};
+    bool moves = false;
+    for (int node : unit.nodes) moves = moves || free_index[node] >= 0;
+    const Spokes s = spokes(unit, rest);
+    unit.rest = s.a.dot(s.b.cross(s.c));
+    const double edge = ((s.a - s.b).norm() + (s.b - s.c).norm() + (s.c - s.a).norm()) / 3;
+    const double upright = edge * edge * (s.a + s.b + s.c).norm() / 3;
+    unit.stiffness = kStiffness * edge;
+    if (moves && side * unit.rest > kFlat * upright) units.push_back(unit);
+  };
+  for (const Eigen::Vector3i& t : model.control.triangles) {
+    const Eigen::Vector3i inner = t.array() + count;
+    place(t, inner, 1);
+    place(inner, t, -1);
+  }
+  return units;
+}
+
+double volume_share(const UnitVolume& unit, const Positions& x) {
+  const Spokes s = spokes(unit, x);
+  return s.a.dot(s.b.cross(s.c)) / unit.rest;
+}
+
+double fold_energy(const std::vector<UnitVolume>& units, const Positions& x) {
+  double energy = 0;
+  for (const UnitVolume& unit : units) {
+    const double share = volume_share(unit, x);
+    if (!(share > 0)) return std::numeric_limits<double>::infinity();
+    if (share < kBegins) energy += barrier(unit, share).energy;
+  }
+  return energy;
+}
+
+void add_fold_gradient(const std::vector<UnitVolume>& units, const Positions& x,
+                       const std::vector<int>& free_index, Eigen::VectorXd& gradient) {
+  for (const UnitVolume& unit : units) {
+    const double share = volume_share(unit, x);
+    if (share >= kBegins) continue;
+    const double slope = barrier(unit, share).slope;
+    const auto by_node = share_gradient(unit, spokes(unit, x));
+    for (int i = 0; i < 6; ++i) {
+      const int row = free_index[unit.nodes[i]];
+      if (row >= 0) gradient.segment<3>(3 * row) += slope * by_node[i];
+    }
+  }
+}
+
+void add_fold_hessian(const std::vector<UnitVolume>& units, const Positions& x,
+                      const std::vector<int>& free_index, NodeMatrix& hessian) {
+  for (const UnitVolume& unit : units) {
+    const double share = volume_share(unit, x);
+    if (share >= kBegins) continue;
+    const Barrier f = barrier(unit, share);
+    const Spokes s = spokes(unit, x);
+    const auto by_node = share_gradient(unit, s);
+    // The share's own second derivative, by pairs of spokes: that by a is b x c.
+    const double scale = f.slope / unit.rest;
+    const Eigen::Matrix3d ab = -scale * cross(s.c), bc = -scale * cross(s.a), ca = -scale * cross(s.b);
+    const Eigen::Matrix3d to_apex[] = {(ca - ab) / 3, (ab - bc) / 3, (bc - ca) / 3};
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        Eigen::Matrix3d block = f.curvature * by_node[i] * by_node[j].transpose();
+        if (i >= 3 && j < 3) block += to_apex[j].transpose();
+        if (i == 1 && j == 0) block += ab.transpose();
+        if (i == 2 && j == 1) block += bc.transpose();
+        if (i == 2 && j == 0) block += ca;
+        hessian.add(free_index[unit.nodes[i]], free_index[unit.nodes[j]], block);
+      }
+    }
+  }
+}
+
+}  // namespace tensegric_fit::tensegric
