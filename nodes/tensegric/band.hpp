@@ -19,12 +19,17 @@ struct Band {
   double tension_limit;
   double initial, neutral, request;  ///< m, m, neutral / initial
   bool movable;                      ///< it touches a free node
+  bool steep;  ///< rigid, or so stiff that its length is better had from its tension than the other way round
+  double straight = 0;  ///< m, least length: straight between the fixed nodes that it runs over
 };
 
 /// Bands of the garment's lines. A skin line runs over the mesh's edges from stop to stop, a taut one
 /// straight. \throw Refusal unknown_line: a name that the control mesh does not have; bad_garment: region or
 /// ratio
 std::vector<Band> lay_bands(const Model& model, const Garment& garment);
+
+/// Sum of the straight ways between one fixed node that the band runs over and the next, at `x`.
+double straight_way(const Model& model, const Band& band, const Positions& x);
 
 /// Length of the polyline. Smooth where a segment is shorter than 1 mm, so that it may pass through zero;
 /// exact elsewhere.
@@ -43,5 +48,12 @@ void add_length_hessian(const Band& band, const Positions& x, const std::vector<
 double law_tension(const TensionLaw& law, double stretch);
 double law_slope(const TensionLaw& law, double stretch);
 double law_work(const TensionLaw& law, double stretch);
+
+/// The other way round, for a steep law: stretch by tension, its slope, and the integral of the tension over
+/// the stretch up to that tension. A rigid law has stretch 1. Defined for a tension below zero too, which a
+/// solver may pass through.
+double law_stretch(const TensionLaw& law, double tension);
+double law_compliance(const TensionLaw& law, double tension);
+double law_work_by_tension(const TensionLaw& law, double tension);
 
 }  // namespace tensegric_fit::tensegric

@@ -10,14 +10,15 @@ namespace {
 
 constexpr Tolerance kExact{1e-10, 1e-12, 1e-11};  // what is aimed at
 constexpr Tolerance kOnTheWay{5e-2, 1e-4, 1e-4};  // at a load between rest and the request
-constexpr double kHighestTension = 20;            // where a rigid line has no limit of its own; times k
+constexpr double kTightestHold = 20;              // where a band has no limit of its own; times k
 constexpr double kFirstRatioStep = 0.03;  // change of a neutral length in the first load step, relative
 constexpr double kShortestLoadStep = 1.0 / 1024;
+constexpr double kSamePlace = 1e-9;  // m
 constexpr int kMostPerLoad = 30, kMostAtEnd = 80, kMostCorrections = 10;
 
 class LoadPath {
  public:
-  LoadPath(const Problem& problem, Recorder& recorder)
+  LoadPath(Problem& problem, Recorder& recorder)
       : problem_(problem), newton_(problem, recorder), bands_(problem.bands.size()) {}
 
   Outcome from_rest() {
@@ -27,11 +28,12 @@ class LoadPath {
     for (std::size_t b = 0; b < bands_; ++b) {
       const Band& band = problem_.bands[b];
       first_.neutral[b] = band.initial;
-      at.holds.push_back(band.law.kind != TensionLaw::Kind::rigid      ? Hold::elastic
-                         : band.neutral < band.initial && band.movable ? Hold::length
-                                                                       : Hold::slack);
+      at.holds.push_back(!band.steep                                     ? Hold::elastic
+                         : band.neutral < band.initial && can_hold(band) ? Hold::length
+                                                                         : Hold::slack);
     }
     first_.gravity.setZero();
+    first_posture_ = 0;
     return follow(at);
   }
 
@@ -43,34 +45,37 @@ class LoadPath {
     first_ = end_load();
     for (std::size_t b = 0; b < bands_; ++b) {
       const Band& band = problem_.bands[b];
-      const bool rigid = band.law.kind == TensionLaw::Kind::rigid;
       const double length = smooth_length(band, at.x);
-      first_.neutral[b] = rigid ? std::max(length, band.neutral) : length;
+      first_.neutral[b] = band.steep ? std::max(length, band.neutral) : length;
       for (const LineResult& line : start.lines) {
         if (line.name != band.name || line.tension <= 0) continue;
         first_.neutral[b] = line.neutral;
         at.tensions[b] = line.tension;
       }
-      at.holds.push_back(!rigid                                        ? Hold::elastic
+      at.holds.push_back(!band.steep                                   ? Hold::elastic
                          : at.tensions[b] >= first_.limit[b]           ? Hold::limit
                          : at.tensions[b] > 0 || length > band.neutral ? Hold::length
                                                                        : Hold::slack);
-      if (!band.movable && rigid) at.holds[b] = Hold::slack;
+      if (band.steep && !can_hold(band)) at.holds[b] = Hold::slack;
     }
+    first_posture_ = 1;
+    carry(at.x, 1, 1);
     newton_.kkt().guess_multipliers(at, first_);
     return follow(at);
   }
 
   bool settled() const { return settled_; }
-  bool stopped() const { return newton_.stopped(); }
+  bool stopped() const { return newton_.stop() != Stop::none; }
 
  private:
+  // A rigid line over fixed nodes only has nothing to pull.
+  static bool can_hold(const Band& band) { return band.movable || band.law.kind != TensionLaw::Kind::rigid; }
+
   Load end_load() const {
     Load load;
     for (const Band& band : problem_.bands) {
       load.neutral.push_back(band.neutral);
-      const bool unlimited = band.law.kind == TensionLaw::Kind::rigid && std::isinf(band.tension_limit);
-      load.limit.push_back(unlimited ? kHighestTension : band.tension_limit);
+      load.limit.push_back(std::isinf(band.tension_limit) ? kTightestHold : band.tension_limit);
     }
     load.gravity = problem_.options.gravity;
     return load;
@@ -84,19 +89,39 @@ class LoadPath {
     return load;
   }
 
+  double posture_at(double share) const { return share + (1 - share) * first_posture_; }
+
   double first_load_step() const {
     double change = problem_.options.gravity == first_.gravity ? 0 : 4 * kFirstRatioStep;
     for (std::size_t b = 0; b < bands_; ++b)
       change = std::max(change, std::abs(1 - problem_.bands[b].neutral / first_.neutral[b]));
+    const Positions before = posed(problem_, first_posture_), after = posed(problem_, 1);
+    for (std::size_t i = 0; i < before.size(); ++i)
+      change = std::max(change, kFirstRatioStep * (after[i] - before[i]).norm() / newton_.longest_move());
     return change > kFirstRatioStep ? 1 / std::ceil(change / kFirstRatioStep) : 1;
+  }
+
+  // Takes the nodes that are not solved for to where the posture has them, and the free skin above bound
+  // inner nodes along.
+  void carry(Positions& x, double from, double to) {
+    const Positions before = posed(problem_, from), after = posed(problem_, to);
+    const std::size_t outer = problem_.model.control.outer.size();
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (problem_.free_index[i] < 0)
+        x[i] = after[i];
+      else if (i < outer && problem_.free_index[outer + i] < 0)
+        x[i] += after[outer + i] - before[outer + i];
+    }
+    pose_apexes(problem_, to);
   }
 
   Outcome follow(Balance at) {
     double share = 0, load_step = first_load_step();
     Balance settled = at;
-    while (share < 1 && !newton_.stopped()) {
+    while (share < 1 && !stopped()) {
       const double next = std::min(1.0, share + load_step);
       const int before = newton_.iterations();
+      carry(at.x, posture_at(share), posture_at(next));
       if (newton_.settle(at, load_at(next), next < 1 ? kOnTheWay : kExact,
                          next < 1 ? kMostPerLoad : kMostAtEnd)) {
         share = next;
@@ -109,24 +134,33 @@ class LoadPath {
       }
     }
     Load load = load_at(share);
-    if (share < 1 && !newton_.stopped()) newton_.settle(at, load, kExact, kMostAtEnd);
-    if (share == 1) make_true(at, load);
+    if (share == 1) {
+      make_true(at, load);
+    } else {
+      carry(at.x, posture_at(share), posture_at(share));
+      if (stopped() || !newton_.settle(at, load, kExact, kMostAtEnd)) at = settled;
+      newton_.mend(at, load);
+    }
     return outcome(at, load, share);
   }
 
   // Where a segment is shorter than the smooth length can tell, the neutral lengths are moved by as much as
   // it is off, so that the polyline's own length is what was asked for.
   void make_true(Balance& at, Load& load) {
-    for (int i = 0; i < kMostCorrections && !newton_.stopped(); ++i) {
+    for (int i = 0; i < kMostCorrections && !stopped(); ++i) {
       double off = 0;
+      Load wanted = load;
       for (std::size_t b = 0; b < bands_; ++b) {
         const Band& band = problem_.bands[b];
-        const double wanted =
+        wanted.neutral[b] =
             band.neutral * smooth_length(band, at.x) / geometry::line_length(band.nodes, at.x);
-        off = std::max(off, std::abs(wanted / load.neutral[b] - 1));
-        load.neutral[b] = wanted;
+        off = std::max(off, std::abs(wanted.neutral[b] / load.neutral[b] - 1));
       }
-      if (off <= kWanted.length || !newton_.settle(at, load, kExact, kMostAtEnd)) return;
+      if (off <= kWanted.length) return;
+      Balance truer = at;
+      if (!newton_.settle(truer, wanted, kExact, kMostAtEnd)) return;
+      at = truer;
+      load = wanted;
     }
   }
 
@@ -137,30 +171,57 @@ class LoadPath {
     result.state.x = at.x;
     result.iterations = newton_.iterations();
     result.residual = defect.residual;
+    bool at_limit = false;
     for (std::size_t b = 0; b < bands_; ++b) {
       const Band& band = problem_.bands[b];
-      const bool stuck =
-          !band.movable && band.law.kind == TensionLaw::Kind::rigid && band.neutral < band.initial;
-      at_limit_ = at_limit_ || stuck || at.holds[b] == Hold::limit;
+      const bool stuck = !can_hold(band) && band.neutral < band.initial;
+      at_limit = at_limit || stuck || at.holds[b] == Hold::limit;
       result.state.tensions.push_back(at.holds[b] == Hold::slack ? 0 : std::max(0.0, at.tensions[b]));
     }
-    result.status = !settled_ ? Status::capped : at_limit_ ? Status::infeasible : Status::converged;
-    if (newton_.branch_near())
+    result.status = !settled_ ? Status::capped : at_limit ? Status::infeasible : Status::converged;
+    if (!settled_)
+      result.note = why_stopped() + ": this is the last balance on the way, at " +
+                    std::to_string(std::lround(100 * share)) + " % of the request.";
+    else if (newton_.branch_near())
       result.note = "Another balance was near: the tissue may settle to either side.";
     return result;
   }
 
-  const Problem& problem_;
+  std::string why_stopped() const {
+    switch (newton_.stop()) {
+      case Stop::time:
+        return "The time budget ended";
+      case Stop::iterations:
+        return "The iterations ended";
+      case Stop::caller:
+        return "The solution was cancelled";
+      case Stop::none:
+        break;
+    }
+    return "No balance was found further on";
+  }
+
+  Problem& problem_;
   Newton newton_;
   std::size_t bands_;
   Load first_;
-  bool settled_ = false, at_limit_ = false;
+  double first_posture_ = 0;
+  bool settled_ = false;
 };
+
+// A start in another posture is none.
+bool is_start(const Problem& problem, const Solution& start) {
+  if (start.status != Status::converged && start.status != Status::infeasible) return false;
+  const Positions x = positions_of(start), target = posed(problem, 1);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (is_held(problem, static_cast<int>(i)) && (x[i] - target[i]).norm() > kSamePlace) return false;
+  return std::isfinite(fold_energy(problem.units, x));
+}
 
 }  // namespace
 
-Outcome find_equilibrium(const Problem& problem, const Solution* start, Recorder& recorder) {
-  if (start != nullptr && (start->status == Status::converged || start->status == Status::infeasible)) {
+Outcome find_equilibrium(Problem& problem, const Solution* start, Recorder& recorder) {
+  if (start != nullptr && is_start(problem, *start)) {
     LoadPath warm(problem, recorder);
     Outcome result = warm.from_solution(*start);
     if (warm.settled() || warm.stopped()) return result;

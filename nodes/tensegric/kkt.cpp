@@ -32,7 +32,7 @@ double band_condition(const Band& band, Hold hold, double length, double neutral
                       double tension) {
   switch (hold) {
     case Hold::length:
-      return length - neutral;
+      return length - neutral * law_stretch(band.law, tension);
     case Hold::elastic:
       return law_tension(band.law, length / neutral) - tension;
     case Hold::limit:
@@ -57,17 +57,16 @@ Kkt::Kkt(const Problem& problem)
 
 Defect Kkt::defect(const Balance& at, const Load& load) const {
   Defect result;
-  result.gradient = Eigen::VectorXd::Zero(3 * problem_.free_nodes);
+  result.jacobian.setZero(3 * problem_.free_nodes, regions_ + bands_);
   result.conditions.resize(regions_ + bands_);
-  add_member_gradient(problem_.model, at.x, problem_.free_index, result.gradient);
-  add_fold_gradient(problem_.units, at.x, problem_.free_index, result.gradient);
-  for (std::size_t i = 0; i < problem_.model.control.outer.size(); ++i)
-    if (problem_.free_index[i] >= 0) result.gradient.segment<3>(3 * problem_.free_index[i]) -= load.gravity;
+  Eigen::VectorXd multipliers(regions_ + bands_);
+  multipliers << at.pressures, at.tensions;
   for (int r = 0; r < regions_; ++r) {
     const RegionVolume& region = problem_.volumes[r];
-    result.conditions[r] = (region.rest - volume(region, at.x)) / region.area;
-    result.volume_error = std::max(result.volume_error, std::abs(volume_error(region, at.x)));
-    add_volume_gradient(region, at.x, problem_.free_index, -at.pressures[r] / region.area, result.gradient);
+    const double now =
+        add_volume_gradient(region, at.x, problem_.free_index, -1 / region.area, result.jacobian.col(r));
+    result.conditions[r] = (region.rest - now) / region.area;
+    result.volume_error = std::max(result.volume_error, std::abs(volume_error(region, now)));
   }
   for (int b = 0; b < bands_; ++b) {
     const Band& band = problem_.bands[b];
@@ -78,8 +77,13 @@ Defect Kkt::defect(const Balance& at, const Load& load) const {
       result.length_error = std::max(result.length_error, std::abs(error) / load.neutral[b]);
     else
       result.tension_error = std::max(result.tension_error, std::abs(error) / problem_.force_scale);
-    add_length_gradient(band, at.x, problem_.free_index, at.tensions[b], result.gradient);
+    add_length_gradient(band, at.x, problem_.free_index, 1, result.jacobian.col(regions_ + b));
   }
+  result.gradient = result.jacobian * multipliers;
+  add_member_gradient(problem_.model, at.x, problem_.free_index, result.gradient);
+  add_fold_gradient(problem_.units, at.x, problem_.free_index, result.gradient);
+  for (std::size_t i = 0; i < problem_.model.control.outer.size(); ++i)
+    if (problem_.free_index[i] >= 0) result.gradient.segment<3>(3 * problem_.free_index[i]) -= load.gravity;
   result.residual = relative_residual(problem_, result.gradient);
   return result;
 }
@@ -93,17 +97,10 @@ double Kkt::energy(const Balance& at, const Load& load) const {
     if (at.holds[b] == Hold::limit) energy += load.limit[b] * smooth_length(band, at.x);
     if (at.holds[b] == Hold::elastic)
       energy += load.neutral[b] * law_work(band.law, smooth_length(band, at.x) / load.neutral[b]);
+    if (at.holds[b] == Hold::length)
+      energy += load.neutral[b] * law_work_by_tension(band.law, at.tensions[b]);
   }
   return energy;
-}
-
-void Kkt::jacobian(const Positions& x) {
-  jacobian_.setZero(3 * problem_.free_nodes, regions_ + bands_);
-  for (int r = 0; r < regions_; ++r)
-    add_volume_gradient(problem_.volumes[r], x, problem_.free_index, -1 / problem_.volumes[r].area,
-                        jacobian_.col(r));
-  for (int b = 0; b < bands_; ++b)
-    add_length_gradient(problem_.bands[b], x, problem_.free_index, 1, jacobian_.col(regions_ + b));
 }
 
 void Kkt::assemble(const Balance& at) {
@@ -123,24 +120,27 @@ bool Kkt::usable() const {
 
 // Factorises and forms the Schur complement; true where the balance is a minimum under its conditions: by the
 // law of inertia, where the matrix has as many negative pivots as the complement has negative eigenvalues.
-bool Kkt::factorise(const Balance& at, const Load& load) {
+bool Kkt::factorise(const Balance& at, const Load& load, const Defect& defect) {
   factor_.factorize(hessian_.lower());
   ++factorisations_;
   if (!usable()) return false;
-  solved_ = factor_.solve(jacobian_);
+  solved_ = factor_.solve(defect.jacobian);
   const int count = regions_ + bands_;
   by_length_.setOnes(count);
   by_multiplier_.setZero(count);
   for (int b = 0; b < bands_; ++b) {
-    if (at.holds[b] == Hold::length) continue;
     const Band& band = problem_.bands[b];
+    if (at.holds[b] == Hold::length) {
+      by_multiplier_[regions_ + b] = load.neutral[b] * law_compliance(band.law, at.tensions[b]);
+      continue;
+    }
     by_multiplier_[regions_ + b] = 1;
     by_length_[regions_ + b] =
         at.holds[b] == Hold::elastic
             ? law_slope(band.law, smooth_length(band, at.x) / load.neutral[b]) / load.neutral[b]
             : 0;
   }
-  const Eigen::MatrixXd product = jacobian_.transpose() * solved_;
+  const Eigen::MatrixXd product = defect.jacobian.transpose() * solved_;
   schur_ = by_length_.asDiagonal() * product;
   schur_.diagonal() += by_multiplier_;
   schur_factor_.compute(schur_);
@@ -161,24 +161,23 @@ bool Kkt::factorise(const Balance& at, const Load& load) {
 
 Step Kkt::step(const Balance& at, const Load& load, const Defect& defect, bool to_saddle) {
   Step result;
-  jacobian(at.x);
   assemble(at);
-  result.minimum = factorise(at, load);
+  result.minimum = factorise(at, load, defect);
   if (!result.minimum && !(to_saddle && usable())) {
     raise_ = std::max(least_raise_, raise_ / 8);
     hessian_.add_to_diagonal(raise_);
-    for (int tries = 0; tries < kMostRaises && !factorise(at, load); ++tries) {
+    for (int tries = 0; tries < kMostRaises && !factorise(at, load, defect); ++tries) {
       hessian_.add_to_diagonal(2 * raise_);
       raise_ *= 3;
     }
   }
   if (!usable()) {
-    result.move.setConstant(jacobian_.rows(), std::numeric_limits<double>::quiet_NaN());
+    result.move.setConstant(defect.gradient.size(), std::numeric_limits<double>::quiet_NaN());
     return result;
   }
   const Eigen::VectorXd free_move = factor_.solve(defect.gradient);
   const Eigen::VectorXd wanted =
-      defect.conditions - by_length_.asDiagonal() * (jacobian_.transpose() * free_move);
+      defect.conditions - by_length_.asDiagonal() * (defect.jacobian.transpose() * free_move);
   result.multipliers = schur_factor_.solve(wanted);
   result.left_over = wanted - schur_ * result.multipliers;
   result.move = -(free_move + solved_ * result.multipliers);
@@ -189,24 +188,24 @@ Eigen::VectorXd Kkt::correction(const Eigen::VectorXd& conditions) const {
   return -(solved_ * schur_factor_.solve(conditions));
 }
 
+Eigen::VectorXd Kkt::shortest_move(const Defect& defect, const Eigen::VectorXd& conditions) {
+  const Eigen::MatrixXd product = defect.jacobian.transpose() * defect.jacobian;
+  return -(defect.jacobian * product.completeOrthogonalDecomposition().solve(conditions));
+}
+
 void Kkt::guess_multipliers(Balance& at, const Load& load) const {
+  at.pressures.setZero(regions_);
+  for (int b = 0; b < bands_; ++b)
+    if (at.holds[b] == Hold::length) at.tensions[b] = 0;
+  const Defect rest = defect(at, load);
   std::vector<int> open;
   for (int i = 0; i < regions_ + bands_; ++i)
     if (i < regions_ || at.holds[i - regions_] == Hold::length) open.push_back(i);
-  at.pressures.setZero(regions_);
-  for (int i : open)
-    if (i >= regions_) at.tensions[i - regions_] = 0;
-  const Eigen::VectorXd gradient = defect(at, load).gradient;
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(gradient.size(), static_cast<Eigen::Index>(open.size()));
-  for (std::size_t k = 0; k < open.size(); ++k) {
-    const int i = open[k];
-    if (i < regions_)
-      add_volume_gradient(problem_.volumes[i], at.x, problem_.free_index, -1 / problem_.volumes[i].area,
-                          columns.col(k));
-    else
-      add_length_gradient(problem_.bands[i - regions_], at.x, problem_.free_index, 1, columns.col(k));
-  }
-  const Eigen::VectorXd best = columns.completeOrthogonalDecomposition().solve(-gradient);
+  Eigen::MatrixXd columns(rest.gradient.size(), static_cast<Eigen::Index>(open.size()));
+  for (std::size_t k = 0; k < open.size(); ++k) columns.col(k) = rest.jacobian.col(open[k]);
+  const Eigen::VectorXd best = (columns.transpose() * columns)
+                                   .completeOrthogonalDecomposition()
+                                   .solve(-columns.transpose() * rest.gradient);
   for (std::size_t k = 0; k < open.size(); ++k)
     (open[k] < regions_ ? at.pressures[open[k]] : at.tensions[open[k] - regions_]) = best[k];
 }

@@ -15,8 +15,8 @@ namespace tensegric_fit::tensegric {
 /// What a band does at present.
 enum class Hold {
   slack,    ///< shorter than neutral: pulls nothing
-  length,   ///< rigid: kept at its neutral length
-  elastic,  ///< pulls by its law
+  length,   ///< steep: kept at the length that its law has for its tension (rigid: at its neutral length)
+  elastic,  ///< not steep: pulls as its law has for its length
   limit     ///< pulls its tension limit, whatever its length
 };
 
@@ -37,6 +37,7 @@ struct Load {
 
 /// Net forces and broken conditions at a balance.
 struct Defect {
+  Eigen::MatrixXd jacobian;    ///< gradients of the conditions by the free nodes, one a column
   Eigen::VectorXd gradient;    ///< of the Lagrangian by the free nodes
   Eigen::VectorXd conditions;  ///< regions (m: loss of volume / area), then bands (m, or a pseudo force)
   double residual = 0;         ///< largest net force / mean tensile force at rest
@@ -65,9 +66,6 @@ class Kkt {
   /// A move of least effort that takes `conditions` to zero, by the matrix of the last step.
   Eigen::VectorXd correction(const Eigen::VectorXd& conditions) const;
 
-  /// Gradients of the conditions, one a column, as of the last step.
-  const Eigen::MatrixXd& gradients() const { return jacobian_; }
-
   /// Factorisations so far: what a solution costs on a fine mesh.
   int factorisations() const { return factorisations_; }
 
@@ -77,11 +75,13 @@ class Kkt {
   /// The multipliers that come nearest to balance at `at`, for the volumes and the bands kept at length.
   void guess_multipliers(Balance& at, const Load& load) const;
 
+  /// The shortest move of the free nodes that takes `conditions` to zero at `defect`'s state.
+  static Eigen::VectorXd shortest_move(const Defect& defect, const Eigen::VectorXd& conditions);
+
  private:
   void assemble(const Balance& at);
   bool usable() const;
-  bool factorise(const Balance& at, const Load& load);
-  void jacobian(const Positions& x);
+  bool factorise(const Balance& at, const Load& load, const Defect& defect);
 
   const Problem& problem_;
   int regions_, bands_;
@@ -89,7 +89,7 @@ class Kkt {
   int factorisations_ = 0;
   NodeMatrix hessian_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
-  Eigen::MatrixXd jacobian_, solved_;  // columns: gradients of volumes and lengths; the same, solved for
+  Eigen::MatrixXd solved_;                     // the conditions' gradients, solved for
   Eigen::VectorXd by_length_, by_multiplier_;  // each condition's derivatives
   Eigen::MatrixXd schur_;
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> schur_factor_;

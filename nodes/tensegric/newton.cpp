@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tensegric_fit::tensegric {
 namespace {
@@ -10,6 +11,9 @@ namespace {
 // symmetric one stays symmetric.
 constexpr Tolerance kAtSaddle{1e-5, 1e-6, 1e-6};
 constexpr int kMostIterations = 300, kMostHoldChanges = 20, kMostHalvings = 14;
+constexpr int kMostMends = 8;
+constexpr double kMended = 1e-12;         // relative, of volumes and lengths
+constexpr int kStepsBeyondLimit = 3;      // a tension may overshoot for a step or two
 constexpr int kMostFactorisations = 400;  // 20 to 60 are usual; on fine meshes each takes long
 
 }  // namespace
@@ -30,22 +34,27 @@ Newton::Newton(const Problem& problem, Recorder& recorder)
   longest_move_ = sum / static_cast<double>(problem.model.members.size()) / 2;
 }
 
+Stop Newton::spent() const {
+  if (iterations_ >= most_iterations_ || kkt_.factorisations() >= kMostFactorisations)
+    return Stop::iterations;
+  const double budget = problem_.options.time_budget;
+  return budget > 0 && recorder_.seconds() >= budget ? Stop::time : Stop::none;
+}
+
 bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, int most) {
   penalties_ =
       Eigen::VectorXd::Zero(problem_.volumes.size() + static_cast<Eigen::Index>(problem_.bands.size()));
   int changes = 0;
   for (int i = 0; i <= most; ++i) {
     Defect defect = kkt_.defect(at, load);
-    while (within(defect, tolerance) && change_holds(at, load)) {
+    while ((within(defect, tolerance) && change_holds(at, load)) ||
+           (i >= kStepsBeyondLimit && stop_at_limits(at, load))) {
       if (++changes > kMostHoldChanges) return false;
       defect = kkt_.defect(at, load);
     }
     if (within(defect, tolerance)) return true;
-    const bool spent = iterations_ >= most_iterations_ || kkt_.factorisations() >= kMostFactorisations;
-    if (i == most || spent) {
-      stopped_ = spent;
-      return within(defect, kWanted);
-    }
+    stop_ = spent();
+    if (i == most || stop_ != Stop::none) return within(defect, kWanted);
     const Step step = kkt_.step(at, load, defect, within(defect, kAtSaddle));
     branch_near_ = branch_near_ || !step.minimum;
     if (!step.move.allFinite() || !step.multipliers.allFinite()) return false;
@@ -54,12 +63,26 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
       continue;
     }
     if (!advance(at, load, defect, step)) return within(defect, kWanted);
-    if (!recorder_.record(++iterations_, at.x, kkt_.defect(at, load).residual)) {
-      stopped_ = true;
+    if (!recorder_.record(++iterations_, at.x, kkt_.defect(at, load).residual, merit_change_)) {
+      stop_ = Stop::caller;
       return false;
     }
   }
   return false;
+}
+
+void Newton::mend(Balance& at, const Load& load) const {
+  for (int i = 0; i < kMostMends; ++i) {
+    const Defect defect = kkt_.defect(at, load);
+    if (defect.volume_error <= kMended && defect.length_error <= kMended) return;
+    Eigen::VectorXd broken = defect.conditions;
+    for (Eigen::Index b = at.pressures.size(); b < broken.size(); ++b)
+      if (at.holds[b - at.pressures.size()] != Hold::length) broken[b] = 0;
+    Positions mended = at.x;
+    move(mended, Kkt::shortest_move(defect, broken));
+    if (!std::isfinite(fold_energy(problem_.units, mended))) return;
+    at.x = mended;
+  }
 }
 
 // Line search on energy plus penalties for broken conditions, with a second-order correction of the full
@@ -74,7 +97,7 @@ bool Newton::advance(Balance& at, const Load& load, const Defect& defect, const 
       penalties_[i] = std::max(penalties_[i], 2 * std::abs(multiplier + step.multipliers[i]));
       slope += multiplier * defect.conditions[i] - penalties_[i] * std::abs(defect.conditions[i]);
     } else {
-      slope += defect.conditions[i] * kkt_.gradients().col(i).dot(step.move);
+      slope += defect.conditions[i] * defect.jacobian.col(i).dot(step.move);
     }
   }
   const auto merit = [&](const Balance& b, const Defect& d) {
@@ -101,7 +124,9 @@ bool Newton::advance(Balance& at, const Load& load, const Defect& defect, const 
       move(trial.x, kkt_.correction(broken));
       there = kkt_.defect(trial, load);
     }
-    if (merit(trial, there) <= start + 1e-4 * length * std::min(slope, 0.0) + 1e-12 * std::abs(start)) {
+    const double reached = merit(trial, there);
+    if (reached <= start + 1e-4 * length * std::min(slope, 0.0) + 1e-12 * std::abs(start)) {
+      merit_change_ = (reached - start) / std::max(std::abs(start), std::numeric_limits<double>::min());
       at = trial;
       return true;
     }
@@ -131,6 +156,19 @@ bool Newton::release_contradicted(Balance& at, const Load& load, const Step& ste
   return shortened >= 0;
 }
 
+// A request that is out of reach never comes near enough to balance for change_holds: its tension grows
+// beyond its limit.
+bool Newton::stop_at_limits(Balance& at, const Load& load) const {
+  bool changed = false;
+  for (std::size_t b = 0; b < problem_.bands.size(); ++b) {
+    if (at.holds[b] != Hold::length || !(at.tensions[b] > load.limit[b])) continue;
+    at.holds[b] = Hold::limit;
+    at.tensions[b] = load.limit[b];
+    changed = true;
+  }
+  return changed;
+}
+
 // Lets go of lines that would push, takes hold of lines that would be too long, and stops at the tension
 // limits.
 bool Newton::change_holds(Balance& at, const Load& load) const {
@@ -144,13 +182,13 @@ bool Newton::change_holds(Balance& at, const Load& load) const {
     Hold hold = at.holds[b];
     if (hold == Hold::length && pull < -slight)
       hold = Hold::slack;
-    else if (hold == Hold::slack && length > neutral * (1 + 1e-9))
+    else if (hold == Hold::slack && length > neutral * law_stretch(band.law, 0) * (1 + 1e-9))
       hold = Hold::length;
     else if (hold != Hold::limit && pull > load.limit[b] + slight)
       hold = Hold::limit;
-    else if (hold == Hold::limit && rigid && length < neutral)
+    else if (hold == Hold::limit && band.steep && length < neutral * law_stretch(band.law, load.limit[b]))
       hold = Hold::length;
-    else if (hold == Hold::limit && !rigid &&
+    else if (hold == Hold::limit && !band.steep &&
              law_tension(band.law, length / neutral) < load.limit[b] - slight)
       hold = Hold::elastic;
     changed = changed || hold != at.holds[b];

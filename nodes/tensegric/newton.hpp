@@ -14,6 +14,9 @@ inline constexpr Tolerance kWanted{1e-8, 1e-9,
 
 bool within(const Defect& defect, const Tolerance& tolerance);
 
+/// What ended the whole solve before its time.
+enum class Stop { none, iterations, time, caller };
+
 class Newton {
  public:
   Newton(const Problem& problem, Recorder& recorder);
@@ -21,13 +24,19 @@ class Newton {
   /// Brings `at` to balance under `load`; false where `most` steps, or all that are left, do not.
   bool settle(Balance& at, const Load& load, const Tolerance& tolerance, int most);
 
+  /// Takes volumes and kept lengths from nearly to wholly right, by the shortest way.
+  void mend(Balance& at, const Load& load) const;
+
   Kkt& kkt() { return kkt_; }
+  double longest_move() const { return longest_move_; }
   int iterations() const { return iterations_; }
-  bool stopped() const { return stopped_; }          ///< by the cap on all iterations, or by the caller
+  Stop stop() const { return stop_; }
   bool branch_near() const { return branch_near_; }  ///< a balance that is no minimum was passed
 
  private:
+  Stop spent() const;
   bool advance(Balance& at, const Load& load, const Defect& defect, const Step& step);
+  bool stop_at_limits(Balance& at, const Load& load) const;
   bool release_contradicted(Balance& at, const Load& load, const Step& step) const;
   bool change_holds(Balance& at, const Load& load) const;
   void move(Positions& x, const Eigen::VectorXd& by) const;
@@ -37,7 +46,9 @@ class Newton {
   Kkt kkt_;
   double longest_move_;  // m, of a node in a step
   int iterations_ = 0, most_iterations_;
-  bool stopped_ = false, branch_near_ = false;
+  Stop stop_ = Stop::none;
+  bool branch_near_ = false;
+  double merit_change_ = 0;    // of the last step, relative
   Eigen::VectorXd penalties_;  // of the merit function, one a condition
 };
 

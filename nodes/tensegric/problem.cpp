@@ -25,6 +25,7 @@ void check_regions(const geometry::ControlMesh& control, const Garment& garment)
 void check_options(const geometry::ControlMesh& control, const SolverOptions& options) {
   if (!options.gravity.allFinite()) throw Refusal(refusal::kBadOption, "gravity is not finite");
   if (options.max_iterations < 0) throw Refusal(refusal::kBadOption, "max_iterations is negative");
+  if (!(options.time_budget >= 0)) throw Refusal(refusal::kBadOption, "time_budget is negative");
   for (double force : {options.line_force, options.volume_force})
     if (!(force >= 0 && force <= 1e6))
       throw Refusal(refusal::kBadOption, "line_force and volume_force must be in [0, 1000000]");
@@ -33,24 +34,89 @@ void check_options(const geometry::ControlMesh& control, const SolverOptions& op
       throw Refusal(refusal::kBadOption, "a tracked node is not one of the control mesh");
 }
 
+void check_body_volumes(const Model& model, const SolverOptions& options,
+                        const std::vector<VolumeFunction>& body_volumes) {
+  if (options.volume == KeptVolume::control) return;
+  if (body_volumes.size() != model.control.regions.size() ||
+      !std::all_of(body_volumes.begin(), body_volumes.end(),
+                   [](const VolumeFunction& f) { return f != nullptr; }))
+    throw Refusal(refusal::kBadOption,
+                  "the body's volume is to be kept, but is not given for each region of the control mesh");
+}
+
+void check_body_volume(const RegionVolume& region) {
+  if (region.body && !(std::isfinite(region.rest) && std::isfinite(region.area) && region.area > 0))
+    throw Refusal(refusal::kBadOption, "the volume of the body under region '" + region.name +
+                                           "' does not follow the control mesh");
+}
+
+// Of each outer node: is it in a piece of the control mesh that anything acts on?
+std::vector<char> touched_nodes(const Problem& problem) {
+  const geometry::ControlMesh& control = problem.model.control;
+  const bool all = !problem.options.gravity.isZero(0) || !problem.options.bones.still();
+  std::vector<char> touched(control.outer.size(), all);
+  if (all) return touched;
+  const std::vector<int> piece_of_triangle = geometry::components_of({control.outer, control.triangles});
+  std::vector<int> piece(control.outer.size(), 0);
+  for (std::size_t t = 0; t < control.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) piece[control.triangles[t][k]] = piece_of_triangle[t];
+  std::vector<char> piece_touched(control.outer.size(), 0);
+  for (const Band& band : problem.bands)
+    for (int node : band.nodes) piece_touched[piece[node]] = 1;
+  for (std::size_t i = 0; i < touched.size(); ++i) touched[i] = piece_touched[piece[i]];
+  return touched;
+}
+
+void number_free_nodes(Problem& problem) {
+  const std::vector<char> touched = touched_nodes(problem);
+  const std::size_t outer = touched.size();
+  problem.free_index.assign(2 * outer, -1);
+  problem.free_nodes = 0;
+  for (std::size_t i = 0; i < 2 * outer; ++i)
+    if (touched[i % outer] && !is_held(problem, static_cast<int>(i)))
+      problem.free_index[i] = problem.free_nodes++;
+}
+
 }  // namespace
 
-Problem lay_garment(const Model& model, const Garment& garment, const SolverOptions& options) {
+Problem lay_garment(const Model& model, const Garment& garment, const SolverOptions& options,
+                    const std::vector<VolumeFunction>& body_volumes) {
   check_regions(model.control, garment);
   check_options(model.control, options);
-  Problem problem{model,
-                  options,
-                  model.free_index(),
-                  model.free_nodes(),
-                  model.rest_positions(),
-                  lay_bands(model, garment),
-                  {},
-                  {},
-                  model.mean_tension()};
+  check_body_volumes(model, options, body_volumes);
+  Problem problem{
+      model, options, {}, 0, model.rest_positions(), lay_bands(model, garment), {}, {}, model.mean_tension()};
+  number_free_nodes(problem);
+  const Positions at_end = posed(problem, 1);
+  for (Band& band : problem.bands) band.straight = straight_way(model, band, at_end);
   problem.units = unit_volumes(model, problem.free_index);
-  for (const geometry::ControlRegion& region : model.control.regions)
-    problem.volumes.push_back(region_volume_of(model, region));
+  for (std::size_t r = 0; r < model.control.regions.size(); ++r) {
+    const bool body = options.volume == KeptVolume::body;
+    problem.volumes.push_back(region_volume_of(model, model.control.regions[r], problem.free_index,
+                                               body ? body_volumes[r] : VolumeFunction()));
+    check_body_volume(problem.volumes.back());
+  }
   return problem;
+}
+
+Positions posed(const Problem& problem, double share) {
+  Positions x = problem.rest;
+  if (problem.options.bones.still()) return x;
+  for (Eigen::Vector3d& p : x) p = problem.options.bones.moved(p, share);
+  return x;
+}
+
+void pose_apexes(Problem& problem, double share) {
+  if (problem.options.bones.still()) return;
+  const geometry::ControlMesh& control = problem.model.control;
+  for (std::size_t r = 0; r < problem.volumes.size(); ++r)
+    problem.volumes[r].apex =
+        problem.options.bones.moved(geometry::region_apex(control, control.regions[r]), share);
+}
+
+bool is_held(const Problem& problem, int node) {
+  const bool inner = node >= static_cast<int>(problem.model.control.outer.size());
+  return problem.model.is_fixed(node) || (inner && !problem.options.bones.still());
 }
 
 Positions positions_of(const Solution& solution) {
@@ -66,7 +132,7 @@ double relative_residual(const Problem& problem, const Eigen::VectorXd& gradient
   return std::sqrt(largest) / problem.force_scale;
 }
 
-bool Recorder::record(int iteration, const Positions& x, double residual) {
+bool Recorder::record(int iteration, const Positions& x, double residual, double merit_change) {
   Iterate iterate;
   iterate.iteration = iteration;
   for (const Band& band : problem_.bands)
@@ -75,10 +141,15 @@ bool Recorder::record(int iteration, const Positions& x, double residual) {
     iterate.volume_errors.push_back(volume_error(region, x));
   for (int node : problem_.options.track) iterate.tracked.push_back(x[node]);
   iterate.residual = residual;
+  iterate.merit_change = merit_change;
   history.push_back(iterate);
   if (!progress_) return true;
   return progress_(iterate,
                    {x.begin(), x.begin() + static_cast<std::ptrdiff_t>(problem_.model.control.outer.size())});
+}
+
+double Recorder::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 }  // namespace tensegric_fit::tensegric

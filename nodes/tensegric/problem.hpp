@@ -1,6 +1,7 @@
 /// What every solver is given: the model with the garment laid on it.
 #pragma once
 
+#include <chrono>
 #include <vector>
 
 #include "tensegric/band.hpp"
@@ -13,7 +14,7 @@ namespace tensegric_fit::tensegric {
 struct Problem {
   const Model& model;
   const SolverOptions& options;
-  std::vector<int> free_index;  ///< of each node its number among the free ones, or -1
+  std::vector<int> free_index;  ///< of each node its number among those to be solved for, or -1
   int free_nodes;
   Positions rest;
   std::vector<Band> bands;
@@ -38,7 +39,17 @@ struct Outcome {
 };
 
 /// \throw Refusal unknown_line, bad_garment, bad_option
-Problem lay_garment(const Model& model, const Garment& garment, const SolverOptions& options);
+Problem lay_garment(const Model& model, const Garment& garment, const SolverOptions& options,
+                    const std::vector<VolumeFunction>& body_volumes = {});
+
+/// The rest positions with `share` of the posture: where nodes that are not solved for belong.
+Positions posed(const Problem& problem, double share);
+
+/// Carries the apexes of the regions to `share` of the posture.
+void pose_apexes(Problem& problem, double share);
+
+/// The model's fixed nodes, and with a posture all inner nodes.
+bool is_held(const Problem& problem, int node);
 
 Positions positions_of(const Solution& solution);
 
@@ -51,12 +62,14 @@ class Recorder {
  public:
   Recorder(const Problem& problem, const Progress& progress) : problem_(problem), progress_(progress) {}
   /// False where the caller wants to stop.
-  bool record(int iteration, const Positions& x, double residual);
+  bool record(int iteration, const Positions& x, double residual, double merit_change = 0);
+  double seconds() const;  ///< since it was made
   std::vector<Iterate> history;
 
  private:
   const Problem& problem_;
   const Progress& progress_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace tensegric_fit::tensegric

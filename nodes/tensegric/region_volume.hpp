@@ -1,7 +1,9 @@
-/// The volume of one region of the control mesh and its derivatives (P1 §3.4): tetrahedra from a fixed apex.
+/// The volume of one region and its derivatives: of the control mesh (P1 §3.4, tetrahedra from a fixed apex),
+/// or of the body below it (DESIGN §5).
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,28 +12,43 @@
 
 namespace tensegric_fit::tensegric {
 
-/// A cubic of the outer nodes. `rest` is to be kept. `area` (m^2) is the size of its gradient by the free
-/// nodes at rest, so that (volume - rest) / area is a length; 1 where the region has no free node.
+/// Volume of the dense body under a region, m^3, for the model's nodes (outer, then inner), and where
+/// `gradient` is not null its gradient by each of them.
+using VolumeFunction = std::function<double(const Positions& nodes, Positions* gradient)>;
+
+/// `rest` is to be kept. `area` (m^2) is the size of the volume's gradient by the free nodes at rest, so that
+/// (volume - rest) / area is a length; 1 where the region has no free node.
 struct RegionVolume {
   std::string name;
   std::vector<Eigen::Vector3i> triangles;
   Eigen::Vector3d apex;
+  VolumeFunction body;  ///< empty: the control mesh's own volume is kept
   double rest = 0;
   double area = 1;
+  double control_rest = 0;  ///< of the control mesh, m^3
+  double control_area = 1;  ///< of the control mesh, as `area`
 };
 
+/// `free_index` of the nodes as of Model::free_index. A body's volume is kept only where the region has free
+/// nodes of its own.
+RegionVolume region_volume_of(const Model& model, const geometry::ControlRegion& region,
+                              const std::vector<int>& free_index, const VolumeFunction& body = {});
 RegionVolume region_volume_of(const Model& model, const geometry::ControlRegion& region);
 
+/// The volume that is kept, and the control mesh's whichever is kept.
 double volume(const RegionVolume& region, const Positions& x);
+double control_volume(const RegionVolume& region, const Positions& x);
 
 /// (V - V0) / V0; of a flat patch, which has no volume of its own, relative to area^(3/2).
+double volume_error(const RegionVolume& region, double volume);
 double volume_error(const RegionVolume& region, const Positions& x);
 
-/// Adds `scale` times the volume's gradient by the free nodes.
-void add_volume_gradient(const RegionVolume& region, const Positions& x, const std::vector<int>& free_index,
-                         double scale, Eigen::Ref<Eigen::VectorXd> gradient);
+/// Adds `scale` times the volume's gradient by the free nodes; returns the volume.
+double add_volume_gradient(const RegionVolume& region, const Positions& x, const std::vector<int>& free_index,
+                           double scale, Eigen::Ref<Eigen::VectorXd> gradient);
 
-/// Adds `scale` times the volume's second derivative (indefinite).
+/// Adds `scale` times the volume's second derivative (indefinite): for a body that of the control mesh, in
+/// proportion, since the two volumes grow alike.
 void add_volume_hessian(const RegionVolume& region, const Positions& x, const std::vector<int>& free_index,
                         double scale, NodeMatrix& hessian);
 

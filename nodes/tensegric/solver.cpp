@@ -32,7 +32,7 @@ std::string millimetres(double metres) {
   return std::to_string(std::lround(1000 * metres)) + " mm";
 }
 
-// Lines that stayed longer than asked for.
+// Lines that stayed longer than asked for, and why where it is plain.
 std::string reach_note(const std::vector<LineResult>& lines, const std::vector<Band>& bands) {
   std::string note;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -40,6 +40,9 @@ std::string reach_note(const std::vector<LineResult>& lines, const std::vector<B
     if (bands[i].law.kind != TensionLaw::Kind::rigid || line.final <= line.neutral * (1 + 1e-6)) continue;
     add_sentence(note, "Line " + line.name + " came down to " + millimetres(line.final) + "; " +
                            millimetres(line.neutral) + " were asked for.");
+    if (line.neutral < line.straight)
+      add_sentence(note, "It is " + millimetres(line.straight) +
+                             " straight from one fixed node to the next: no pull makes it shorter.");
   }
   return note;
 }
@@ -52,11 +55,12 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
   solution.inner.assign(middle, x.end());
   for (std::size_t b = 0; b < problem.bands.size(); ++b) {
     const Band& band = problem.bands[b];
-    solution.lines.push_back({band.name, band.initial, band.neutral, geometry::line_length(band.nodes, x),
-                              band.request, outcome.state.tensions[b], band.nodes});
+    const double length = geometry::line_length(band.nodes, x);
+    solution.lines.push_back({band.name, band.initial, band.neutral, length, band.request,
+                              outcome.state.tensions[b], band.nodes, band.straight, length});
   }
   for (const RegionVolume& region : problem.volumes)
-    solution.regions.push_back({region.name, region.rest, volume(region, x)});
+    solution.regions.push_back({region.name, region.control_rest, control_volume(region, x)});
   solution.status = outcome.status;
   solution.iterations = outcome.iterations;
   solution.residual = outcome.residual;
@@ -104,9 +108,10 @@ SolverName solver_from(const std::string& word) {
 }
 
 Solution solve(const Model& model, const Garment& garment, const SolverOptions& options,
-               const Solution* start, const Progress& progress) {
+               const Solution* start, const Progress& progress,
+               const std::vector<VolumeFunction>& body_volumes) {
   if (start != nullptr) check_start(model, *start);
-  const Problem problem = lay_garment(model, garment, options);
+  Problem problem = lay_garment(model, garment, options, body_volumes);
   Recorder recorder(problem, progress);
   recorder.record(0, start == nullptr ? problem.rest : positions_of(*start),
                   start == nullptr ? 0 : start->residual);

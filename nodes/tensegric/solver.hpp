@@ -7,13 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "geometry/posture.hpp"
 #include "tensegric/garment.hpp"
 #include "tensegric/model.hpp"
+#include "tensegric/region_volume.hpp"
 
 namespace tensegric_fit::tensegric {
 
 enum class SolverName { equilibrium, adaptive, relaxation };
 enum class Status { converged, infeasible, capped, oscillating, diverged };
+/// Whose volume stays as it is: the control mesh's (P1 §3.4), or that of the body below it.
+enum class KeptVolume { control, body };
 
 std::string to_string(SolverName name);
 std::string to_string(Status status);
@@ -26,6 +30,8 @@ struct LineResult {
   double request = 1;                          ///< neutral / initial
   double tension = 0;                          ///< pseudo force
   std::vector<int> nodes;                      ///< outer nodes that it runs over, in order
+  double straight = 0;   ///< m, between the fixed nodes that it runs over: it cannot become shorter
+  double reachable = 0;  ///< m, the shortest that it came to: `final` where the request is infeasible
 };
 
 struct RegionResult {
@@ -40,12 +46,19 @@ struct Iterate {
   std::vector<double> volume_errors;     ///< (V - V0) / V0, one a region
   std::vector<Eigen::Vector3d> tracked;  ///< the control nodes in SolverOptions::track
   double residual = 0;
+  double merit_change =
+      0;  ///< of the equilibrium solver's merit function in this step, relative: never a rise
 };
 
 /// Field defaults are the parameters' defaults.
 struct SolverOptions {
   SolverName solver = SolverName::equilibrium;
-  int max_iterations = 0;                             ///< 0: the solver's own cap
+  int max_iterations = 0;  ///< 0: the solver's own cap
+  double time_budget = 0;  ///< s, of the equilibrium solver; 0: none
+  KeptVolume volume = KeptVolume::control;
+  /// Posture (P2 §6): where the bones move, all inner nodes are bound to them, fixed outer nodes go with
+  /// them, and free outer nodes settle; volumes stay those of the scan's posture.
+  geometry::BoneFrames bones;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< pseudo force on each outer node, scan frame
   std::vector<int> track;                             ///< outer nodes whose way is written into the history
   /// relaxation, adaptive; pseudo forces / k: pull of a rigid line per stretch (P1 §3.5), and mean push at a
@@ -66,13 +79,18 @@ struct Solution {
   std::string note;  ///< a sentence for people where the status or the shape needs one
 };
 
-/// Called after each iteration with the state as it stands; return false to cancel (status capped).
+/// Called after each iteration with the state as it stands; return false to cancel (status capped: the
+/// equilibrium solver's result is then the last state on the way to the request that was in balance, with its
+/// volumes kept, as it is when the time budget or the iterations end).
 using Progress = std::function<bool(const Iterate&, const std::vector<Eigen::Vector3d>& outer)>;
 
-/// Deforms the model under the garment's lines at constant region volumes. `start` is null (from rest) or an
-/// earlier solution of the same model (warm start). Never returns a non-finite position. \throw Refusal
-/// unknown_line, bad_garment, bad_option
+/// Deforms the model under the garment's lines at constant region volumes. Pieces of the control mesh that no
+/// line touches stay at rest, bit for bit, where there is no gravity and no posture. `start` is null (from
+/// rest) or an earlier solution of the same model (warm start). `body_volumes`: for KeptVolume::body, one a
+/// region of the control mesh. Never returns a non-finite position. \throw Refusal unknown_line, bad_garment,
+/// bad_option
 Solution solve(const Model& model, const Garment& garment, const SolverOptions& options,
-               const Solution* start = nullptr, const Progress& progress = {});
+               const Solution* start = nullptr, const Progress& progress = {},
+               const std::vector<VolumeFunction>& body_volumes = {});
 
 }  // namespace tensegric_fit::tensegric
