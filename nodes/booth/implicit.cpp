@@ -5,6 +5,32 @@
 
 namespace tensegric_fit::booth {
 
+Eigen::Vector3d Implicit::gradient(const Eigen::Vector3d& p) const {
+  constexpr double step = 1e-5;
+  Eigen::Vector3d g;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d d = step * Eigen::Vector3d::Unit(i);
+    g[i] = (value(p + d) - value(p - d)) / (2 * step);
+  }
+  return g;
+}
+
+Eigen::Vector3d Implicit::project(Eigen::Vector3d p, const Eigen::Vector3d& mask) const {
+  // Newton steps; the direction is good for several of them
+  constexpr int kSteps = 12, kSameDirection = 4;
+  constexpr double kClose = 1e-8, kLongestStep = 0.01, kFlat = 0.05;
+  Eigen::Vector3d g = Eigen::Vector3d::Zero();
+  for (int i = 0; i < kSteps; ++i) {
+    const double v = value(p);
+    if (std::abs(v) < kClose) break;
+    if (i % kSameDirection == 0) g = gradient(p).cwiseProduct(mask);
+    const double length = g.norm();
+    if (length < kFlat) break;
+    p -= std::clamp(v / length, -kLongestStep, kLongestStep) * g / length;
+  }
+  return p;
+}
+
 double smooth_union(double a, double b, double k) {
   const double h = std::max(k - std::abs(a - b), 0.0) / k;
   return std::min(a, b) - h * h * h * k / 6;

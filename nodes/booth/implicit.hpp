@@ -7,6 +7,22 @@
 
 namespace tensegric_fit::booth {
 
+/// A shape that is its own mirror image at y = 0, or nearly so.
+class Implicit {
+ public:
+  virtual ~Implicit() = default;
+
+  virtual double value(const Eigen::Vector3d& p) const = 0;
+  /// Holds all of the shape with y >= 0 and of the mirror image of the rest; starts at y = 0.
+  virtual Eigen::AlignedBox3d half_box() const = 0;
+
+  /// Central differences. Its length is near 1 at the skin.
+  Eigen::Vector3d gradient(const Eigen::Vector3d& p) const;
+  /// The skin point near `p`, by Newton steps along the gradient; `mask` zeroes the directions that p must
+  /// keep.
+  Eigen::Vector3d project(Eigen::Vector3d p, const Eigen::Vector3d& mask = Eigen::Vector3d::Ones()) const;
+};
+
 /// Union of two shapes whose crease is rounded over a distance of about `k` metres (cubic, twice
 /// differentiable). Where the two differ by k or more it is the plain minimum. Commutative bit for bit. \pre
 /// k > 0

@@ -26,7 +26,7 @@ Vector3d mirrored(const Vector3d& p) {
 
 // The half space y >= 0 of the shape, or of its mirror image.
 struct Half {
-  const BodyShape& shape;
+  const Implicit& shape;
   bool left;
   double value(const Vector3d& p) const { return shape.value(left ? p : mirrored(p)); }
   Vector3d project(const Vector3d& p, const Vector3d& mask) const {
@@ -100,17 +100,15 @@ geometry::TriangleMesh marching_cubes(const Grid& grid, const std::vector<double
   return mesh;
 }
 
-Grid grid_round(const BodyShape& shape, double spacing) {
-  // Room for arms held out; the grid starts at y = 0.
-  const Vector3d low(shape.scaled(-0.18), 0, -2 * spacing),
-      high(shape.scaled(0.42), shape.scaled(0.75), shape.scaled(1.74));
-  Grid grid{low, ((high - low) / spacing).array().ceil().cast<int>() + 1, spacing};
-  return grid;
+Grid grid_round(const Implicit& shape, double spacing) {
+  const Eigen::AlignedBox3d box = shape.half_box();
+  const Vector3d low = box.min() - 2 * spacing * Vector3d::UnitZ();  // the grid starts at y = 0
+  return {low, ((box.max() - low) / spacing).array().ceil().cast<int>() + 1, spacing};
 }
 
 }  // namespace
 
-geometry::TriangleMesh polygonise(const BodyShape& shape, double spacing) {
+geometry::TriangleMesh polygonise(const Implicit& shape, double spacing) {
   const Grid grid = grid_round(shape, spacing);
   geometry::TriangleMesh body;
   std::map<std::pair<double, double>, int>
@@ -143,7 +141,7 @@ geometry::TriangleMesh polygonise(const BodyShape& shape, double spacing) {
   if (geometry::cone_volume(body.vertices, body.triangles) < 0)
     for (Vector3i& t : body.triangles) std::swap(t[1], t[2]);
   if (!geometry::is_closed(body))
-    throw geometry::Refusal(geometry::refusal::kBadMesh, "the body's mesh is not closed");
+    throw geometry::Refusal(geometry::refusal::kBadMesh, "the shape's mesh is not closed");
   return body;
 }
 

@@ -1,7 +1,7 @@
-/// Implicit body -> closed triangle mesh.
+/// Implicit shape -> closed triangle mesh.
 #pragma once
 
-#include "booth/body_shape.hpp"
+#include "booth/implicit.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::booth {
@@ -9,6 +9,6 @@ namespace tensegric_fit::booth {
 /// Marching cubes on a grid of `spacing` metres, vertices moved onto the skin. Each half of the body (split
 /// at y = 0) is made in the left half's coordinates, so that a symmetric shape gives a mesh that is its own
 /// mirror image. \throw Refusal bad_mesh: the result is not closed
-geometry::TriangleMesh polygonise(const BodyShape& shape, double spacing);
+geometry::TriangleMesh polygonise(const Implicit& shape, double spacing);
 
 }  // namespace tensegric_fit::booth

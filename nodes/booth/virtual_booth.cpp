@@ -1,11 +1,13 @@
-/// virtual_booth: makes a body and scans it. Writes scan.ply, scan.bag, body.ply and truth.json; same
-/// arguments, same bytes.
+/// virtual_booth: makes a body and scans it. Writes scan.ply, scan.bag, body.ply and truth.json; or shape.ply
+/// and fixed.yaml of an example shape. Same arguments, same bytes.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 
+#include "booth/example_shape.hpp"
 #include "booth/scan_bag.hpp"
 #include "booth/truth_file.hpp"
 #include "booth/virtual_body.hpp"
@@ -34,15 +36,31 @@ void run(const booth::BodyParameters& body, const booth::ScannerOptions& scanner
                            scan.cloud.points.size(), subject.mesh.triangles.size());
 }
 
+// For `fit --mesh shape.ply --fixed fixed.yaml`.
+void write_shape(const std::string& name, const std::filesystem::path& out) {
+  const booth::ExampleShape shape = booth::make_example_shape(name);
+  std::filesystem::create_directories(out);
+  geometry::write_ply_mesh(out / "shape.ply", shape.mesh);
+  const Eigen::Vector3d low = shape.held.min(), high = shape.held.max();
+  std::ofstream file(out / "fixed.yaml");
+  file << fmt::format("boxes:\n  - {{min: [{}, {}, {}], max: [{}, {}, {}]}}\n", low.x(), low.y(), low.z(),
+                      high.x(), high.y(), high.z());
+  file.flush();
+  if (!file) throw std::runtime_error((out / "fixed.yaml").string() + ": cannot be written");
+  std::cout << fmt::format("{}: {} of {} triangles\n", out.string(), name, shape.mesh.triangles.size());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   booth::BodyParameters body;
   booth::ScannerOptions scanner;
-  std::string out = "virtual_booth";
+  std::string out = "virtual_booth", shape;
   CLI::App app("Scans a parametric body with virtual depth sensors. Metres, radians.");
   app.option_defaults()->always_capture_default();
-  app.add_option("--out", out, "directory for scan.ply, scan.bag, body.ply and truth.json");
+  app.add_option("--out", out, "directory for the files");
+  app.add_option("--shape", shape, "write this shape and which part of it to hold, in place of a scan")
+      ->check(CLI::IsMember(booth::example_shapes()));
   app.add_option("--stature", body.stature, "height of the body");
   app.add_option("--bust", body.bust, "size of the breasts, as a length relative to the default");
   app.add_option("--firmness", body.firmness, "of the breasts, 0.2 to 1");
@@ -64,7 +82,11 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kUsage;
   }
   try {
-    run(body, scanner, out);
+    if (shape.empty()) {
+      run(body, scanner, out);
+    } else {
+      write_shape(shape, out);
+    }
   } catch (const geometry::Refusal& refusal) {
     std::cerr << "virtual_booth: " << refusal.code() << ": " << refusal.what() << '\n';
     return kRefused;
