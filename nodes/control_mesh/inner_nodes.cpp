@@ -12,8 +12,8 @@ constexpr double kLeastShare =
 constexpr int kSmoothingRounds = 2;
 constexpr double kShrink = 0.9;
 constexpr int kMostRounds = 40;
-constexpr double kThroughBody = 0.5;  // m
-constexpr double kBelowSkin = 1e-4;   // m; where the ray through the body starts
+constexpr double kBelowSkin = 1e-4;   // m; where the ray through the body starts, or
+constexpr double kBelowShare = 0.01;  // of the thickness where that is less
 
 /// Normals averaged with those around them: below a sharp fold the inner nodes spread out all the same.
 std::vector<Vector3d> smooth_normals(const geometry::ControlMesh& control) {
@@ -35,8 +35,8 @@ std::vector<Vector3d> smooth_normals(const geometry::ControlMesh& control) {
 void place_inner_nodes(geometry::ControlMesh& control, std::vector<double> thickness, const Skin& skin) {
   const std::vector<Vector3d> normals = smooth_normals(control);
   for (std::size_t v = 0; v < thickness.size(); ++v) {
-    const Vector3d below = control.outer[v] - kBelowSkin * normals[v];
-    const auto far_side = skin.first_exit(below, -normals[v], kThroughBody);
+    const Vector3d below = control.outer[v] - std::min(kBelowSkin, kBelowShare * thickness[v]) * normals[v];
+    const auto far_side = skin.first_exit(below, -normals[v], thickness[v] / kShareOfBody);
     if (far_side) thickness[v] = std::min(thickness[v], kShareOfBody * (*far_side - below).norm());
   }
   for (int round = 0; round < kMostRounds; ++round) {

@@ -1,8 +1,9 @@
 #include "control_mesh/shape_control.hpp"
 
-#include <numeric>
-
+#include "control_mesh/inner_nodes.hpp"
+#include "control_mesh/skin.hpp"
 #include "geometry/checked_yaml.hpp"
+#include "geometry/decimate.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::control_mesh {
@@ -10,6 +11,7 @@ namespace {
 
 using geometry::Refusal;
 constexpr const char* kCode = geometry::refusal::kBadTemplate;
+constexpr double kThickness = 0.5;  // of the mean edge
 
 Eigen::Vector3d point_at(const YAML::Node& map, const char* key, const std::string& where) {
   const auto xyz = geometry::required<std::vector<double>>(map, key, where, kCode);
@@ -22,6 +24,38 @@ double mean_edge(const geometry::TriangleMesh& mesh) {
   const auto edges = geometry::edges_of(mesh);
   for (const geometry::Edge& e : edges) sum += (mesh.vertices[e.first] - mesh.vertices[e.second]).norm();
   return sum / static_cast<double>(edges.size());
+}
+
+void check_outside(const geometry::TriangleMesh& mesh) {
+  geometry::check_mesh(mesh);
+  if (mesh.triangles.empty()) throw Refusal(geometry::refusal::kBadMesh, "the shape has no triangles");
+  if (geometry::is_closed(mesh) && geometry::cone_volume(mesh.vertices, mesh.triangles) <= 0)
+    throw Refusal(geometry::refusal::kBadMesh,
+                  "the shape is inside out: its triangles must run counter-clockwise from outside");
+}
+
+// One region a piece. \throw Refusal bad_template: a piece that nothing holds
+void add_regions(const geometry::TriangleMesh& mesh, geometry::ControlMesh& control) {
+  const std::vector<int> piece_of = geometry::components_of(mesh);
+  std::vector<int> held;
+  std::vector<char> counted(mesh.vertices.size(), 0);
+  for (std::size_t t = 0; t < piece_of.size(); ++t) {
+    const std::size_t piece = piece_of[t];
+    if (piece == control.regions.size()) {
+      control.regions.push_back({piece == 0 ? "shape" : "shape_" + std::to_string(piece + 1), {}});
+      held.push_back(0);
+    }
+    control.regions[piece].triangles.push_back(static_cast<int>(t));
+    for (int k = 0; k < 3; ++k) {
+      const int v = mesh.triangles[t][k];
+      if (counted[v] == 0) held[piece] += control.outer_fixed[v];
+      counted[v] = 1;
+    }
+  }
+  for (std::size_t piece = 0; piece < held.size(); ++piece)
+    if (held[piece] < 3)
+      throw Refusal(kCode, "piece '" + control.regions[piece].name + "' of the control mesh has " +
+                               std::to_string(held[piece]) + " fixed nodes; three or more hold it");
 }
 
 }  // namespace
@@ -41,16 +75,10 @@ ShapeFixing load_shape_fixing(const std::string& path) {
 }
 
 geometry::ControlMesh control_from_shape(const geometry::TriangleMesh& mesh, const ShapeFixing& fixing) {
-  geometry::check_mesh(mesh);
-  if (geometry::is_closed(mesh) && geometry::cone_volume(mesh.vertices, mesh.triangles) <= 0)
-    throw Refusal(geometry::refusal::kBadMesh,
-                  "the control mesh is inside out: its triangles must run counter-clockwise from outside");
+  check_outside(mesh);
   const std::size_t count = mesh.vertices.size();
-  const double thickness = fixing.thickness > 0 ? fixing.thickness : 0.5 * mean_edge(mesh);
-  const auto normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
-
   geometry::ControlMesh control;
-  control.outer = mesh.vertices;
+  control.outer = control.inner = mesh.vertices;
   control.triangles = mesh.triangles;
   control.names.resize(count);
   control.outer_fixed.assign(count, 0);
@@ -59,18 +87,27 @@ geometry::ControlMesh control_from_shape(const geometry::TriangleMesh& mesh, con
       throw Refusal(kCode, "fixed node " + std::to_string(node) + " is not in the control mesh");
     control.outer_fixed[node] = 1;
   }
-  for (std::size_t v = 0; v < count; ++v) {
-    control.inner.push_back(mesh.vertices[v] - thickness * normals[v]);
+  for (std::size_t v = 0; v < count; ++v)
     for (const auto& box : fixing.boxes) {
       const Eigen::Array3d p = mesh.vertices[v].array();
       if ((p >= box[0].array()).all() && (p <= box[1].array()).all()) control.outer_fixed[v] = 1;
     }
-  }
   control.inner_fixed = control.outer_fixed;
-  control.regions = {{"shape", std::vector<int>(mesh.triangles.size())}};
-  std::iota(control.regions[0].triangles.begin(), control.regions[0].triangles.end(), 0);
+  add_regions(mesh, control);
   geometry::check_control_mesh(control);
+  const double thickness = fixing.thickness > 0 ? fixing.thickness : kThickness * mean_edge(mesh);
+  place_inner_nodes(control, std::vector<double>(count, thickness), Skin(mesh));
   return control;
+}
+
+geometry::ControlMesh simplified_control(const geometry::TriangleMesh& shape, const ShapeFixing& fixing,
+                                         int triangles) {
+  if (!fixing.nodes.empty())
+    throw Refusal(kCode,
+                  "'nodes' number the vertices of a given control mesh: use 'boxes' where it is made by "
+                  "simplification");
+  check_outside(shape);
+  return control_from_shape(geometry::with_triangles(shape, triangles), fixing);
 }
 
 }  // namespace tensegric_fit::control_mesh

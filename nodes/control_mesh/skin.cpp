@@ -11,8 +11,8 @@ namespace tensegric_fit::control_mesh {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kCell = 0.02;    // m; a few body triangles (about 7 mm) a cell
-constexpr int kMostCells = 200;   // along an axis, whatever the mesh's size
+constexpr double kCell = 0.02;                     // m; a few body triangles (about 7 mm) a cell
+constexpr int kLeastCells = 20, kMostCells = 200;  // along the longest axis, whatever the mesh's size
 constexpr double kOnEdge = 1e-9;  // barycentric: a ray in the plane of symmetry runs exactly along edges
 constexpr double kOnLoop = 1e-6;  // m; a point of the skin lies on a section through it
 constexpr double kAside = 0.06;   // m; how far the way between two nodes swings out of their box
@@ -110,7 +110,8 @@ std::vector<Vector3d> divide(const std::vector<Vector3d>& way, int count) {
 Skin::Skin(geometry::TriangleMesh surface) : surface_(std::move(surface)) {
   const auto box = geometry::bounding_box(surface_.vertices);
   corner_ = box[0];
-  cell_ = std::max(kCell, (box[1] - box[0]).maxCoeff() / kMostCells);
+  const double size = (box[1] - box[0]).maxCoeff();
+  cell_ = std::clamp(kCell, size / kMostCells, size / kLeastCells);
   cells_ = ((box[1] - box[0]) / cell_).array().floor().cast<int>() + 1;
   triangles_in_.resize(static_cast<std::size_t>(cells_.x()) * cells_.y() * cells_.z());
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {

@@ -2,6 +2,7 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModAspectRatioT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <queue>
@@ -11,6 +12,8 @@
 
 namespace tensegric_fit::geometry {
 namespace {
+
+constexpr double kWorstAspect = 8;  // longest edge / its height
 
 struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
@@ -42,16 +45,54 @@ TriangleMesh from_open_mesh(const Mesh& mesh) {
   return result;
 }
 
-void collapse_to(Mesh& mesh, std::size_t triangles) {
+// Where the surface is flat or bends one way only, the quadric error does not say which edge to collapse, and
+// slivers are left: the shorter one goes first. A border keeps its shape likewise.
+class EvenQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
+ public:
+  using Base = OpenMesh::Decimater::ModQuadricT<Mesh>;
+  using Handle = OpenMesh::Decimater::ModHandleT<EvenQuadric>;
+  using Base::Base;
+
+  float collapse_priority(const CollapseInfo& collapse) override {
+    const float error = Base::collapse_priority(collapse);
+    if (error < 0) return error;
+    const double squared = (collapse.p1 - collapse.p0).sqrnorm();
+    return static_cast<float>(error + kEven * squared * squared + off_border(collapse) * squared);
+  }
+
+ private:
+  static constexpr double kEven = 0.01;
+
+  // Squared distance of the border vertex that goes from the border that stays; 0 inside.
+  double off_border(const CollapseInfo& collapse) {
+    if (!mesh().is_boundary(collapse.v0)) return 0;
+    double largest = 0;
+    for (const auto v : mesh().vv_range(collapse.v0)) {
+      if (!mesh().is_boundary(mesh().edge_handle(mesh().find_halfedge(collapse.v0, v)))) continue;
+      const OpenMesh::Vec3d chord = mesh().point(v) - collapse.p1, aside = collapse.p0 - collapse.p1;
+      const double length = chord.sqrnorm();
+      if (length > 0) largest = std::max(largest, (aside % chord).sqrnorm() / length);
+    }
+    return largest;
+  }
+};
+
+template <typename Priority>
+void collapse_to(Mesh& mesh, std::size_t triangles, double worst_aspect) {
   mesh.request_face_normals();
   mesh.update_face_normals();
   OpenMesh::Decimater::DecimaterT<Mesh> decimater(mesh);
-  OpenMesh::Decimater::ModQuadricT<Mesh>::Handle quadric;
+  typename Priority::Handle quadric;
   OpenMesh::Decimater::ModNormalFlippingT<Mesh>::Handle flipping;
   decimater.add(quadric);
   decimater.module(quadric).unset_max_err();
   decimater.add(flipping);
   decimater.module(flipping).set_max_normal_deviation(60);
+  OpenMesh::Decimater::ModAspectRatioT<Mesh>::Handle aspect;
+  if (worst_aspect > 0) {
+    decimater.add(aspect);
+    decimater.module(aspect).set_aspect_ratio(static_cast<float>(worst_aspect));
+  }
   decimater.initialize();
   decimater.decimate_to_faces(0, triangles);
   mesh.garbage_collection();
@@ -78,7 +119,15 @@ void split_to(Mesh& mesh, std::size_t triangles) {
 TriangleMesh with_triangles(const TriangleMesh& mesh, int triangles) {
   Mesh work = to_open_mesh(mesh);
   const auto wanted = static_cast<std::size_t>(triangles);
-  if (work.n_faces() > wanted) collapse_to(work, wanted);
+  if (work.n_faces() > wanted) collapse_to<OpenMesh::Decimater::ModQuadricT<Mesh>>(work, wanted, 0);
+  split_to(work, wanted);
+  return from_open_mesh(work);
+}
+
+TriangleMesh with_even_triangles(const TriangleMesh& mesh, int triangles) {
+  Mesh work = to_open_mesh(mesh);
+  const auto wanted = static_cast<std::size_t>(triangles);
+  if (work.n_faces() > wanted) collapse_to<EvenQuadric>(work, wanted, kWorstAspect);
   split_to(work, wanted);
   return from_open_mesh(work);
 }

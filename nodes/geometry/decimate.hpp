@@ -12,4 +12,8 @@ namespace tensegric_fit::geometry {
 /// meet
 TriangleMesh with_triangles(const TriangleMesh& mesh, int triangles);
 
+/// The same with triangles of more even size and shape, a little farther from the surface: what a tensegric
+/// model stands on.
+TriangleMesh with_even_triangles(const TriangleMesh& mesh, int triangles);
+
 }  // namespace tensegric_fit::geometry
