@@ -27,12 +27,13 @@ geometry::TriangleMesh in_body_frame(const geometry::TriangleMesh& body,
   return moved;
 }
 
-std::vector<double> thickness_of(const Template& pattern) {
-  std::vector<double> thickness(static_cast<std::size_t>(pattern.rows) * pattern.columns);
+std::vector<double> thickness_of(const Template& pattern, std::size_t nodes) {
+  std::vector<double> thickness(nodes);
   for (const Side side : {Side::left, Side::right})
     for (int row = 0; row < pattern.rows; ++row)
       for (int column = 0; column <= pattern.middle(); ++column)
-        thickness[node_at(pattern, row, column, side)] = pattern.thickness[row][column];
+        if (const int node = node_at(pattern, row, column, side); node >= 0)
+          thickness[node] = pattern.thickness[row][column];
   return thickness;
 }
 
@@ -67,12 +68,16 @@ std::vector<std::vector<int>> grid_neighbours(const Template& pattern) {
   std::vector<std::vector<int>> around;
   for (int row = 0; row < pattern.rows; ++row)
     for (int column = 0; column < pattern.columns; ++column) {
-      const int node = row * pattern.columns + column;
+      const int place = row * pattern.columns + column;
+      if (pattern.numbers[place] < 0) continue;
       around.emplace_back();
-      if (row > 0) around.back().push_back(node - pattern.columns);
-      if (row + 1 < pattern.rows) around.back().push_back(node + pattern.columns);
-      if (column > 0) around.back().push_back(node - 1);
-      if (column + 1 < pattern.columns) around.back().push_back(node + 1);
+      const auto add = [&](bool inside, int neighbour) {
+        if (inside && pattern.numbers[neighbour] >= 0) around.back().push_back(pattern.numbers[neighbour]);
+      };
+      add(row > 0, place - pattern.columns);
+      add(row + 1 < pattern.rows, place + pattern.columns);
+      add(column > 0, place - 1);
+      add(column + 1 < pattern.columns, place + 1);
     }
   return around;
 }
@@ -117,7 +122,7 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
   relax_on_skin(control, spreadable(pattern, control), grid_neighbours(pattern), skin);
 
   // 2. Inner nodes below them, and constraining lines over them.
-  place_inner_nodes(control, thickness_of(pattern), skin);
+  place_inner_nodes(control, thickness_of(pattern, control.outer.size()), skin);
   add_lines(pattern, control);
 
   // 3. Finer triangles where they are asked for; what is left between triangles and skin is evened out.

@@ -1,28 +1,52 @@
 #include "control_mesh/grid.hpp"
 
+#include <algorithm>
+
 namespace tensegric_fit::control_mesh {
 namespace {
 
-/// Cell between row and row + 1, column and column + 1: two triangles, counter-clockwise from outside.
+/// The mark of the cell between row and row + 1, column and column + 1 of the whole grid, as drawn.
+char mark_of(const Template& pattern, int row, int column) {
+  return pattern.diagonals[row][column < pattern.middle() ? column : pattern.columns - 2 - column];
+}
+
+/// Two triangles a cell, counter-clockwise from outside, or none.
 void add_cell(const Template& pattern, int row, int column, std::vector<Eigen::Vector3i>& triangles) {
-  const bool mirrored = column >= pattern.middle();
-  const char drawn = pattern.diagonals[row][mirrored ? pattern.columns - 2 - column : column];
-  const bool falling = (drawn == '\\') != mirrored;
+  const char mark = mark_of(pattern, row, column);
+  if (mark == ' ') return;
+  const bool falling = (mark == '\\') == (column < pattern.middle());
   // Seen from outside her left, column 0, is on the viewer's right.
-  const int upper = row * pattern.columns + column, lower = upper + pattern.columns;
+  const int* upper = &pattern.numbers[row * pattern.columns + column];
+  const int* lower = upper + pattern.columns;
   if (falling) {
-    triangles.emplace_back(upper, upper + 1, lower + 1);
-    triangles.emplace_back(upper, lower + 1, lower);
+    triangles.emplace_back(upper[0], upper[1], lower[1]);
+    triangles.emplace_back(upper[0], lower[1], lower[0]);
   } else {
-    triangles.emplace_back(upper, upper + 1, lower);
-    triangles.emplace_back(upper + 1, lower + 1, lower);
+    triangles.emplace_back(upper[0], upper[1], lower[0]);
+    triangles.emplace_back(upper[1], lower[1], lower[0]);
   }
 }
 
 }  // namespace
 
+std::vector<int> number_nodes(const Template& pattern) {
+  std::vector<int> numbers(static_cast<std::size_t>(pattern.rows) * pattern.columns, -1);
+  for (int row = 0; row + 1 < pattern.rows; ++row)
+    for (int column = 0; column + 1 < pattern.columns; ++column) {
+      if (mark_of(pattern, row, column) == ' ') continue;
+      const int corner = row * pattern.columns + column;
+      for (int place : {corner, corner + 1, corner + pattern.columns, corner + pattern.columns + 1})
+        numbers[place] = 0;
+    }
+  int next = 0;
+  for (int& number : numbers)
+    if (number == 0) number = next++;
+  return numbers;
+}
+
 int node_at(const Template& pattern, int row, int column, Side side) {
-  return row * pattern.columns + (side == Side::left ? column : pattern.columns - 1 - column);
+  return pattern
+      .numbers[row * pattern.columns + (side == Side::left ? column : pattern.columns - 1 - column)];
 }
 
 std::string name_on(const std::string& name, Side side) {
@@ -33,7 +57,7 @@ std::string name_on(const std::string& name, Side side) {
 
 geometry::ControlMesh grid_of(const Template& pattern) {
   geometry::ControlMesh grid;
-  const std::size_t count = static_cast<std::size_t>(pattern.rows) * pattern.columns;
+  const int count = 1 + *std::max_element(pattern.numbers.begin(), pattern.numbers.end());
   grid.outer.resize(count, Eigen::Vector3d::Zero());
   grid.inner.resize(count, Eigen::Vector3d::Zero());
   grid.outer_fixed.resize(count, 0);
@@ -43,6 +67,7 @@ geometry::ControlMesh grid_of(const Template& pattern) {
     for (int row = 0; row < pattern.rows; ++row)
       for (int column = 0; column <= pattern.middle(); ++column) {
         const int node = node_at(pattern, row, column, side);
+        if (node < 0) continue;
         grid.outer_fixed[node] = pattern.fixed[row][column] == '#';
         grid.inner_fixed[node] = grid.outer_fixed[node] && pattern.inner_fixed;
       }
@@ -50,19 +75,20 @@ geometry::ControlMesh grid_of(const Template& pattern) {
       grid.names[node_at(pattern, node.row, node.column, side)] = name_on(node.name, side);
   }
 
+  for (const TemplateRegion& region : pattern.regions) grid.regions.push_back({region.name, {}});
   for (int row = 0; row + 1 < pattern.rows; ++row)
-    for (int column = 0; column + 1 < pattern.columns; ++column)
+    for (int column = 0; column + 1 < pattern.columns; ++column) {
+      const int first = static_cast<int>(grid.triangles.size());
       add_cell(pattern, row, column, grid.triangles);
-  for (const TemplateRegion& region : pattern.regions) {
-    geometry::ControlRegion part{region.name, {}};
-    for (int row = region.first_row; row < region.last_row; ++row)
-      for (int column = region.first_column; column < region.last_column; ++column) {
-        const int cell = row * (pattern.columns - 1) + column;
-        part.triangles.push_back(2 * cell);
-        part.triangles.push_back(2 * cell + 1);
+      for (std::size_t i = 0; i < grid.regions.size(); ++i) {
+        const TemplateRegion& region = pattern.regions[i];
+        if (row < region.first_row || row >= region.last_row || column < region.first_column ||
+            column >= region.last_column)
+          continue;
+        for (int t = first; t < static_cast<int>(grid.triangles.size()); ++t)
+          grid.regions[i].triangles.push_back(t);
       }
-    grid.regions.push_back(std::move(part));
-  }
+    }
   return grid;
 }
 

@@ -12,7 +12,10 @@ namespace tensegric_fit::control_mesh {
 /// Her left half is drawn in the template; the right half is its mirror image.
 enum class Side { left, right };
 
-/// Number of the node at a row and a column of the template's drawn half, on either side.
+/// Template::numbers from the template's cells. \pre `diagonals` is read
+std::vector<int> number_nodes(const Template& pattern);
+
+/// Number of the node at a row and a column of the template's drawn half, on either side; -1: no node.
 int node_at(const Template& pattern, int row, int column, Side side);
 
 /// `name` as it reads on a side: on her right _L and _R change places; names without a side stay.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include "control_mesh/grid.hpp"
 #include "control_mesh/template.hpp"
 #include "geometry/checked_yaml.hpp"
 
@@ -42,8 +43,14 @@ Reference reference_from(const YAML::Node& map, double most_offset, const std::s
   return reference;
 }
 
+std::vector<std::string> axis_from(const YAML::Node& map, const std::string& where) {
+  const auto axis = required<std::vector<std::string>>(map, "axis", where, kCode);
+  if (axis.empty()) throw Refusal(kCode, where + ": 'axis' must name a landmark");
+  return axis;
+}
+
 TemplateNode node_from(const YAML::Node& map, const Template& pattern, const std::string& where) {
-  check_keys(map, {"row", "column", "name", "landmark", "level", "angle"}, where, kCode);
+  check_keys(map, {"row", "column", "name", "landmark", "level", "angle", "axis"}, where, kCode);
   TemplateNode node;
   node.row = whole_number(map, "row", 0, pattern.rows - 1, where);
   node.column = whole_number(map, "column", 0, pattern.middle(), where);
@@ -64,20 +71,25 @@ TemplateNode node_from(const YAML::Node& map, const Template& pattern, const std
   } else if (node.name.empty()) {
     throw Refusal(kCode, where + ": neither a 'name' nor a place");
   }
+  if (map["axis"]) {
+    if (node.placing != TemplateNode::Placing::level_and_angle || on_middle)
+      throw Refusal(kCode, where + ": 'axis' needs 'level' and 'angle', and a node off the middle column");
+    node.axis = axis_from(map, where);
+  }
   return node;
 }
 
-/// A picture of her left half: one word a row, made of two characters.
-std::vector<std::string> picture(const YAML::Node& root, const char* key, int rows, int columns, char a,
-                                 char b, const std::string& path) {
+/// A picture of her left half: one word a row, made of the given characters.
+std::vector<std::string> picture(const YAML::Node& root, const char* key, int rows, int columns,
+                                 const std::string& characters, const std::string& path) {
   const auto lines = required<std::vector<std::string>>(root, key, path, kCode);
   const auto fits = [&](const std::string& line) {
     return line.size() == static_cast<std::size_t>(columns) &&
-           std::all_of(line.begin(), line.end(), [a, b](char c) { return c == a || c == b; });
+           line.find_first_not_of(characters) == std::string::npos;
   };
   if (lines.size() != static_cast<std::size_t>(rows) || !std::all_of(lines.begin(), lines.end(), fits))
     throw Refusal(kCode, path + ": '" + key + "' must be " + std::to_string(rows) + " words of " +
-                             std::to_string(columns) + " characters '" + a + "' or '" + b + "'");
+                             std::to_string(columns) + " of the characters '" + characters + "'");
   return lines;
 }
 
@@ -114,23 +126,52 @@ YAML::Node list_of(const YAML::Node& root, const char* key, const std::string& p
   return root[key];
 }
 
-/// Every node must be reachable: the first and the last row have both ends placed, and no node stands there
-/// twice.
+/// The drawn half's nodes along a row (one row, all columns) or a column must hang together.
+void check_shape(const Template& pattern, const std::string& path) {
+  const auto check = [&](int first, int last, const auto& node_of) {
+    int runs = 0;
+    for (int i = first; i <= last; ++i)
+      if (node_of(i) >= 0 && (i == first || node_of(i - 1) < 0)) ++runs;
+    if (runs != 1)
+      throw Refusal(kCode, path + ": 'diagonals' must leave each row and each column one piece of cells");
+  };
+  for (int row = 0; row < pattern.rows; ++row)
+    check(0, pattern.middle(), [&](int column) { return node_at(pattern, row, column, Side::left); });
+  for (int column = 0; column <= pattern.middle(); ++column)
+    check(0, pattern.rows - 1, [&](int row) { return node_at(pattern, row, column, Side::left); });
+}
+
+/// Every node must be reachable: each column has both ends placed, or in a row whose own ends are, and no
+/// node stands there twice.
 void check_nodes(const Template& pattern, const std::string& path) {
   std::set<std::pair<int, int>> places, placed;
   std::set<std::string> names;
   for (const TemplateNode& node : pattern.nodes) {
+    const std::string place = "row " + std::to_string(node.row) + ", column " + std::to_string(node.column);
     if (!places.insert({node.row, node.column}).second ||
         (!node.name.empty() && !names.insert(node.name).second))
-      throw Refusal(kCode, path + ": 'nodes' has row " + std::to_string(node.row) + ", column " +
-                               std::to_string(node.column) + " or the name '" + node.name + "' twice");
+      throw Refusal(kCode, path + ": 'nodes' has " + place + " or the name '" + node.name + "' twice");
+    if (node_at(pattern, node.row, node.column, Side::left) < 0)
+      throw Refusal(kCode, path + ": 'nodes' has " + place + ", which no cell touches");
     if (node.placing != TemplateNode::Placing::between_others) placed.insert({node.row, node.column});
   }
-  for (int row : {0, pattern.rows - 1})
-    for (int column : {0, pattern.middle()})
-      if (placed.count({row, column}) == 0)
+  const auto exists = [&](int row, int column) {
+    return row >= 0 && row < pattern.rows && node_at(pattern, row, column, Side::left) >= 0;
+  };
+  const auto row_is_filled = [&](int row) {
+    int first = 0, last = pattern.middle();
+    while (!exists(row, first)) ++first;
+    while (!exists(row, last)) --last;
+    return placed.count({row, first}) > 0 && placed.count({row, last}) > 0;
+  };
+  for (int row = 0; row < pattern.rows; ++row)
+    for (int column = 0; column <= pattern.middle(); ++column) {
+      const bool end_of_column =
+          exists(row, column) && (!exists(row - 1, column) || !exists(row + 1, column));
+      if (end_of_column && placed.count({row, column}) == 0 && !row_is_filled(row))
         throw Refusal(kCode, path + ": 'nodes' must place row " + std::to_string(row) + ", column " +
-                                 std::to_string(column));
+                                 std::to_string(column) + ", or both ends of that row");
+    }
 }
 
 void check_lines(const Template& pattern, const std::string& path) {
@@ -159,19 +200,20 @@ Template load_template(const std::string& path) {
              path, kCode);
   Template pattern;
   pattern.name = required<std::string>(root, "name", path, kCode);
-  pattern.axis = required<std::vector<std::string>>(root, "axis", path, kCode);
-  if (pattern.axis.empty()) throw Refusal(kCode, path + ": 'axis' must name a landmark");
+  pattern.axis = axis_from(root, path);
   pattern.rows = whole_number(root, "rows", 2, kMostRows, path);
   pattern.columns = whole_number(root, "columns", 3, kMostRows, path);
   if (pattern.columns % 2 == 0)
     throw Refusal(kCode, path + ": 'columns' must be odd: one of them is the middle");
 
+  pattern.diagonals = picture(root, "diagonals", pattern.rows - 1, pattern.middle(), "\\/ ", path);
+  pattern.numbers = number_nodes(pattern);
+  check_shape(pattern, path);
   for (const YAML::Node& node : list_of(root, "nodes", path))
     pattern.nodes.push_back(
         node_from(node, pattern, path + ", node " + std::to_string(pattern.nodes.size() + 1)));
   check_nodes(pattern, path);
-  pattern.diagonals = picture(root, "diagonals", pattern.rows - 1, pattern.middle(), '\\', '/', path);
-  pattern.fixed = picture(root, "fixed", pattern.rows, pattern.middle() + 1, '#', '.', path);
+  pattern.fixed = picture(root, "fixed", pattern.rows, pattern.middle() + 1, "#.", path);
   pattern.inner_fixed = required<bool>(root, "inner_fixed", path, kCode);
   pattern.thickness = thickness_from(root, pattern, path);
   for (const YAML::Node& region : list_of(root, "regions", path))

@@ -24,11 +24,19 @@ Vector3d in_body(const geometry::BodyMeasures& measures, const std::string& land
   return p;
 }
 
+Vector3d vertical_through(const geometry::BodyMeasures& measures, const std::vector<std::string>& landmarks,
+                          Side side) {
+  Vector3d mean = Vector3d::Zero();
+  for (const std::string& landmark : landmarks) mean += in_body(measures, name_on(landmark, side));
+  mean /= static_cast<double>(landmarks.size());
+  return {mean.x(), mean.y(), 0};
+}
+
 class Placer {
  public:
   Placer(const Template& pattern, const geometry::BodyMeasures& measures, const Skin& skin)
       : pattern_(pattern), measures_(measures), skin_(skin), axis_(trunk_axis(pattern, measures)) {
-    positions_.resize(static_cast<std::size_t>(pattern.rows) * pattern.columns, Vector3d::Zero());
+    positions_.resize(grid_of(pattern).outer.size(), Vector3d::Zero());
     known_.resize(positions_.size(), 0);
   }
 
@@ -36,11 +44,10 @@ class Placer {
     for (const Side side : {Side::left, Side::right})
       for (const TemplateNode& node : pattern_.nodes)
         if (node.placing != TemplateNode::Placing::between_others)
-          set(node.row, node.column, side, position(node, side));
+          set(node_at(pattern_, node.row, node.column, side), position(node, side));
     // Both sides' rows before any column: the columns fill the middle one, which belongs to both.
     for (const Side side : {Side::left, Side::right})
-      for (int row = 0; row < pattern_.rows; ++row)
-        if (known(row, 0, side) && known(row, pattern_.middle(), side)) fill_row(row, side);
+      for (int row = 0; row < pattern_.rows; ++row) fill_row(row, side);
     for (const Side side : {Side::left, Side::right})
       for (int column = 0; column <= pattern_.middle(); ++column) fill_column(column, side);
     return positions_;
@@ -55,15 +62,17 @@ class Placer {
       return skin_.nearest(0.5 * (in_body(measures_, name_on(node.landmark, first)) +
                                   in_body(measures_, name_on(node.landmark, second))));
     const double height = 0.5 * (level(node.level, first) + level(node.level, second));
-    const Vector3d direction = (heading(node.angle, first) + heading(node.angle, second)).normalized();
-    const Vector3d centre(axis_.x(), axis_.y(), height);
+    const Vector3d axis = node.axis.empty() ? axis_ : vertical_through(measures_, node.axis, side);
+    const Vector3d direction =
+        (heading(node.angle, axis, first) + heading(node.angle, axis, second)).normalized();
+    const Vector3d centre(axis.x(), axis.y(), height);
     const auto exit = skin_.first_exit(centre, direction, kTrunkReach);
     if (!exit)
       throw geometry::Refusal(geometry::refusal::kNotABody,
                               "there is no skin round the trunk where row " + std::to_string(node.row) +
                                   ", column " + std::to_string(node.column) + " of the template " +
                                   pattern_.name + " should lie");
-    const double reach = 0.5 * (distance(node.angle, first) + distance(node.angle, second));
+    const double reach = 0.5 * (distance(node.angle, axis, first) + distance(node.angle, axis, second));
     if ((*exit - centre).norm() <= kBeyondLandmark * reach) return *exit;
     return skin_.nearest(centre + reach * direction);
   }
@@ -75,15 +84,14 @@ class Placer {
     return z + reference.offset;
   }
 
-  double angle_to(const std::string& landmark) const {
-    const Vector3d p = in_body(measures_, landmark) - axis_;
-    return std::atan2(p.y(), p.x());
-  }
-
-  Vector3d heading(const Reference& reference, Side side) const {
-    double angle = angle_to(name_on(reference.landmark, side));
+  Vector3d heading(const Reference& reference, const Vector3d& axis, Side side) const {
+    const auto angle_to = [&](const std::string& landmark) {
+      const Vector3d p = in_body(measures_, name_on(landmark, side)) - axis;
+      return std::atan2(p.y(), p.x());
+    };
+    double angle = angle_to(reference.landmark);
     if (!reference.towards.empty()) {
-      const double turn = angle_to(name_on(reference.towards, side)) - angle;
+      const double turn = angle_to(reference.towards) - angle;
       angle += reference.at * std::remainder(turn, 360 * kDegree);  // the shorter way round
     }
     angle += (side == Side::left ? 1 : -1) * reference.offset * kDegree;
@@ -91,23 +99,17 @@ class Placer {
   }
 
   /// Of the farther landmark of the two from the axis.
-  double distance(const Reference& reference, Side side) const {
+  double distance(const Reference& reference, const Vector3d& axis, Side side) const {
     const auto radius = [&](const std::string& landmark) {
-      return (in_body(measures_, name_on(landmark, side)) - axis_).head<2>().norm();
+      return (in_body(measures_, name_on(landmark, side)) - axis).head<2>().norm();
     };
     return std::max(radius(reference.landmark),
                     radius(reference.towards.empty() ? reference.landmark : reference.towards));
   }
 
-  bool known(int row, int column, Side side) const {
-    return known_[node_at(pattern_, row, column, side)] != 0;
-  }
-  const Vector3d& at(int row, int column, Side side) const {
-    return positions_[node_at(pattern_, row, column, side)];
-  }
-  void set(int row, int column, Side side, const Vector3d& p) {
-    positions_[node_at(pattern_, row, column, side)] = p;
-    known_[node_at(pattern_, row, column, side)] = 1;
+  void set(int node, const Vector3d& p) {
+    positions_[node] = p;
+    known_[node] = 1;
   }
 
   std::vector<Vector3d> between(const Vector3d& a, const Vector3d& b, int count) const {
@@ -117,19 +119,26 @@ class Placer {
   }
 
   void fill_row(int row, Side side) {
-    for (int from = 0, to = 1; to <= pattern_.middle(); ++to) {
-      if (!known(row, to, side)) continue;
-      const auto points = between(at(row, from, side), at(row, to, side), to - from - 1);
-      for (int i = 1; i < to - from; ++i) set(row, from + i, side, points[i - 1]);
-      from = to;
-    }
+    std::vector<int> nodes;
+    for (int column = 0; column <= pattern_.middle(); ++column)
+      if (const int node = node_at(pattern_, row, column, side); node >= 0) nodes.push_back(node);
+    if (known_[nodes.front()] && known_[nodes.back()]) fill(nodes);
   }
 
   void fill_column(int column, Side side) {
-    for (int from = 0, to = 1; to < pattern_.rows; ++to) {
-      if (!known(to, column, side)) continue;
-      const auto points = between(at(from, column, side), at(to, column, side), to - from - 1);
-      for (int i = 1; i < to - from; ++i) set(from + i, column, side, points[i - 1]);
+    std::vector<int> nodes;
+    for (int row = 0; row < pattern_.rows; ++row)
+      if (const int node = node_at(pattern_, row, column, side); node >= 0) nodes.push_back(node);
+    fill(nodes);
+  }
+
+  /// Lays what is not known evenly between the known. \pre the first and the last one are known
+  void fill(const std::vector<int>& nodes) {
+    for (std::size_t from = 0, to = 1; to < nodes.size(); ++to) {
+      if (!known_[nodes[to]]) continue;
+      const auto points =
+          between(positions_[nodes[from]], positions_[nodes[to]], static_cast<int>(to - from) - 1);
+      for (std::size_t i = 1; i < to - from; ++i) set(nodes[from + i], points[i - 1]);
       from = to;
     }
   }
@@ -145,10 +154,7 @@ class Placer {
 }  // namespace
 
 Vector3d trunk_axis(const Template& pattern, const geometry::BodyMeasures& measures) {
-  Vector3d mean = Vector3d::Zero();
-  for (const std::string& landmark : pattern.axis) mean += in_body(measures, landmark);
-  mean /= static_cast<double>(pattern.axis.size());
-  return {mean.x(), mean.y(), 0};
+  return vertical_through(measures, pattern.axis, Side::left);
 }
 
 std::vector<Vector3d> place_nodes(const Template& pattern, const geometry::BodyMeasures& measures,

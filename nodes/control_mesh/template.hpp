@@ -24,6 +24,7 @@ struct TemplateNode {
   Placing placing = Placing::between_others;
   std::string landmark;  ///< at_landmark
   Reference level, angle;
+  std::vector<std::string> axis;  ///< what angles are seen from, such as a leg's; empty: the template's
 };
 
 /// The block of grid cells between two rows and two columns (of the whole grid, both ends included).
@@ -39,19 +40,23 @@ struct TemplateLine {
 
 /// A grid of rows (downwards) and columns (from her left side over the middle to her right side), drawn for
 /// her left half and mirrored. Column count is odd. Nodes that are not placed lie evenly along the skin
-/// between those that are.
+/// between those that are. Where no cell is, below a crotch, the grid has no nodes.
 struct Template {
   std::string name;
   std::vector<std::string> axis;  ///< landmarks; the vertical through their mean is the trunk's axis
   int rows = 0, columns = 0;
   std::vector<TemplateNode> nodes;
-  /// rows-1 words of columns/2 characters: '\' joins (r,c) to (r+1,c+1), '/' joins (r+1,c) to (r,c+1)
+  /// rows-1 words of columns/2 characters: '\' joins (r,c) to (r+1,c+1), '/' joins (r+1,c) to (r,c+1), ' ' is
+  /// no cell
   std::vector<std::string> diagonals;
   std::vector<std::string> fixed;              ///< rows of columns/2+1: '#' fixed, '.' free
   bool inner_fixed = true;                     ///< are the inner nodes below fixed outer nodes fixed too
   std::vector<std::vector<double>> thickness;  ///< rows of columns/2+1, metres
   std::vector<TemplateRegion> regions;
   std::vector<TemplateLine> lines;
+
+  /// Of each place of the whole grid, row by row, its node; -1 where no cell touches it.
+  std::vector<int> numbers;
 
   int middle() const { return columns / 2; }
 };

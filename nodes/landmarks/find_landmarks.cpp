@@ -83,6 +83,14 @@ class Record {
   BodyMeasures measures_;
 };
 
+void sides(const Trunk& trunk, const std::string& name, double level, double confidence, Record& record) {
+  const std::vector<Outline> outline = trunk.outline_at(level);
+  if (outline.empty()) return;
+  for (Side side : {kLeft, kRight})
+    record.landmark(name + kSuffix[side], side_of(outline.front(), side), confidence,
+                    confidence < 0.5 ? "its level is by proportion" : "");
+}
+
 double lower_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
   const double crotch = body.crotch.height;
   // Thighs that touch, or a gap that the scan did not see: 0.006 statures are 10 mm.
@@ -98,6 +106,8 @@ double lower_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
     Vector3d point;
     if (!find_buttock(body, side, point)) continue;
     record.landmark(std::string("buttock") + kSuffix[side], point);
+    const GlutealFold fold = find_gluteal_fold(body, point);
+    record.landmark(std::string("gluteal_fold") + kSuffix[side], fold.point, fold.confidence, fold.reason);
     sum += point.z();
     ++found;
   }
@@ -105,6 +115,7 @@ double lower_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
   record.height("hip", hip, found > 0 ? 0.9 : 0.3,
                 found > 0 ? "" : "no buttock stands out; a level by proportion");
   record.girth("hip", tape_loop(trunk.outline_at(hip)));
+  sides(trunk, "hip_side", hip, found > 0 ? 0.9 : 0.3, record);
   return hip;
 }
 
@@ -140,6 +151,7 @@ void waist(const BodyShape& body, const Trunk& trunk, double hip, double underbu
   const WaistLevel level = find_waist(body, trunk, hip + kWaistAboveHip, underbust - kWaistBelowUnderbust);
   record.height("waist", level.height, level.confidence, level.reason);
   record.girth("waist", tape_loop(trunk.outline_at(level.height)), level.confidence, level.reason);
+  sides(trunk, "waist_side", level.height, level.confidence, record);
 
   const double navel = navel_height(body);
   const std::vector<Outline> outline = trunk.outline_at(navel);

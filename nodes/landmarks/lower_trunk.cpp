@@ -1,7 +1,9 @@
 #include "landmarks/lower_trunk.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "landmarks/profile.hpp"
 #include "landmarks/surface_point.hpp"
 
 namespace tensegric_fit::landmarks {
@@ -9,6 +11,12 @@ namespace {
 
 constexpr double kBehindPubis =
     0.65;  // of the way from the pubis to the cleft of the buttocks lies the perineum's middle
+
+constexpr double kThigh = 0.13;  // statures under the buttock point: the back of the thigh, below the fold
+constexpr double kFoldByProportion = 0.065;
+constexpr double kFoldDepth = 0.003;  // m under the straight edge; less is no fold
+
+constexpr double kFlatSide = 0.003;  // m
 
 }  // namespace
 
@@ -27,6 +35,50 @@ bool find_buttock(const BodyShape& body, Side side, Eigen::Vector3d& point) {
   // 35 mm of skin: wide enough that half a millimetre of noise moves the apex by a millimetre only.
   point = apex_of_bulge(body, body.mesh.vertices[furthest_vertex(body, seat, back)], back, 0.021 * s);
   return true;
+}
+
+GlutealFold find_gluteal_fold(const BodyShape& body, const Eigen::Vector3d& buttock) {
+  const double s = body.stature, beside = 0.01;
+  const std::vector<int> skin = triangles_in_box(
+      body, {buttock.x() - 0.02 * s, buttock.y() - beside, buttock.z() - (kThigh + 0.01) * s},
+      {buttock.x() + 0.09 * s, buttock.y() + beside, buttock.z()});
+  const Profile profile = cut_profile(body, skin, buttock, -Eigen::Vector3d::UnitX());
+  const Eigen::Vector3d* deepest = nullptr;
+  const Eigen::Vector3d* by_proportion = nullptr;
+  if (!profile.points.empty() && profile.points.back().z() < buttock.z() - kThigh * s) {
+    const Eigen::Vector3d edge = (profile.points.back() - buttock).normalized();
+    const Eigen::Vector3d inwards = profile.sideways.cross(edge);
+    double depth = kFoldDepth;
+    for (const Eigen::Vector3d& p : profile.points) {
+      if (by_proportion == nullptr && p.z() < buttock.z() - kFoldByProportion * s) by_proportion = &p;
+      if (inwards.dot(p - buttock) <= depth) continue;
+      depth = inwards.dot(p - buttock);
+      deepest = &p;
+    }
+  }
+  if (deepest != nullptr) return {*deepest, 0.8, ""};
+  return {
+      by_proportion != nullptr ? *by_proportion : buttock - kFoldByProportion * s * Eigen::Vector3d::UnitZ(),
+      0.3, "no fold under the buttock; a level by proportion"};
+}
+
+Eigen::Vector3d side_of(const Outline& outline, Side side) {
+  double farthest = -1e9, x_sum = 0;
+  for (const Eigen::Vector3d& p : outline.points) farthest = std::max(farthest, kSign[side] * p.y());
+  int count = 0;
+  for (const Eigen::Vector3d& p : outline.points) {
+    if (kSign[side] * p.y() < farthest - kFlatSide) continue;
+    x_sum += p.x();
+    ++count;
+  }
+  const double x = x_sum / count;
+  const Eigen::Vector3d* best = &outline.points.front();
+  const auto off_middle = [&](const Eigen::Vector3d& p) {
+    return kSign[side] * p.y() < farthest - kFlatSide ? 1e9 : std::abs(p.x() - x);
+  };
+  for (const Eigen::Vector3d& p : outline.points)
+    if (off_middle(p) < off_middle(*best)) best = &p;
+  return *best;
 }
 
 Eigen::Vector3d find_crotch(const BodyShape& body) {
