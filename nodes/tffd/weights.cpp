@@ -6,107 +6,175 @@
 namespace tensegric_fit::tffd {
 namespace {
 
-// Share of the global kernel where it is fully on. Any value above 0 gives the same limit where the local
-// kernels end.
+// Share of the global kernel where it is fully on. Any value above 0 gives the
+// same limit where the local kernels end.
 constexpr double kGlobal = 0.05;
 // It sets in where no triangle is nearer than this part of its reach.
 constexpr double kGlobalFrom = 0.5;
 
-double square(double x) {
-  return x * x;
-}
+double square(double x) { return x * x; }
 
-struct Nearness {
-  double z;                     // distance from the triangle in multiples of its reach
-  Eigen::Vector3d barycentric;  // of its closest point
+// A control triangle as a vertex sees it.
+struct Near {
+  int triangle;
+  double z; // distance from the triangle in multiples of its reach
+  Eigen::Vector3d barycentric; // of its closest point
+  double k = 0;                // its share of the vertex
 };
 
-Nearness nearness(const Eigen::Vector3d& q, const Frame& frame, double beta) {
+Near seen_from(const Eigen::Vector3d &q, int triangle, const Frame &frame,
+               double beta) {
   const Eigen::Vector3d barycentric = frame.closest(q);
-  return {(q - frame.at(barycentric)).norm() / (beta * frame.radius), barycentric};
+  return {triangle, (q - frame.at(barycentric)).norm() / (beta * frame.radius),
+          barycentric};
 }
 
-// Of triangles that have no weight at q, only that they are out of reach: z = 1.
-void find_near(const Eigen::Vector3d& q, const std::vector<Frame>& frames, double beta,
-               std::vector<Nearness>& near) {
+// Ascending; past half the reach of every triangle all of them, for the global
+// kernel.
+void find_near(const Eigen::Vector3d &q, const std::vector<Frame> &frames,
+               const Kernel &kernel, std::vector<Near> &near) {
+  near.clear();
   double nearest = 1;
-  for (std::size_t t = 0; t < frames.size(); ++t) {
-    const bool out_of_reach = frames[t].least_distance(q) > beta * frames[t].radius;
-    near[t] = out_of_reach ? Nearness{1, Eigen::Vector3d::Zero()} : nearness(q, frames[t], beta);
-    nearest = std::min(nearest, near[t].z);
+  for (const int t : kernel.grid.near(q)) {
+    if (frames[t].least_distance(q) > kernel.beta * frames[t].radius)
+      continue;
+    near.push_back(seen_from(q, t, frames[t], kernel.beta));
+    nearest = std::min(nearest, near.back().z);
   }
-  if (nearest <= kGlobalFrom) return;
-  for (std::size_t t = 0; t < frames.size(); ++t) near[t] = nearness(q, frames[t], beta);
+  if (nearest <= kGlobalFrom)
+    return;
+  near.clear();
+  for (std::size_t t = 0; t < frames.size(); ++t)
+    near.push_back(seen_from(q, static_cast<int>(t), frames[t], kernel.beta));
 }
 
-// A (1-z)^4 (4z+1), and past half the reach of every triangle more and more of a global kernel in A/z^4, so
-// that no vertex is left without weights and nothing jumps where the last local weight ends.
-void kernels(const std::vector<Frame>& frames, const std::vector<Nearness>& near, std::vector<double>& k) {
+void drop_small(std::vector<Near> &near, double truncation) {
+  double most = 0;
+  for (const Near &triangle : near)
+    most = std::max(most, triangle.k);
+  for (Near &triangle : near)
+    if (triangle.k < truncation * most)
+      triangle.k = 0;
+}
+
+// A (1-z)^4 (4z+1), and past half the reach of every triangle more and more of
+// a global kernel in A/z^4, so that no vertex is left without weights and
+// nothing jumps where the last local weight ends.
+void weigh(const std::vector<Frame> &frames, double truncation,
+           std::vector<Near> &near) {
   double nearest = near.front().z;
-  for (const Nearness& triangle : near) nearest = std::min(nearest, triangle.z);
-  const double on = std::clamp((nearest - kGlobalFrom) / (1 - kGlobalFrom), 0.0, 1.0);
+  for (const Near &triangle : near)
+    nearest = std::min(nearest, triangle.z);
+  const double on =
+      std::clamp((nearest - kGlobalFrom) / (1 - kGlobalFrom), 0.0, 1.0);
   const double global = kGlobal * on * on * (3 - 2 * on);
-  double sum = 0;
-  for (std::size_t t = 0; t < near.size(); ++t) {
-    const double z = near[t].z;
-    k[t] = z < 1 ? square(square(1 - z)) * (4 * z + 1) : 0;
-    if (global > 0) k[t] += global * square(square(nearest / z));
-    k[t] *= frames[t].area;
-    sum += k[t];
+  for (Near &triangle : near) {
+    const double z = triangle.z;
+    triangle.k = z < 1 ? square(square(1 - z)) * (4 * z + 1) : 0;
+    if (global > 0)
+      triangle.k += global * square(square(nearest / z));
+    triangle.k *= frames[triangle.triangle].area;
   }
-  for (double& weight : k) weight /= sum;
+  if (truncation > 0)
+    drop_small(near, truncation);
+  double sum = 0;
+  for (const Near &triangle : near)
+    sum += triangle.k;
+  for (Near &triangle : near)
+    triangle.k /= sum;
 }
 
 // A row of a sparse matrix that is gathered in any order.
 class Row {
- public:
-  explicit Row(Eigen::Index columns) : sums_(static_cast<std::size_t>(columns), 0), used_(sums_.size(), 0) {}
+public:
+  explicit Row(Eigen::Index columns)
+      : sums_(static_cast<std::size_t>(columns), 0), used_(sums_.size(), 0) {}
 
   void add(int column, double value) {
+    if (!used_[column])
+      columns_.push_back(column);
     sums_[column] += value;
     used_[column] = 1;
   }
 
   // Appends the row, times `factor`, and starts a new one.
-  void append_to(SparseRows& matrix, Eigen::Index row, double factor) {
-    for (std::size_t column = 0; column < sums_.size(); ++column)
-      if (used_[column]) matrix.insertBack(row, static_cast<Eigen::Index>(column)) = factor * sums_[column];
-    std::fill(sums_.begin(), sums_.end(), 0);
-    std::fill(used_.begin(), used_.end(), 0);
+  void append_to(SparseRows &matrix, Eigen::Index row, double factor) {
+    std::sort(columns_.begin(), columns_.end());
+    for (const int column : columns_) {
+      matrix.insertBack(row, column) = factor * sums_[column];
+      sums_[column] = 0;
+      used_[column] = 0;
+    }
+    columns_.clear();
   }
 
- private:
+private:
   std::vector<double> sums_;
   std::vector<char> used_;
+  std::vector<int> columns_;
 };
 
-}  // namespace
+Eigen::Vector3d foot_of(const Tie &tie,
+                        const std::vector<Eigen::Vector3d> &vertices) {
+  return vertices[tie.from] +
+         tie.part * (vertices[tie.to] - vertices[tie.from]);
+}
 
-Weights standard_weights(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
-                         const std::vector<Frame>& frames, double beta, const std::vector<Anchor>& anchors) {
+// Adds the motion of the feet to the rows of the tied vertices.
+void follow_feet(const std::vector<Tie> &ties, SparseRows &nodes) {
+  if (ties.empty())
+    return;
+  std::vector<Eigen::Triplet<double>> parts;
+  for (const Tie &tie : ties) {
+    parts.emplace_back(tie.vertex, tie.from, 1 - tie.part);
+    parts.emplace_back(tie.vertex, tie.to, tie.part);
+  }
+  SparseRows feet(nodes.rows(), nodes.rows());
+  feet.setFromTriplets(parts.begin(), parts.end());
+  const SparseRows carried = feet * nodes;
+  nodes = SparseRows(nodes + carried);
+}
+
+} // namespace
+
+Weights standard_weights(const geometry::TriangleMesh &body,
+                         const geometry::ControlMesh &control,
+                         const std::vector<Frame> &frames, const Kernel &kernel,
+                         const std::vector<Anchor> &anchors,
+                         const std::vector<Tie> &ties) {
   const int outer = static_cast<int>(control.outer.size());
   const Eigen::Index vertices = static_cast<Eigen::Index>(body.vertices.size());
   Weights weights{SparseRows(vertices, 2 * outer), SparseRows(vertices, outer)};
-  std::vector<Nearness> near(frames.size());
-  std::vector<double> k(frames.size());
+  std::vector<const Tie *> tie_of(body.vertices.size(), nullptr);
+  for (const Tie &tie : ties)
+    tie_of[tie.vertex] = &tie;
+  std::vector<Near> near;
   Row nodes(2 * outer), values(outer);
   auto anchor = anchors.begin();
   for (Eigen::Index v = 0; v < vertices; ++v) {
     weights.nodes.startVec(v);
     weights.values.startVec(v);
-    if (anchor == anchors.end() || anchor->vertex != v) continue;
-    const Eigen::Vector3d& q = body.vertices[v];
-    find_near(q, frames, beta, near);
-    kernels(frames, near, k);
-    for (std::size_t t = 0; t < frames.size(); ++t) {
-      if (k[t] == 0) continue;
-      const Eigen::Vector3d uvw = frames[t].local(q);
-      const double corner[] = {1 - uvw[0] - uvw[1], uvw[0], uvw[1]};
+    if (anchor == anchors.end() || anchor->vertex != v)
+      continue;
+    const Eigen::Vector3d &q = body.vertices[v];
+    const Tie *tie = tie_of[v];
+    find_near(q, frames, kernel, near);
+    weigh(frames, kernel.truncation, near);
+    for (const Near &triangle : near) {
+      if (triangle.k == 0)
+        continue;
+      // Of a tied vertex here only the height over its foot: an offset, not a
+      // point.
+      const Frame &frame = frames[triangle.triangle];
+      const Eigen::Vector3d uvw =
+          tie ? frame.local_from_offset * (q - foot_of(*tie, body.vertices))
+              : frame.local(q);
+      const double corner[] = {(tie ? 0 : 1) - uvw[0] - uvw[1], uvw[0], uvw[1]};
       for (int j = 0; j < 3; ++j) {
-        const int node = control.triangles[t][j];
-        nodes.add(node, k[t] * (corner[j] + uvw[2] / 3));
-        nodes.add(outer + node, -k[t] * uvw[2] / 3);
-        values.add(node, k[t] * near[t].barycentric[j]);
+        const int node = control.triangles[triangle.triangle][j];
+        nodes.add(node, triangle.k * (corner[j] + uvw[2] / 3));
+        nodes.add(outer + node, -triangle.k * uvw[2] / 3);
+        values.add(node, triangle.k * triangle.barycentric[j]);
       }
     }
     nodes.append_to(weights.nodes, v, anchor->share);
@@ -115,40 +183,48 @@ Weights standard_weights(const geometry::TriangleMesh& body, const geometry::Con
   }
   weights.nodes.finalize();
   weights.values.finalize();
+  follow_feet(ties, weights.nodes);
   return weights;
 }
 
-NormalTerms paper_terms(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Frame>& frames,
-                        double beta) {
+NormalTerms paper_terms(const std::vector<Eigen::Vector3d> &vertices,
+                        const std::vector<Frame> &frames,
+                        const Kernel &kernel) {
   NormalTerms bound;
   bound.starts.reserve(vertices.size() + 1);
   bound.starts.push_back(0);
-  for (const Eigen::Vector3d& q : vertices) {
+  for (const Eigen::Vector3d &q : vertices) {
     double sum = 0;
     const std::size_t first = bound.terms.size();
-    for (std::size_t t = 0; t < frames.size(); ++t) {
-      const double k = 1 - (q - frames[t].centroid).norm() / (beta * frames[t].radius);
-      if (!(k > 0)) continue;
-      bound.terms.push_back({static_cast<int>(t), k, frames[t].local(q)});
+    for (const int t : kernel.grid.near(q)) {
+      const double k = 1 - (q - frames[t].centroid).norm() /
+                               (kernel.beta * frames[t].radius);
+      if (!(k > 0))
+        continue;
+      bound.terms.push_back({t, k, frames[t].local(q)});
       sum += k;
     }
-    for (std::size_t i = first; i < bound.terms.size(); ++i) bound.terms[i].weight /= sum;
+    for (std::size_t i = first; i < bound.terms.size(); ++i)
+      bound.terms[i].weight /= sum;
     bound.starts.push_back(static_cast<int>(bound.terms.size()));
   }
   return bound;
 }
 
-SparseRows paper_values(const std::vector<Eigen::Vector3d>& vertices, const geometry::ControlMesh& control,
-                        const std::vector<Frame>& frames, const NormalTerms& bound) {
+SparseRows paper_values(const std::vector<Eigen::Vector3d> &vertices,
+                        const geometry::ControlMesh &control,
+                        const std::vector<Frame> &frames,
+                        const NormalTerms &bound) {
   SparseRows weights(static_cast<Eigen::Index>(vertices.size()),
                      static_cast<Eigen::Index>(control.outer.size()));
   Row row(weights.cols());
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     weights.startVec(static_cast<Eigen::Index>(v));
     for (int i = bound.starts[v]; i < bound.starts[v + 1]; ++i) {
-      const NormalTerm& term = bound.terms[i];
+      const NormalTerm &term = bound.terms[i];
       const Eigen::Vector3d b = frames[term.triangle].closest(vertices[v]);
-      for (int j = 0; j < 3; ++j) row.add(control.triangles[term.triangle][j], term.weight * b[j]);
+      for (int j = 0; j < 3; ++j)
+        row.add(control.triangles[term.triangle][j], term.weight * b[j]);
     }
     row.append_to(weights, static_cast<Eigen::Index>(v), 1);
   }
@@ -156,4 +232,4 @@ SparseRows paper_values(const std::vector<Eigen::Vector3d>& vertices, const geom
   return weights;
 }
 
-}  // namespace tensegric_fit::tffd
+} // namespace tensegric_fit::tffd
