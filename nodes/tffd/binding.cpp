@@ -12,85 +12,74 @@ namespace {
 using geometry::Refusal;
 namespace refusal = geometry::refusal;
 
-void check_options(const Options &options) {
+void check_options(const Options& options) {
   if (!(options.truncation >= 0 && options.truncation <= 0.1))
+    throw Refusal(refusal::kBadOption, "t-FFD: truncation must be from 0 to 0.1");
+  if (options.setting == Setting::paper && (options.truncation > 0 || options.precision == Precision::fast))
     throw Refusal(refusal::kBadOption,
-                  "t-FFD: truncation must be from 0 to 0.1");
-  if (options.setting == Setting::paper &&
-      (options.truncation > 0 || options.precision == Precision::fast))
-    throw Refusal(refusal::kBadOption, "t-FFD: the paper's setting has neither "
-                                       "a fast precision nor a truncation");
+                  "t-FFD: the paper's setting has neither a fast precision nor a truncation");
 }
 
-double beta_of(const Options &options) {
-  if (options.beta == 0)
-    return options.setting == Setting::paper ? 2.5 : 2.0;
-  // Below 1 the local kernels leave gaps between the triangles; far above,
-  // every triangle carries everything.
+double beta_of(const Options& options) {
+  if (options.beta == 0) return options.setting == Setting::paper ? 2.5 : 2.0;
+  // Below 1 the local kernels leave gaps between the triangles; far above, every triangle carries everything.
   if (!(options.beta >= 1 && options.beta <= 20))
-    throw Refusal(refusal::kBadOption,
-                  "t-FFD: beta must be 0 (the setting's own) or from 1 to 20");
+    throw Refusal(refusal::kBadOption, "t-FFD: beta must be 0 (the setting's own) or from 1 to 20");
   return options.beta;
 }
 
-void check_nodes(const std::vector<Eigen::Vector3d> &nodes, std::size_t count) {
+void check_nodes(const std::vector<Eigen::Vector3d>& nodes, std::size_t count) {
   if (nodes.size() != count)
     throw Refusal(refusal::kBadMesh,
-                  "t-FFD: the number of control nodes is not the one that the "
-                  "body was bound with");
-  for (const Eigen::Vector3d &node : nodes)
+                  "t-FFD: the number of control nodes is not the one that the body was bound with");
+  for (const Eigen::Vector3d& node : nodes)
     if (!node.allFinite())
-      throw Refusal(refusal::kNonFinite,
-                    "t-FFD: a control node's position is not finite");
+      throw Refusal(refusal::kNonFinite, "t-FFD: a control node's position is not finite");
 }
 
-void check_input(const geometry::TriangleMesh &body,
-                 const geometry::ControlMesh &control) {
+void check_input(const geometry::TriangleMesh& body, const geometry::ControlMesh& control) {
   geometry::check_mesh(body);
   geometry::check_mesh({control.outer, control.triangles});
   check_nodes(control.inner, control.outer.size());
-  if (control.triangles.empty())
-    throw Refusal(refusal::kBadMesh,
-                  "t-FFD: the control mesh has no triangles");
+  if (control.triangles.empty()) throw Refusal(refusal::kBadMesh, "t-FFD: the control mesh has no triangles");
   if (control.outer_fixed.size() != control.outer.size() ||
       control.inner_fixed.size() != control.outer.size())
-    throw Refusal(refusal::kBadMesh,
-                  "t-FFD: the control mesh needs one fixed flag a node");
+    throw Refusal(refusal::kBadMesh, "t-FFD: the control mesh needs one fixed flag a node");
 }
 
-double largest_row_sum(const SparseRows &matrix) {
+double largest_row_sum(const SparseRows& matrix) {
   double largest = 0;
   for (Eigen::Index row = 0; row < matrix.outerSize(); ++row) {
     double sum = 0;
-    for (SparseRows::InnerIterator m(matrix, row); m; ++m)
-      sum += std::abs(m.value());
+    for (SparseRows::InnerIterator m(matrix, row); m; ++m) sum += std::abs(m.value());
     largest = std::max(largest, sum);
   }
   return largest;
 }
 
 // In the paper's setting whatever is in reach moves in full.
-std::vector<Anchor> anchors_of(const NormalTerms &bound) {
+std::vector<Anchor> anchors_of(const NormalTerms& bound) {
   std::vector<Anchor> anchors;
   for (std::size_t v = 0; v + 1 < bound.starts.size(); ++v)
-    if (bound.starts[v] < bound.starts[v + 1])
-      anchors.push_back({static_cast<int>(v), 1});
+    if (bound.starts[v] < bound.starts[v + 1]) anchors.push_back({static_cast<int>(v), 1});
   return anchors;
 }
 
-} // namespace
+}  // namespace
 
-Binding::Binding(const geometry::TriangleMesh &body,
-                 const geometry::ControlMesh &control, const Options &options)
-    : setting_(options.setting), precision_(options.precision),
-      vertices_(body.vertices), outer_(control.outer), inner_(control.inner),
+Binding::Binding(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
+                 const Options& options)
+    : setting_(options.setting),
+      precision_(options.precision),
+      vertices_(body.vertices),
+      outer_(control.outer),
+      inner_(control.inner),
       triangles_(control.triangles) {
   check_options(options);
   const double beta = beta_of(options);
   check_input(body, control);
   const bool paper = setting_ == Setting::paper;
-  const std::vector<Frame> frames =
-      frames_of(control, paper ? Axis::unit_normal : Axis::inner_to_outer);
+  const std::vector<Frame> frames = frames_of(control, paper ? Axis::unit_normal : Axis::inner_to_outer);
   const TriangleGrid grid(frames, beta);
   Kernel kernel{beta, grid};
   if (paper) {
@@ -104,33 +93,28 @@ Binding::Binding(const geometry::TriangleMesh &body,
   weights_ = standard_weights(body, control, frames, kernel, anchors_, ties);
   if (options.truncation > 0) {
     kernel.truncation = options.truncation;
-    Weights truncated =
-        standard_weights(body, control, frames, kernel, anchors_, ties);
+    Weights truncated = standard_weights(body, control, frames, kernel, anchors_, ties);
     truncation_error_ = largest_row_sum(weights_.nodes - truncated.nodes);
     weights_ = std::move(truncated);
   }
-  if (precision_ == Precision::fast)
-    float_rows_ = FloatRows(weights_.nodes, anchors_);
+  if (precision_ == Precision::fast) float_rows_ = FloatRows(weights_.nodes, anchors_);
 }
 
-Binding Binding::posed(const geometry::BoneFrames &bones) const {
+Binding Binding::posed(const geometry::BoneFrames& bones) const {
   Binding other = *this;
-  for (auto *points : {&other.vertices_, &other.outer_, &other.inner_})
-    for (Eigen::Vector3d &p : *points)
-      p = bones.moved(p);
+  for (auto* points : {&other.vertices_, &other.outer_, &other.inner_})
+    for (Eigen::Vector3d& p : *points) p = bones.moved(p);
   return other;
 }
 
 bool Binding::reaches(int vertex) const {
-  const auto at = std::lower_bound(
-      anchors_.begin(), anchors_.end(), vertex,
-      [](const Anchor &anchor, int v) { return anchor.vertex < v; });
+  const auto at = std::lower_bound(anchors_.begin(), anchors_.end(), vertex,
+                                   [](const Anchor& anchor, int v) { return anchor.vertex < v; });
   return at != anchors_.end() && at->vertex == vertex;
 }
 
-std::vector<Eigen::Vector3d>
-Binding::deform(const std::vector<Eigen::Vector3d> &outer,
-                const std::vector<Eigen::Vector3d> &inner) const {
+std::vector<Eigen::Vector3d> Binding::deform(const std::vector<Eigen::Vector3d>& outer,
+                                             const std::vector<Eigen::Vector3d>& inner) const {
   check_nodes(outer, outer_.size());
   check_nodes(inner, inner_.size());
   std::vector<Eigen::Vector3d> moved = vertices_;
@@ -141,17 +125,16 @@ Binding::deform(const std::vector<Eigen::Vector3d> &outer,
   return moved;
 }
 
-void Binding::move_by_weights(const std::vector<Eigen::Vector3d> &outer,
-                              const std::vector<Eigen::Vector3d> &inner,
-                              std::vector<Eigen::Vector3d> &moved) const {
+void Binding::move_by_weights(const std::vector<Eigen::Vector3d>& outer,
+                              const std::vector<Eigen::Vector3d>& inner,
+                              std::vector<Eigen::Vector3d>& moved) const {
   std::vector<Eigen::Vector3d> motion(outer.size() + inner.size());
   for (std::size_t i = 0; i < outer.size(); ++i) {
     motion[i] = outer[i] - outer_[i];
     motion[outer.size() + i] = inner[i] - inner_[i];
   }
-  if (precision_ == Precision::fast)
-    return float_rows_.add(motion, anchors_, moved);
-  for (const Anchor &anchor : anchors_) {
+  if (precision_ == Precision::fast) return float_rows_.add(motion, anchors_, moved);
+  for (const Anchor& anchor : anchors_) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (SparseRows::InnerIterator m(weights_.nodes, anchor.vertex); m; ++m)
       sum += m.value() * motion[m.col()];
@@ -159,27 +142,23 @@ void Binding::move_by_weights(const std::vector<Eigen::Vector3d> &outer,
   }
 }
 
-void Binding::move_by_normals(const std::vector<Eigen::Vector3d> &outer,
-                              std::vector<Eigen::Vector3d> &moved) const {
+void Binding::move_by_normals(const std::vector<Eigen::Vector3d>& outer,
+                              std::vector<Eigen::Vector3d>& moved) const {
   std::vector<Eigen::Matrix3d> axes(triangles_.size());
   for (std::size_t t = 0; t < axes.size(); ++t) {
-    const Eigen::Vector3d &p = outer[triangles_[t][0]];
-    const Eigen::Vector3d u = outer[triangles_[t][1]] - p,
-                          v = outer[triangles_[t][2]] - p;
+    const Eigen::Vector3d& p = outer[triangles_[t][0]];
+    const Eigen::Vector3d u = outer[triangles_[t][1]] - p, v = outer[triangles_[t][2]] - p;
     axes[t] << u, v,
-        u.cross(v).normalized(); // Eigen leaves the zero vector of a collapsed
-                                 // triangle as it is
+        u.cross(v).normalized();  // Eigen leaves the zero vector of a collapsed triangle as it is
   }
-  for (const Anchor &anchor : anchors_) {
+  for (const Anchor& anchor : anchors_) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (int i = terms_.starts[anchor.vertex];
-         i < terms_.starts[anchor.vertex + 1]; ++i) {
-      const NormalTerm &term = terms_.terms[i];
-      sum += term.weight * (outer[triangles_[term.triangle][0]] +
-                            axes[term.triangle] * term.local);
+    for (int i = terms_.starts[anchor.vertex]; i < terms_.starts[anchor.vertex + 1]; ++i) {
+      const NormalTerm& term = terms_.terms[i];
+      sum += term.weight * (outer[triangles_[term.triangle][0]] + axes[term.triangle] * term.local);
     }
     moved[anchor.vertex] = sum;
   }
 }
 
-} // namespace tensegric_fit::tffd
+}  // namespace tensegric_fit::tffd

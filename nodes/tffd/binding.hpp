@@ -1,5 +1,4 @@
-/// t-FFD: free-form deformation by a triangular mesh (P1 §3.2, ref. [10];
-/// DESIGN §5).
+/// t-FFD: free-form deformation by a triangular mesh (P1 §3.2, ref. [10]; DESIGN §5).
 #pragma once
 
 #include <Eigen/Core>
@@ -14,78 +13,65 @@
 
 namespace tensegric_fit::tffd {
 
-/// `standard`: W from inner to outer centroid, smooth kernel, no tear at a
-/// fixed border: q' = q + M (x - x at rest) with constant M; affine-exact
-/// wherever the share of the motion is 1 (reach.hpp). `paper`: as published, W
-/// the unit normal and a linear kernel; the skin tears where the control mesh
-/// ends.
+/// `standard`: W from inner to outer centroid, smooth kernel, no tear at a fixed border: q' = q + M (x - x at
+/// rest) with constant M; affine-exact wherever the share of the motion is 1 (reach.hpp). `paper`: as
+/// published, W the unit normal and a linear kernel; the skin tears where the control mesh ends.
 enum class Setting { standard, paper };
 
-/// Of the standard setting's evaluation. `fast`: weights and displacements in
-/// single precision, within 0.01 mm of `reference`, which is double throughout.
+/// Of the standard setting's evaluation. `fast`: weights and displacements in single precision, within 0.01
+/// mm of `reference`, which is double throughout.
 enum class Precision { reference, fast };
 
 /// Field defaults are the parameters' defaults.
 struct Options {
   Setting setting = Setting::standard;
-  double beta = 0; ///< reach of a triangle in its mean radii; 0: the setting's
-                   ///< own, 2 (paper: 2.5)
+  double beta = 0;  ///< reach of a triangle in its mean radii; 0: the setting's own, 2 (paper: 2.5)
   Precision precision = Precision::reference;
-  /// Kernel weights below this part of a vertex's largest are dropped and the
-  /// others scaled up: fewer entries in M, affine-exact all the same; what it
-  /// costs says Binding::truncation_error. 0: none. At most 0.1.
+  /// Kernel weights below this part of a vertex's largest are dropped and the others scaled up: fewer entries
+  /// in M, affine-exact all the same; what it costs says Binding::truncation_error. 0: none. At most 0.1.
   double truncation = 0;
 };
 
 /// A body bound to a control mesh at rest.
 class Binding {
-public:
+ public:
   /// Uses the control mesh's nodes, triangles and fixed flags.
-  /// \throw Refusal bad_option: beta, truncation, or anything but the defaults
-  /// of precision and truncation in the paper's setting, which has no constant
-  /// M; bad_mesh: no control triangles, a flat one; non_finite
-  Binding(const geometry::TriangleMesh &body,
-          const geometry::ControlMesh &control, const Options &options);
+  /// \throw Refusal bad_option: beta, truncation, or anything but the defaults of precision and truncation in
+  /// the paper's setting, which has no constant M; bad_mesh: no control triangles, a flat one; non_finite
+  Binding(const geometry::TriangleMesh& body, const geometry::ControlMesh& control, const Options& options);
 
-  /// Positions of all vertices for the control nodes at `outer` and `inner`.
-  /// Vertices that are no anchors stay, bit for bit, and with all nodes at rest
-  /// every vertex does (paper: to rounding). \throw Refusal bad_mesh: another
-  /// number of nodes than was bound; non_finite
-  std::vector<Eigen::Vector3d>
-  deform(const std::vector<Eigen::Vector3d> &outer,
-         const std::vector<Eigen::Vector3d> &inner) const;
+  /// Positions of all vertices for the control nodes at `outer` and `inner`. Vertices that are no anchors
+  /// stay, bit for bit, and with all nodes at rest every vertex does (paper: to rounding).
+  /// \throw Refusal bad_mesh: another number of nodes than was bound; non_finite
+  std::vector<Eigen::Vector3d> deform(const std::vector<Eigen::Vector3d>& outer,
+                                      const std::vector<Eigen::Vector3d>& inner) const;
 
-  /// The same binding in another posture: body and nodes at rest go where the
-  /// bones carry them, and deform() starts from there (P2 §6). With still bones
-  /// it is this one, bit for bit.
-  Binding posed(const geometry::BoneFrames &bones) const;
+  /// The same binding in another posture: body and nodes at rest go where the bones carry them, and deform()
+  /// starts from there (P2 §6). With still bones it is this one, bit for bit.
+  Binding posed(const geometry::BoneFrames& bones) const;
 
-  /// No vertex is farther from where it were without truncation than this times
-  /// the farthest that a node moved: the largest row sum of |M - M truncated|,
-  /// metres a metre.
+  /// No vertex is farther from where it were without truncation than this times the farthest that a node
+  /// moved: the largest row sum of |M - M truncated|, metres a metre.
   double truncation_error() const { return truncation_error_; }
 
-  /// M, and what carries values. In the paper's setting there is no constant M,
-  /// and `nodes` is empty.
-  const Weights &weights() const { return weights_; }
+  /// M, and what carries values. In the paper's setting there is no constant M, and `nodes` is empty.
+  const Weights& weights() const { return weights_; }
 
   /// The vertices that follow the control mesh, ascending.
-  const std::vector<Anchor> &anchors() const { return anchors_; }
+  const std::vector<Anchor>& anchors() const { return anchors_; }
 
   /// Whether the control mesh can move that vertex.
   bool reaches(int vertex) const;
 
   /// Where everything is at rest.
-  const std::vector<Eigen::Vector3d> &vertices() const { return vertices_; }
-  const std::vector<Eigen::Vector3d> &outer() const { return outer_; }
-  const std::vector<Eigen::Vector3d> &inner() const { return inner_; }
+  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
+  const std::vector<Eigen::Vector3d>& outer() const { return outer_; }
+  const std::vector<Eigen::Vector3d>& inner() const { return inner_; }
 
-private:
-  void move_by_weights(const std::vector<Eigen::Vector3d> &outer,
-                       const std::vector<Eigen::Vector3d> &inner,
-                       std::vector<Eigen::Vector3d> &moved) const;
-  void move_by_normals(const std::vector<Eigen::Vector3d> &outer,
-                       std::vector<Eigen::Vector3d> &moved) const;
+ private:
+  void move_by_weights(const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner,
+                       std::vector<Eigen::Vector3d>& moved) const;
+  void move_by_normals(const std::vector<Eigen::Vector3d>& outer, std::vector<Eigen::Vector3d>& moved) const;
 
   Setting setting_;
   Precision precision_;
@@ -94,9 +80,9 @@ private:
   std::vector<Eigen::Vector3i> triangles_;
   std::vector<Anchor> anchors_;
   Weights weights_;
-  FloatRows float_rows_; // empty but in the fast precision
-  NormalTerms terms_;    // empty but in the paper's setting
+  FloatRows float_rows_;  // empty but in the fast precision
+  NormalTerms terms_;     // empty but in the paper's setting
   double truncation_error_ = 0;
 };
 
-} // namespace tensegric_fit::tffd
+}  // namespace tensegric_fit::tffd

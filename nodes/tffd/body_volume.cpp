@@ -11,66 +11,56 @@ namespace {
 using geometry::Refusal;
 namespace refusal = geometry::refusal;
 
-// Of each body vertex, how much weight each region's nodes have in it; the last
-// column is for nodes outside all regions.
-Eigen::MatrixXd weight_by_region(const Binding &binding,
-                                 const geometry::ControlMesh &control) {
-  const SparseRows &values = binding.weights().values;
+// Of each body vertex, how much weight each region's nodes have in it; the last column is for nodes outside
+// all regions.
+Eigen::MatrixXd weight_by_region(const Binding& binding, const geometry::ControlMesh& control) {
+  const SparseRows& values = binding.weights().values;
   const auto regions = static_cast<Eigen::Index>(control.regions.size());
   Eigen::MatrixXd member = Eigen::MatrixXd::Zero(values.cols(), regions + 1);
   for (Eigen::Index r = 0; r < regions; ++r)
     for (const int t : control.regions[static_cast<std::size_t>(r)].triangles)
-      for (const int node : control.triangles[t])
-        member(node, r) = 1;
+      for (const int node : control.triangles[t]) member(node, r) = 1;
   for (Eigen::Index node = 0; node < member.rows(); ++node)
-    if (member.row(node).maxCoeff() == 0)
-      member(node, regions) = 1;
+    if (member.row(node).maxCoeff() == 0) member(node, regions) = 1;
   return values * member;
 }
 
-} // namespace
+}  // namespace
 
-std::vector<std::vector<Eigen::Vector3i>>
-carried_triangles(const Binding &binding,
-                  const std::vector<Eigen::Vector3i> &triangles,
-                  const geometry::ControlMesh &control) {
+std::vector<std::vector<Eigen::Vector3i>> carried_triangles(const Binding& binding,
+                                                            const std::vector<Eigen::Vector3i>& triangles,
+                                                            const geometry::ControlMesh& control) {
   const Eigen::MatrixXd weights = weight_by_region(binding, control);
   std::vector<std::vector<Eigen::Vector3i>> carried(control.regions.size());
-  for (const Eigen::Vector3i &t : triangles) {
-    const Eigen::RowVectorXd sum =
-        weights.row(t[0]) + weights.row(t[1]) + weights.row(t[2]);
+  for (const Eigen::Vector3i& t : triangles) {
+    const Eigen::RowVectorXd sum = weights.row(t[0]) + weights.row(t[1]) + weights.row(t[2]);
     Eigen::Index most;
-    if (!(sum.maxCoeff(&most) > 0))
-      continue;
+    if (!(sum.maxCoeff(&most) > 0)) continue;
     if (most < static_cast<Eigen::Index>(carried.size()))
       carried[static_cast<std::size_t>(most)].push_back(t);
   }
   return carried;
 }
 
-BodyVolume::BodyVolume(const Binding &binding,
-                       const std::vector<Eigen::Vector3i> &triangles,
-                       const Eigen::Vector3d &apex)
+BodyVolume::BodyVolume(const Binding& binding, const std::vector<Eigen::Vector3i>& triangles,
+                       const Eigen::Vector3d& apex)
     : rest_nodes_(binding.outer()), starts_{0} {
-  const SparseRows &m = binding.weights().nodes;
+  const SparseRows& m = binding.weights().nodes;
   if (m.cols() == 0)
-    throw Refusal(refusal::kBadOption, "t-FFD: the paper's setting has no "
-                                       "constant weights to hold a volume by");
-  rest_nodes_.insert(rest_nodes_.end(), binding.inner().begin(),
-                     binding.inner().end());
+    throw Refusal(refusal::kBadOption,
+                  "t-FFD: the paper's setting has no constant weights to hold a volume by");
+  rest_nodes_.insert(rest_nodes_.end(), binding.inner().begin(), binding.inner().end());
 
   constexpr int kUnused = -1, kUsed = -2;
   std::vector<int> index(binding.vertices().size(), kUnused);
-  for (const Eigen::Vector3i &t : triangles)
-    for (const int v : t)
-      index[v] = kUsed;
+  for (const Eigen::Vector3i& t : triangles)
+    for (const int v : t) index[v] = kUsed;
   const auto add = [&](std::size_t v) {
     index[v] = static_cast<int>(rest_.size());
     rest_.push_back(binding.vertices()[v] - apex);
   };
-  for (const Anchor &anchor : binding.anchors()) {
-    if (index[anchor.vertex] != kUsed)
-      continue;
+  for (const Anchor& anchor : binding.anchors()) {
+    if (index[anchor.vertex] != kUsed) continue;
     add(anchor.vertex);
     for (SparseRows::InnerIterator entry(m, anchor.vertex); entry; ++entry) {
       columns_.push_back(static_cast<int>(entry.col()));
@@ -79,35 +69,28 @@ BodyVolume::BodyVolume(const Binding &binding,
     starts_.push_back(static_cast<int>(columns_.size()));
   }
   for (std::size_t v = 0; v < index.size(); ++v)
-    if (index[v] == kUsed)
-      add(v);
-  for (const Eigen::Vector3i &t : triangles)
-    triangles_.emplace_back(index[t[0]], index[t[1]], index[t[2]]);
+    if (index[v] == kUsed) add(v);
+  for (const Eigen::Vector3i& t : triangles) triangles_.emplace_back(index[t[0]], index[t[1]], index[t[2]]);
   rest_volume_ = geometry::cone_volume(rest_, triangles_);
 }
 
-double BodyVolume::operator()(const std::vector<Eigen::Vector3d> &nodes,
-                              std::vector<Eigen::Vector3d> *gradient) const {
+double BodyVolume::operator()(const std::vector<Eigen::Vector3d>& nodes,
+                              std::vector<Eigen::Vector3d>* gradient) const {
   if (nodes.size() != rest_nodes_.size())
-    throw Refusal(refusal::kBadMesh, "body volume: not the number of control "
-                                     "nodes that the body was bound with");
+    throw Refusal(refusal::kBadMesh,
+                  "body volume: not the number of control nodes that the body was bound with");
   std::vector<Eigen::Vector3d> motion(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    motion[i] = nodes[i] - rest_nodes_[i];
+  for (std::size_t i = 0; i < nodes.size(); ++i) motion[i] = nodes[i] - rest_nodes_[i];
   std::vector<Eigen::Vector3d> positions = rest_;
   const int reached = static_cast<int>(starts_.size()) - 1;
   for (int v = 0; v < reached; ++v)
-    for (int i = starts_[v]; i < starts_[v + 1]; ++i)
-      positions[v] += weights_[i] * motion[columns_[i]];
-  if (!gradient)
-    return geometry::cone_volume(positions, triangles_);
+    for (int i = starts_[v]; i < starts_[v + 1]; ++i) positions[v] += weights_[i] * motion[columns_[i]];
+  if (!gradient) return geometry::cone_volume(positions, triangles_);
 
   double six_volumes = 0;
-  std::vector<Eigen::Vector3d> by_vertex(positions.size(),
-                                         Eigen::Vector3d::Zero());
-  for (const Eigen::Vector3i &t : triangles_) {
-    const Eigen::Vector3d &a = positions[t[0]], &b = positions[t[1]],
-                          &c = positions[t[2]];
+  std::vector<Eigen::Vector3d> by_vertex(positions.size(), Eigen::Vector3d::Zero());
+  for (const Eigen::Vector3i& t : triangles_) {
+    const Eigen::Vector3d &a = positions[t[0]], &b = positions[t[1]], &c = positions[t[2]];
     const Eigen::Vector3d b_c = b.cross(c);
     six_volumes += a.dot(b_c);
     by_vertex[t[0]] += b_c;
@@ -121,4 +104,4 @@ double BodyVolume::operator()(const std::vector<Eigen::Vector3d> &nodes,
   return six_volumes / 6;
 }
 
-} // namespace tensegric_fit::tffd
+}  // namespace tensegric_fit::tffd

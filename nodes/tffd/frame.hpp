@@ -45,8 +45,7 @@ struct Frame {
 /// What W is.
 enum class Axis {
   unit_normal,   ///< of the triangle
-  inner_to_outer ///< from the centroid of the inner triangle to that of the
-                 ///< outer one
+  inner_to_outer ///< from the centroid of the inner triangle to that of the outer one
 };
 
 /// One a control triangle. \throw Refusal bad_mesh: a triangle without area, or

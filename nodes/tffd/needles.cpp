@@ -6,69 +6,54 @@
 namespace tensegric_fit::tffd {
 namespace {
 
-constexpr double kNarrow = 0.05; // height / longest side
+constexpr double kNarrow = 0.05;  // height / longest side
 
 struct Needle {
   Tie tie;
-  double narrowness; // height / longest side
+  double narrowness;  // height / longest side
 };
 
-Needle needle_of(const std::vector<Eigen::Vector3d> &vertices,
-                 const Eigen::Vector3i &t) {
+Needle needle_of(const std::vector<Eigen::Vector3d>& vertices, const Eigen::Vector3i& t) {
   int top = 0;
   double longest = 0;
   for (int k = 0; k < 3; ++k) {
-    const double side =
-        (vertices[t[(k + 2) % 3]] - vertices[t[(k + 1) % 3]]).squaredNorm();
-    if (side > longest)
-      longest = side, top = k;
+    const double side = (vertices[t[(k + 2) % 3]] - vertices[t[(k + 1) % 3]]).squaredNorm();
+    if (side > longest) longest = side, top = k;
   }
   const int from = t[(top + 1) % 3], to = t[(top + 2) % 3];
-  const Eigen::Vector3d along = vertices[to] - vertices[from],
-                        up = vertices[t[top]] - vertices[from];
-  const double part =
-      longest > 0 ? std::clamp(along.dot(up) / longest, 0.0, 1.0) : 0;
+  const Eigen::Vector3d along = vertices[to] - vertices[from], up = vertices[t[top]] - vertices[from];
+  const double part = longest > 0 ? std::clamp(along.dot(up) / longest, 0.0, 1.0) : 0;
   const double height = (up - part * along).norm();
-  return {{t[top], from, to, part},
-          longest > 0 ? height / std::sqrt(longest) : 0};
+  return {{t[top], from, to, part}, longest > 0 ? height / std::sqrt(longest) : 0};
 }
 
-} // namespace
+}  // namespace
 
-std::vector<Tie> tie_needles(const geometry::TriangleMesh &body,
-                             std::vector<Anchor> &anchors) {
+std::vector<Tie> tie_needles(const geometry::TriangleMesh& body, std::vector<Anchor>& anchors) {
   std::vector<int> anchor_of(body.vertices.size(), -1);
-  for (std::size_t i = 0; i < anchors.size(); ++i)
-    anchor_of[anchors[i].vertex] = static_cast<int>(i);
+  for (std::size_t i = 0; i < anchors.size(); ++i) anchor_of[anchors[i].vertex] = static_cast<int>(i);
   std::vector<Needle> needles;
-  for (const Eigen::Vector3i &t : body.triangles) {
-    if (anchor_of[t[0]] < 0 || anchor_of[t[1]] < 0 || anchor_of[t[2]] < 0)
-      continue;
+  for (const Eigen::Vector3i& t : body.triangles) {
+    if (anchor_of[t[0]] < 0 || anchor_of[t[1]] < 0 || anchor_of[t[2]] < 0) continue;
     const Needle needle = needle_of(body.vertices, t);
-    if (needle.narrowness < kNarrow)
-      needles.push_back(needle);
+    if (needle.narrowness < kNarrow) needles.push_back(needle);
   }
   std::stable_sort(needles.begin(), needles.end(),
-                   [](const Needle &a, const Needle &b) {
-                     return a.narrowness < b.narrowness;
-                   });
+                   [](const Needle& a, const Needle& b) { return a.narrowness < b.narrowness; });
 
   enum Role : char { none, carries, tied };
   std::vector<Role> roles(anchors.size(), none);
   std::vector<Tie> ties;
-  for (const Needle &needle : needles) {
-    const Tie &tie = needle.tie;
-    const int top = anchor_of[tie.vertex], from = anchor_of[tie.from],
-              to = anchor_of[tie.to];
-    if (roles[top] != none || roles[from] == tied || roles[to] == tied)
-      continue;
+  for (const Needle& needle : needles) {
+    const Tie& tie = needle.tie;
+    const int top = anchor_of[tie.vertex], from = anchor_of[tie.from], to = anchor_of[tie.to];
+    if (roles[top] != none || roles[from] == tied || roles[to] == tied) continue;
     roles[top] = tied;
     roles[from] = roles[to] = carries;
-    anchors[top].share = anchors[from].share +
-                         tie.part * (anchors[to].share - anchors[from].share);
+    anchors[top].share = anchors[from].share + tie.part * (anchors[to].share - anchors[from].share);
     ties.push_back(tie);
   }
   return ties;
 }
 
-} // namespace tensegric_fit::tffd
+}  // namespace tensegric_fit::tffd

@@ -1,5 +1,4 @@
-/// Needle-shaped triangles of the body, and how they are kept from turning
-/// over.
+/// Needle-shaped triangles of the body, and how they are kept from turning over.
 #pragma once
 
 #include <vector>
@@ -9,22 +8,18 @@
 
 namespace tensegric_fit::tffd {
 
-/// A vertex that moves with the foot of its triangle's height on the longest
-/// side, from + part (to - from).
+/// A vertex that moves with the foot of its triangle's height on the longest side, from + part (to - from).
 struct Tie {
   int vertex;
   int from, to;
   double part;
 };
 
-/// A triangle whose height is a hundredth of its side turns over as soon as the
-/// skin's motion bends by that much between its corners, however smooth the
-/// motion is and though nothing folds. So in every anchored triangle with a
-/// height below a twentieth of its longest side, the corner over that side is
-/// tied to it. The narrowest come first; a vertex is tied once, and one that
-/// carries another is not tied. The shares of the tied anchors become those of
-/// their feet.
-std::vector<Tie> tie_needles(const geometry::TriangleMesh &body,
-                             std::vector<Anchor> &anchors);
+/// A triangle whose height is a hundredth of its side turns over as soon as the skin's motion bends by that
+/// much between its corners, however smooth the motion is and though nothing folds. So in every anchored
+/// triangle with a height below a twentieth of its longest side, the corner over that side is tied to it. The
+/// narrowest come first; a vertex is tied once, and one that carries another is not tied. The shares of the
+/// tied anchors become those of their feet.
+std::vector<Tie> tie_needles(const geometry::TriangleMesh& body, std::vector<Anchor>& anchors);
 
-} // namespace tensegric_fit::tffd
+}  // namespace tensegric_fit::tffd

@@ -11,41 +11,33 @@ namespace tensegric_fit::tffd {
 namespace {
 
 struct Border {
-  bool open = false;         // the control mesh has a rim
-  std::vector<double> depth; // per outer node: 0 on a fixed border and in fixed
-                             // triangles, else 1
-  std::vector<std::array<char, 3>>
-      rim; // per triangle: side opposite to corner k is on the rim
+  bool open = false;                     // the control mesh has a rim
+  std::vector<double> depth;             // per outer node: 0 on a fixed border and in fixed triangles, else 1
+  std::vector<std::array<char, 3>> rim;  // per triangle: side opposite to corner k is on the rim
 };
 
-Border border_of(const geometry::ControlMesh &control) {
+Border border_of(const geometry::ControlMesh& control) {
   std::vector<char> moves(control.triangles.size(), 0);
   for (std::size_t t = 0; t < moves.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       const int node = control.triangles[t][k];
-      if (!control.outer_fixed[node] || !control.inner_fixed[node])
-        moves[t] = 1;
+      if (!control.outer_fixed[node] || !control.inner_fixed[node]) moves[t] = 1;
     }
   Border border;
   border.depth.assign(control.outer.size(), 1);
   border.rim.assign(moves.size(), {0, 0, 0});
   const auto still = [&](int node) {
-    if (control.outer_fixed[node])
-      border.depth[node] = 0;
+    if (control.outer_fixed[node]) border.depth[node] = 0;
   };
-  for (const geometry::Edge &edge :
-       geometry::edges_of({control.outer, control.triangles})) {
+  for (const geometry::Edge& edge : geometry::edges_of({control.outer, control.triangles})) {
     if (edge.right < 0) {
       border.open = true;
-      const Eigen::Vector3i &t = control.triangles[edge.left];
+      const Eigen::Vector3i& t = control.triangles[edge.left];
       for (int k = 0; k < 3; ++k)
-        if (t[k] != edge.first && t[k] != edge.second)
-          border.rim[edge.left][k] = 1;
+        if (t[k] != edge.first && t[k] != edge.second) border.rim[edge.left][k] = 1;
     }
-    const bool both_move =
-        moves[edge.left] && edge.right >= 0 && moves[edge.right];
-    if (both_move)
-      continue;
+    const bool both_move = moves[edge.left] && edge.right >= 0 && moves[edge.right];
+    if (both_move) continue;
     still(edge.first);
     still(edge.second);
   }
@@ -56,183 +48,142 @@ struct Closest {
   int triangle = -1;
   double distance = std::numeric_limits<double>::infinity();
   Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
-  Eigen::Vector3d offset =
-      Eigen::Vector3d::Zero(); // from the closest point to the vertex
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // from the closest point to the vertex
 };
 
-// Among `candidates` that face as `facing` does (all, where it is null) and are
-// nearer than `reach` of their radii.
+// Among `candidates` that face as `facing` does (all, where it is null) and are nearer than `reach` of their
+// radii.
 template <typename Candidates>
-Closest closest_triangle(const Eigen::Vector3d &q,
-                         const Eigen::Vector3d *facing,
-                         const std::vector<Frame> &frames,
-                         const Candidates &candidates, double reach) {
+Closest closest_triangle(const Eigen::Vector3d& q, const Eigen::Vector3d* facing,
+                         const std::vector<Frame>& frames, const Candidates& candidates, double reach) {
   Closest closest;
   for (const int t : candidates) {
-    const Frame &frame = frames[t];
-    if (facing && !(facing->dot(frame.normal) > 0))
-      continue;
+    const Frame& frame = frames[t];
+    if (facing && !(facing->dot(frame.normal) > 0)) continue;
     const double least = frame.least_distance(q);
-    if (least > closest.distance || least > reach * frame.radius)
-      continue;
+    if (least > closest.distance || least > reach * frame.radius) continue;
     const Eigen::Vector3d barycentric = frame.closest(q);
     const Eigen::Vector3d offset = q - frame.at(barycentric);
     const double distance = offset.norm();
-    if (distance >= closest.distance || distance > reach * frame.radius)
-      continue;
+    if (distance >= closest.distance || distance > reach * frame.radius) continue;
     closest = {t, distance, barycentric, offset};
   }
   return closest;
 }
 
-double share_at(const Closest &closest, const geometry::ControlMesh &control,
-                const Border &border, const Frame &frame, double reach) {
-  const Eigen::Vector3i &t = control.triangles[closest.triangle];
+double share_at(const Closest& closest, const geometry::ControlMesh& control, const Border& border,
+                const Frame& frame, double reach) {
+  const Eigen::Vector3i& t = control.triangles[closest.triangle];
   double depth = 0;
   bool on_rim = false;
   for (int k = 0; k < 3; ++k) {
     depth += closest.barycentric[k] * border.depth[t[k]];
-    if (closest.barycentric[k] == 0 && border.rim[closest.triangle][k])
-      on_rim = true;
+    if (closest.barycentric[k] == 0 && border.rim[closest.triangle][k]) on_rim = true;
   }
-  // Quadratic, not a smoothstep: the motion itself grows with depth, and the
-  // product should not be much steeper.
+  // Quadratic, not a smoothstep: the motion itself grows with depth, and the product should not be much
+  // steeper.
   double share = 1 - (1 - depth) * (1 - depth);
   if (on_rim) {
-    const double beyond =
-        (closest.offset - frame.normal * frame.normal.dot(closest.offset))
-            .norm();
+    const double beyond = (closest.offset - frame.normal * frame.normal.dot(closest.offset)).norm();
     const double z = std::min(1.0, beyond / (reach * frame.radius));
     share *= (1 - z) * (1 - z) * (1 + 2 * z);
   }
   return share;
 }
 
-// Anchors that body edges join, over anchors, to the vertex nearest to one of
-// the nodes that may move.
-std::vector<Anchor> joined_to_nodes(const std::vector<Anchor> &anchors,
-                                    const geometry::TriangleMesh &body,
-                                    const geometry::ControlMesh &control,
-                                    const Border &border) {
+// Anchors that body edges join, over anchors, to the vertex nearest to one of the nodes that may move.
+std::vector<Anchor> joined_to_nodes(const std::vector<Anchor>& anchors, const geometry::TriangleMesh& body,
+                                    const geometry::ControlMesh& control, const Border& border) {
   std::vector<int> anchor_of(body.vertices.size(), -1);
-  for (std::size_t i = 0; i < anchors.size(); ++i)
-    anchor_of[anchors[i].vertex] = static_cast<int>(i);
+  for (std::size_t i = 0; i < anchors.size(); ++i) anchor_of[anchors[i].vertex] = static_cast<int>(i);
   std::vector<Eigen::Vector3i> triangles;
-  for (const Eigen::Vector3i &t : body.triangles)
+  for (const Eigen::Vector3i& t : body.triangles)
     if (anchor_of[t[0]] >= 0 && anchor_of[t[1]] >= 0 && anchor_of[t[2]] >= 0)
       triangles.emplace_back(anchor_of[t[0]], anchor_of[t[1]], anchor_of[t[2]]);
-  const std::vector<std::vector<int>> neighbours =
-      geometry::neighbours_of(anchors.size(), triangles);
+  const std::vector<std::vector<int>> neighbours = geometry::neighbours_of(anchors.size(), triangles);
 
   std::vector<char> joined(anchors.size(), 0);
   std::vector<int> front;
   for (std::size_t node = 0; node < control.outer.size(); ++node) {
-    if (border.depth[node] == 0)
-      continue;
+    if (border.depth[node] == 0) continue;
     int nearest = -1;
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < anchors.size(); ++i) {
-      const double distance =
-          (body.vertices[anchors[i].vertex] - control.outer[node])
-              .squaredNorm();
-      if (distance < best)
-        best = distance, nearest = static_cast<int>(i);
+      const double distance = (body.vertices[anchors[i].vertex] - control.outer[node]).squaredNorm();
+      if (distance < best) best = distance, nearest = static_cast<int>(i);
     }
-    if (nearest >= 0 && !joined[nearest])
-      joined[nearest] = 1, front.push_back(nearest);
+    if (nearest >= 0 && !joined[nearest]) joined[nearest] = 1, front.push_back(nearest);
   }
   while (!front.empty()) {
     const int i = front.back();
     front.pop_back();
     for (const int next : neighbours[i])
-      if (!joined[next])
-        joined[next] = 1, front.push_back(next);
+      if (!joined[next]) joined[next] = 1, front.push_back(next);
   }
   std::vector<Anchor> kept;
   for (std::size_t i = 0; i < anchors.size(); ++i)
-    if (joined[i])
-      kept.push_back(anchors[i]);
+    if (joined[i]) kept.push_back(anchors[i]);
   return kept;
 }
 
-void add_anchor(int vertex, const Closest &closest,
-                const geometry::ControlMesh &control, const Border &border,
-                const std::vector<Frame> &frames, double reach,
-                std::vector<Anchor> &anchors) {
-  if (closest.triangle < 0)
-    return;
-  const double share =
-      share_at(closest, control, border, frames[closest.triangle], reach);
-  if (share > 0)
-    anchors.push_back({vertex, share});
+void add_anchor(int vertex, const Closest& closest, const geometry::ControlMesh& control,
+                const Border& border, const std::vector<Frame>& frames, double reach,
+                std::vector<Anchor>& anchors) {
+  if (closest.triangle < 0) return;
+  const double share = share_at(closest, control, border, frames[closest.triangle], reach);
+  if (share > 0) anchors.push_back({vertex, share});
 }
 
 // What a control mesh with a border carries, whichever skin it belongs to.
-std::vector<Anchor> carried(const geometry::TriangleMesh &body,
-                            const geometry::ControlMesh &control,
-                            const Border &border,
-                            const std::vector<Frame> &frames,
-                            const TriangleGrid &grid, double reach) {
+std::vector<Anchor> carried(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
+                            const Border& border, const std::vector<Frame>& frames, const TriangleGrid& grid,
+                            double reach) {
   const auto normals = geometry::vertex_normals(body.vertices, body.triangles);
   std::vector<Anchor> anchors;
   for (std::size_t v = 0; v < body.vertices.size(); ++v) {
-    const Eigen::Vector3d &q = body.vertices[v];
-    const Closest closest =
-        closest_triangle(q, &normals[v], frames, grid.near(q), reach);
-    add_anchor(static_cast<int>(v), closest, control, border, frames, reach,
-               anchors);
+    const Eigen::Vector3d& q = body.vertices[v];
+    const Closest closest = closest_triangle(q, &normals[v], frames, grid.near(q), reach);
+    add_anchor(static_cast<int>(v), closest, control, border, frames, reach, anchors);
   }
   return anchors;
 }
 
-// What a closed control mesh with fixed nodes carries: all but the skin over
-// the fixed ones.
-std::vector<Anchor>
-carried_by_closed(const std::vector<Eigen::Vector3d> &vertices,
-                  const geometry::ControlMesh &control, const Border &border,
-                  const std::vector<Frame> &frames, const TriangleGrid &grid,
-                  double reach) {
+// What a closed control mesh with fixed nodes carries: all but the skin over the fixed ones.
+std::vector<Anchor> carried_by_closed(const std::vector<Eigen::Vector3d>& vertices,
+                                      const geometry::ControlMesh& control, const Border& border,
+                                      const std::vector<Frame>& frames, const TriangleGrid& grid,
+                                      double reach) {
   constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
   std::vector<int> all(frames.size());
   std::iota(all.begin(), all.end(), 0);
-  double sure = kAnyDistance; // the grid misses no triangle that is nearer
-  for (const Frame &frame : frames)
-    sure = std::min(sure, reach * frame.radius);
+  double sure = kAnyDistance;  // the grid misses no triangle that is nearer
+  for (const Frame& frame : frames) sure = std::min(sure, reach * frame.radius);
   std::vector<Anchor> anchors;
   for (std::size_t v = 0; v < vertices.size(); ++v) {
-    const Eigen::Vector3d &q = vertices[v];
-    Closest closest =
-        closest_triangle(q, nullptr, frames, grid.near(q), kAnyDistance);
-    if (closest.distance > sure)
-      closest = closest_triangle(q, nullptr, frames, all, kAnyDistance);
-    add_anchor(static_cast<int>(v), closest, control, border, frames,
-               kAnyDistance, anchors);
+    const Eigen::Vector3d& q = vertices[v];
+    Closest closest = closest_triangle(q, nullptr, frames, grid.near(q), kAnyDistance);
+    if (closest.distance > sure) closest = closest_triangle(q, nullptr, frames, all, kAnyDistance);
+    add_anchor(static_cast<int>(v), closest, control, border, frames, kAnyDistance, anchors);
   }
   return anchors;
 }
 
-} // namespace
+}  // namespace
 
-std::vector<Anchor> reach_of(const geometry::TriangleMesh &body,
-                             const geometry::ControlMesh &control,
-                             const std::vector<Frame> &frames,
-                             const TriangleGrid &grid, double reach) {
+std::vector<Anchor> reach_of(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
+                             const std::vector<Frame>& frames, const TriangleGrid& grid, double reach) {
   const Border border = border_of(control);
   if (border.open) {
     if (body.triangles.empty())
       throw geometry::Refusal(geometry::refusal::kBadMesh,
-                              "a control mesh with a border needs the body's "
-                              "triangles, and it has none");
-    return joined_to_nodes(carried(body, control, border, frames, grid, reach),
-                           body, control, border);
+                              "a control mesh with a border needs the body's triangles, and it has none");
+    return joined_to_nodes(carried(body, control, border, frames, grid, reach), body, control, border);
   }
   if (std::count(border.depth.begin(), border.depth.end(), 0) > 0)
-    return carried_by_closed(body.vertices, control, border, frames, grid,
-                             reach);
+    return carried_by_closed(body.vertices, control, border, frames, grid, reach);
   std::vector<Anchor> all;
-  for (std::size_t v = 0; v < body.vertices.size(); ++v)
-    all.push_back({static_cast<int>(v), 1});
+  for (std::size_t v = 0; v < body.vertices.size(); ++v) all.push_back({static_cast<int>(v), 1});
   return all;
 }
 
-} // namespace tensegric_fit::tffd
+}  // namespace tensegric_fit::tffd

@@ -16,23 +16,22 @@ struct Sphere {
 };
 
 // Where least_distance(q) <= reach * radius, and a little for rounding.
-Sphere reach_of(const Frame &frame, double reach) {
+Sphere reach_of(const Frame& frame, double reach) {
   return {frame.centroid, (reach + 1.5) * frame.radius * (1 + 1e-9)};
 }
 
-bool touches(const Sphere &sphere, const Eigen::Array3d &low, double cell) {
+bool touches(const Sphere& sphere, const Eigen::Array3d& low, double cell) {
   const Eigen::Array3d centre = sphere.centre.array();
-  return (centre - centre.max(low).min(low + cell)).matrix().squaredNorm() <=
-         sphere.radius * sphere.radius;
+  return (centre - centre.max(low).min(low + cell)).matrix().squaredNorm() <= sphere.radius * sphere.radius;
 }
 
-} // namespace
+}  // namespace
 
-TriangleGrid::TriangleGrid(const std::vector<Frame> &frames, double reach) {
+TriangleGrid::TriangleGrid(const std::vector<Frame>& frames, double reach) {
   low_.setConstant(std::numeric_limits<double>::infinity());
   Eigen::Vector3d high = -low_;
   double mean = 0;
-  for (const Frame &frame : frames) {
+  for (const Frame& frame : frames) {
     const Sphere sphere = reach_of(frame, reach);
     low_ = low_.cwiseMin((sphere.centre.array() - sphere.radius).matrix());
     high = high.cwiseMax((sphere.centre.array() + sphere.radius).matrix());
@@ -42,44 +41,35 @@ TriangleGrid::TriangleGrid(const std::vector<Frame> &frames, double reach) {
   cell_ = std::max(mean / 2, std::cbrt(size.prod() / kMostCells));
   counts_ = (size / cell_).floor().cast<int>() + 1;
 
-  // Twice over all triangles and the cells that they reach: first to count,
-  // then to fill.
-  const auto for_each_cell = [&](const auto &visit) {
+  // Twice over all triangles and the cells that they reach: first to count, then to fill.
+  const auto for_each_cell = [&](const auto& visit) {
     for (std::size_t t = 0; t < frames.size(); ++t) {
       const Sphere sphere = reach_of(frames[t], reach);
       const Eigen::Array3d offset = (sphere.centre - low_).array();
-      const Eigen::Array3i first =
-          ((offset - sphere.radius) / cell_).floor().cast<int>().max(0);
-      const Eigen::Array3i last = ((offset + sphere.radius) / cell_)
-                                      .floor()
-                                      .cast<int>()
-                                      .min(counts_ - 1);
+      const Eigen::Array3i first = ((offset - sphere.radius) / cell_).floor().cast<int>().max(0);
+      const Eigen::Array3i last = ((offset + sphere.radius) / cell_).floor().cast<int>().min(counts_ - 1);
       for (int z = first[2]; z <= last[2]; ++z)
         for (int y = first[1]; y <= last[1]; ++y)
           for (int x = first[0]; x <= last[0]; ++x)
-            if (touches(sphere, low_.array() + cell_ * Eigen::Array3d(x, y, z),
-                        cell_))
+            if (touches(sphere, low_.array() + cell_ * Eigen::Array3d(x, y, z), cell_))
               visit(static_cast<int>(t), (z * counts_[1] + y) * counts_[0] + x);
     }
   };
   starts_.assign(static_cast<std::size_t>(counts_.prod()) + 1, 0);
   for_each_cell([&](int, int cell) { ++starts_[cell + 1]; });
-  for (std::size_t i = 1; i < starts_.size(); ++i)
-    starts_[i] += starts_[i - 1];
+  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
   triangles_.resize(static_cast<std::size_t>(starts_.back()));
   std::vector<int> filled(starts_.begin(), starts_.end() - 1);
-  for_each_cell(
-      [&](int triangle, int cell) { triangles_[filled[cell]++] = triangle; });
+  for_each_cell([&](int triangle, int cell) { triangles_[filled[cell]++] = triangle; });
 }
 
-TriangleGrid::Range TriangleGrid::near(const Eigen::Vector3d &q) const {
+TriangleGrid::Range TriangleGrid::near(const Eigen::Vector3d& q) const {
   const Eigen::Array3d at = ((q - low_).array() / cell_).floor();
-  const int *const all = triangles_.data();
-  if (!(at >= 0).all() || !(at < counts_.cast<double>()).all())
-    return {all, all};
+  const int* const all = triangles_.data();
+  if (!(at >= 0).all() || !(at < counts_.cast<double>()).all()) return {all, all};
   const Eigen::Array3i index = at.cast<int>();
   const int cell = (index[2] * counts_[1] + index[1]) * counts_[0] + index[0];
   return {all + starts_[cell], all + starts_[cell + 1]};
 }
 
-} // namespace tensegric_fit::tffd
+}  // namespace tensegric_fit::tffd

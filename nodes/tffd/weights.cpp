@@ -6,99 +6,84 @@
 namespace tensegric_fit::tffd {
 namespace {
 
-// Share of the global kernel where it is fully on. Any value above 0 gives the
-// same limit where the local kernels end.
+// Share of the global kernel where it is fully on. Any value above 0 gives the same limit where the local
+// kernels end.
 constexpr double kGlobal = 0.05;
 // It sets in where no triangle is nearer than this part of its reach.
 constexpr double kGlobalFrom = 0.5;
 
-double square(double x) { return x * x; }
+double square(double x) {
+  return x * x;
+}
 
 // A control triangle as a vertex sees it.
 struct Near {
   int triangle;
-  double z; // distance from the triangle in multiples of its reach
-  Eigen::Vector3d barycentric; // of its closest point
-  double k = 0;                // its share of the vertex
+  double z;                     // distance from the triangle in multiples of its reach
+  Eigen::Vector3d barycentric;  // of its closest point
+  double k = 0;                 // its share of the vertex
 };
 
-Near seen_from(const Eigen::Vector3d &q, int triangle, const Frame &frame,
-               double beta) {
+Near seen_from(const Eigen::Vector3d& q, int triangle, const Frame& frame, double beta) {
   const Eigen::Vector3d barycentric = frame.closest(q);
-  return {triangle, (q - frame.at(barycentric)).norm() / (beta * frame.radius),
-          barycentric};
+  return {triangle, (q - frame.at(barycentric)).norm() / (beta * frame.radius), barycentric};
 }
 
-// Ascending; past half the reach of every triangle all of them, for the global
-// kernel.
-void find_near(const Eigen::Vector3d &q, const std::vector<Frame> &frames,
-               const Kernel &kernel, std::vector<Near> &near) {
+// Ascending; past half the reach of every triangle all of them, for the global kernel.
+void find_near(const Eigen::Vector3d& q, const std::vector<Frame>& frames, const Kernel& kernel,
+               std::vector<Near>& near) {
   near.clear();
   double nearest = 1;
   for (const int t : kernel.grid.near(q)) {
-    if (frames[t].least_distance(q) > kernel.beta * frames[t].radius)
-      continue;
+    if (frames[t].least_distance(q) > kernel.beta * frames[t].radius) continue;
     near.push_back(seen_from(q, t, frames[t], kernel.beta));
     nearest = std::min(nearest, near.back().z);
   }
-  if (nearest <= kGlobalFrom)
-    return;
+  if (nearest <= kGlobalFrom) return;
   near.clear();
   for (std::size_t t = 0; t < frames.size(); ++t)
     near.push_back(seen_from(q, static_cast<int>(t), frames[t], kernel.beta));
 }
 
-void drop_small(std::vector<Near> &near, double truncation) {
+void drop_small(std::vector<Near>& near, double truncation) {
   double most = 0;
-  for (const Near &triangle : near)
-    most = std::max(most, triangle.k);
-  for (Near &triangle : near)
-    if (triangle.k < truncation * most)
-      triangle.k = 0;
+  for (const Near& triangle : near) most = std::max(most, triangle.k);
+  for (Near& triangle : near)
+    if (triangle.k < truncation * most) triangle.k = 0;
 }
 
-// A (1-z)^4 (4z+1), and past half the reach of every triangle more and more of
-// a global kernel in A/z^4, so that no vertex is left without weights and
-// nothing jumps where the last local weight ends.
-void weigh(const std::vector<Frame> &frames, double truncation,
-           std::vector<Near> &near) {
+// A (1-z)^4 (4z+1), and past half the reach of every triangle more and more of a global kernel in A/z^4, so
+// that no vertex is left without weights and nothing jumps where the last local weight ends.
+void weigh(const std::vector<Frame>& frames, double truncation, std::vector<Near>& near) {
   double nearest = near.front().z;
-  for (const Near &triangle : near)
-    nearest = std::min(nearest, triangle.z);
-  const double on =
-      std::clamp((nearest - kGlobalFrom) / (1 - kGlobalFrom), 0.0, 1.0);
+  for (const Near& triangle : near) nearest = std::min(nearest, triangle.z);
+  const double on = std::clamp((nearest - kGlobalFrom) / (1 - kGlobalFrom), 0.0, 1.0);
   const double global = kGlobal * on * on * (3 - 2 * on);
-  for (Near &triangle : near) {
+  for (Near& triangle : near) {
     const double z = triangle.z;
     triangle.k = z < 1 ? square(square(1 - z)) * (4 * z + 1) : 0;
-    if (global > 0)
-      triangle.k += global * square(square(nearest / z));
+    if (global > 0) triangle.k += global * square(square(nearest / z));
     triangle.k *= frames[triangle.triangle].area;
   }
-  if (truncation > 0)
-    drop_small(near, truncation);
+  if (truncation > 0) drop_small(near, truncation);
   double sum = 0;
-  for (const Near &triangle : near)
-    sum += triangle.k;
-  for (Near &triangle : near)
-    triangle.k /= sum;
+  for (const Near& triangle : near) sum += triangle.k;
+  for (Near& triangle : near) triangle.k /= sum;
 }
 
 // A row of a sparse matrix that is gathered in any order.
 class Row {
-public:
-  explicit Row(Eigen::Index columns)
-      : sums_(static_cast<std::size_t>(columns), 0), used_(sums_.size(), 0) {}
+ public:
+  explicit Row(Eigen::Index columns) : sums_(static_cast<std::size_t>(columns), 0), used_(sums_.size(), 0) {}
 
   void add(int column, double value) {
-    if (!used_[column])
-      columns_.push_back(column);
+    if (!used_[column]) columns_.push_back(column);
     sums_[column] += value;
     used_[column] = 1;
   }
 
   // Appends the row, times `factor`, and starts a new one.
-  void append_to(SparseRows &matrix, Eigen::Index row, double factor) {
+  void append_to(SparseRows& matrix, Eigen::Index row, double factor) {
     std::sort(columns_.begin(), columns_.end());
     for (const int column : columns_) {
       matrix.insertBack(row, column) = factor * sums_[column];
@@ -108,24 +93,21 @@ public:
     columns_.clear();
   }
 
-private:
+ private:
   std::vector<double> sums_;
   std::vector<char> used_;
   std::vector<int> columns_;
 };
 
-Eigen::Vector3d foot_of(const Tie &tie,
-                        const std::vector<Eigen::Vector3d> &vertices) {
-  return vertices[tie.from] +
-         tie.part * (vertices[tie.to] - vertices[tie.from]);
+Eigen::Vector3d foot_of(const Tie& tie, const std::vector<Eigen::Vector3d>& vertices) {
+  return vertices[tie.from] + tie.part * (vertices[tie.to] - vertices[tie.from]);
 }
 
 // Adds the motion of the feet to the rows of the tied vertices.
-void follow_feet(const std::vector<Tie> &ties, SparseRows &nodes) {
-  if (ties.empty())
-    return;
+void follow_feet(const std::vector<Tie>& ties, SparseRows& nodes) {
+  if (ties.empty()) return;
   std::vector<Eigen::Triplet<double>> parts;
-  for (const Tie &tie : ties) {
+  for (const Tie& tie : ties) {
     parts.emplace_back(tie.vertex, tie.from, 1 - tie.part);
     parts.emplace_back(tie.vertex, tie.to, tie.part);
   }
@@ -135,40 +117,33 @@ void follow_feet(const std::vector<Tie> &ties, SparseRows &nodes) {
   nodes = SparseRows(nodes + carried);
 }
 
-} // namespace
+}  // namespace
 
-Weights standard_weights(const geometry::TriangleMesh &body,
-                         const geometry::ControlMesh &control,
-                         const std::vector<Frame> &frames, const Kernel &kernel,
-                         const std::vector<Anchor> &anchors,
-                         const std::vector<Tie> &ties) {
+Weights standard_weights(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
+                         const std::vector<Frame>& frames, const Kernel& kernel,
+                         const std::vector<Anchor>& anchors, const std::vector<Tie>& ties) {
   const int outer = static_cast<int>(control.outer.size());
   const Eigen::Index vertices = static_cast<Eigen::Index>(body.vertices.size());
   Weights weights{SparseRows(vertices, 2 * outer), SparseRows(vertices, outer)};
-  std::vector<const Tie *> tie_of(body.vertices.size(), nullptr);
-  for (const Tie &tie : ties)
-    tie_of[tie.vertex] = &tie;
+  std::vector<const Tie*> tie_of(body.vertices.size(), nullptr);
+  for (const Tie& tie : ties) tie_of[tie.vertex] = &tie;
   std::vector<Near> near;
   Row nodes(2 * outer), values(outer);
   auto anchor = anchors.begin();
   for (Eigen::Index v = 0; v < vertices; ++v) {
     weights.nodes.startVec(v);
     weights.values.startVec(v);
-    if (anchor == anchors.end() || anchor->vertex != v)
-      continue;
-    const Eigen::Vector3d &q = body.vertices[v];
-    const Tie *tie = tie_of[v];
+    if (anchor == anchors.end() || anchor->vertex != v) continue;
+    const Eigen::Vector3d& q = body.vertices[v];
+    const Tie* tie = tie_of[v];
     find_near(q, frames, kernel, near);
     weigh(frames, kernel.truncation, near);
-    for (const Near &triangle : near) {
-      if (triangle.k == 0)
-        continue;
-      // Of a tied vertex here only the height over its foot: an offset, not a
-      // point.
-      const Frame &frame = frames[triangle.triangle];
+    for (const Near& triangle : near) {
+      if (triangle.k == 0) continue;
+      // Of a tied vertex here only the height over its foot: an offset, not a point.
+      const Frame& frame = frames[triangle.triangle];
       const Eigen::Vector3d uvw =
-          tie ? frame.local_from_offset * (q - foot_of(*tie, body.vertices))
-              : frame.local(q);
+          tie ? frame.local_from_offset * (q - foot_of(*tie, body.vertices)) : frame.local(q);
       const double corner[] = {(tie ? 0 : 1) - uvw[0] - uvw[1], uvw[0], uvw[1]};
       for (int j = 0; j < 3; ++j) {
         const int node = control.triangles[triangle.triangle][j];
@@ -187,44 +162,37 @@ Weights standard_weights(const geometry::TriangleMesh &body,
   return weights;
 }
 
-NormalTerms paper_terms(const std::vector<Eigen::Vector3d> &vertices,
-                        const std::vector<Frame> &frames,
-                        const Kernel &kernel) {
+NormalTerms paper_terms(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Frame>& frames,
+                        const Kernel& kernel) {
   NormalTerms bound;
   bound.starts.reserve(vertices.size() + 1);
   bound.starts.push_back(0);
-  for (const Eigen::Vector3d &q : vertices) {
+  for (const Eigen::Vector3d& q : vertices) {
     double sum = 0;
     const std::size_t first = bound.terms.size();
     for (const int t : kernel.grid.near(q)) {
-      const double k = 1 - (q - frames[t].centroid).norm() /
-                               (kernel.beta * frames[t].radius);
-      if (!(k > 0))
-        continue;
+      const double k = 1 - (q - frames[t].centroid).norm() / (kernel.beta * frames[t].radius);
+      if (!(k > 0)) continue;
       bound.terms.push_back({t, k, frames[t].local(q)});
       sum += k;
     }
-    for (std::size_t i = first; i < bound.terms.size(); ++i)
-      bound.terms[i].weight /= sum;
+    for (std::size_t i = first; i < bound.terms.size(); ++i) bound.terms[i].weight /= sum;
     bound.starts.push_back(static_cast<int>(bound.terms.size()));
   }
   return bound;
 }
 
-SparseRows paper_values(const std::vector<Eigen::Vector3d> &vertices,
-                        const geometry::ControlMesh &control,
-                        const std::vector<Frame> &frames,
-                        const NormalTerms &bound) {
+SparseRows paper_values(const std::vector<Eigen::Vector3d>& vertices, const geometry::ControlMesh& control,
+                        const std::vector<Frame>& frames, const NormalTerms& bound) {
   SparseRows weights(static_cast<Eigen::Index>(vertices.size()),
                      static_cast<Eigen::Index>(control.outer.size()));
   Row row(weights.cols());
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     weights.startVec(static_cast<Eigen::Index>(v));
     for (int i = bound.starts[v]; i < bound.starts[v + 1]; ++i) {
-      const NormalTerm &term = bound.terms[i];
+      const NormalTerm& term = bound.terms[i];
       const Eigen::Vector3d b = frames[term.triangle].closest(vertices[v]);
-      for (int j = 0; j < 3; ++j)
-        row.add(control.triangles[term.triangle][j], term.weight * b[j]);
+      for (int j = 0; j < 3; ++j) row.add(control.triangles[term.triangle][j], term.weight * b[j]);
     }
     row.append_to(weights, static_cast<Eigen::Index>(v), 1);
   }
@@ -232,4 +200,4 @@ SparseRows paper_values(const std::vector<Eigen::Vector3d> &vertices,
   return weights;
 }
 
-} // namespace tensegric_fit::tffd
+}  // namespace tensegric_fit::tffd

@@ -1,5 +1,4 @@
-/// The weights with which control triangles carry a vertex (P1 §3.2, ref. [10];
-/// DESIGN §5).
+/// The weights with which control triangles carry a vertex (P1 §3.2, ref. [10]; DESIGN §5).
 #pragma once
 
 #include <Eigen/Core>
@@ -15,45 +14,39 @@
 
 namespace tensegric_fit::tffd {
 
-/// Sparse and constant, one row a body vertex; rows of vertices that are no
-/// anchors are empty.
+/// Sparse and constant, one row a body vertex; rows of vertices that are no anchors are empty.
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// Both have the anchor's share multiplied in.
 struct Weights {
-  /// M of q' = q + M (x - x at rest). One column a node: outer node i is i,
-  /// inner node i is V + i.
+  /// M of q' = q + M (x - x at rest). One column a node: outer node i is i, inner node i is V + i.
   SparseRows nodes;
-  /// What carries a value from the outer nodes to the skin: rows have no
-  /// negative weight and sum to the share.
+  /// What carries a value from the outer nodes to the skin: rows have no negative weight and sum to the
+  /// share.
   SparseRows values;
 };
 
-/// How far a control triangle reaches, in multiples of its radius; which ones
-/// are in reach of a point; and below which part of a vertex's largest kernel
-/// weight the others are dropped (the kept ones sum to 1).
+/// How far a control triangle reaches, in multiples of its radius; which ones are in reach of a point; and
+/// below which part of a vertex's largest kernel weight the others are dropped (the kept ones sum to 1).
 struct Kernel {
   double beta;
-  const TriangleGrid &grid;
+  const TriangleGrid& grid;
   double truncation = 0;
 };
 
 /// \pre the frames run from inner to outer centroid
-Weights standard_weights(const geometry::TriangleMesh &body,
-                         const geometry::ControlMesh &control,
-                         const std::vector<Frame> &frames, const Kernel &kernel,
-                         const std::vector<Anchor> &anchors,
-                         const std::vector<Tie> &ties);
+Weights standard_weights(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
+                         const std::vector<Frame>& frames, const Kernel& kernel,
+                         const std::vector<Anchor>& anchors, const std::vector<Tie>& ties);
 
 /// One triangle's part in one vertex, with the unit normal for W.
 struct NormalTerm {
   int triangle;
-  double weight;         ///< sums to 1 over a vertex
-  Eigen::Vector3d local; ///< (u, v, w) at binding
+  double weight;          ///< sums to 1 over a vertex
+  Eigen::Vector3d local;  ///< (u, v, w) at binding
 };
 
-/// The terms of vertex i are those from starts[i] to starts[i + 1]; none where
-/// the vertex is out of reach.
+/// The terms of vertex i are those from starts[i] to starts[i + 1]; none where the vertex is out of reach.
 struct NormalTerms {
   std::vector<int> starts;
   std::vector<NormalTerm> terms;
@@ -61,13 +54,11 @@ struct NormalTerms {
 
 /// The published setting: k = max(0, 1 - |q - G| / (beta r)), nothing else.
 /// \pre the frames have unit normals for W
-NormalTerms paper_terms(const std::vector<Eigen::Vector3d> &vertices,
-                        const std::vector<Frame> &frames, const Kernel &kernel);
+NormalTerms paper_terms(const std::vector<Eigen::Vector3d>& vertices, const std::vector<Frame>& frames,
+                        const Kernel& kernel);
 
 /// Weights::values of the published setting.
-SparseRows paper_values(const std::vector<Eigen::Vector3d> &vertices,
-                        const geometry::ControlMesh &control,
-                        const std::vector<Frame> &frames,
-                        const NormalTerms &bound);
+SparseRows paper_values(const std::vector<Eigen::Vector3d>& vertices, const geometry::ControlMesh& control,
+                        const std::vector<Frame>& frames, const NormalTerms& bound);
 
-} // namespace tensegric_fit::tffd
+}  // namespace tensegric_fit::tffd
