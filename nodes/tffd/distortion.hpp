@@ -9,31 +9,25 @@
 
 namespace tensegric_fit::tffd {
 
-/// At each control vertex: area of the triangles around it, after / before. 1
-/// where nothing changed and where a vertex has no triangle. \throw Refusal
-/// bad_mesh: another number of nodes than the control mesh has
-std::vector<double>
-control_distortion(const geometry::ControlMesh &control,
-                   const std::vector<Eigen::Vector3d> &outer);
+/// At each control vertex: area of the triangles around it, after / before. 1 where nothing changed and where
+/// a vertex has no triangle. \throw Refusal bad_mesh: another number of nodes than the control mesh has
+std::vector<double> control_distortion(const geometry::ControlMesh& control,
+                                       const std::vector<Eigen::Vector3d>& outer);
 
-/// The same at each body vertex: a mean over the control vertices around it
-/// (Weights::values), brought to 1 as the skin's share of the motion goes to 0.
-/// Exactly 1 where the body cannot be moved. \throw Refusal bad_mesh: not one
-/// value a control vertex
-std::vector<double>
-body_distortion(const Binding &binding,
-                const std::vector<double> &at_control_vertices);
+/// The same at each body vertex: a mean over the control vertices around it (Weights::values), brought to 1
+/// as the skin's share of the motion goes to 0. Exactly 1 where the body cannot be moved. \throw Refusal
+/// bad_mesh: not one value a control vertex
+std::vector<double> body_distortion(const Binding& binding, const std::vector<double>& at_control_vertices);
 
-/// How a triangle of skin was stretched in its own plane, after / before: the
-/// most and the least of all directions.
+/// How a triangle of skin was stretched in its own plane, after / before: the most and the least of all
+/// directions.
 struct Stretch {
   double most, least;
 };
 
-/// One a control triangle. \throw Refusal bad_mesh: another number of nodes; a
-/// control triangle without area at rest
-std::vector<Stretch>
-principal_stretches(const geometry::ControlMesh &control,
-                    const std::vector<Eigen::Vector3d> &outer);
+/// One a control triangle. \throw Refusal bad_mesh: another number of nodes; a control triangle without area
+/// at rest
+std::vector<Stretch> principal_stretches(const geometry::ControlMesh& control,
+                                         const std::vector<Eigen::Vector3d>& outer);
 
-} // namespace tensegric_fit::tffd
+}  // namespace tensegric_fit::tffd

@@ -12,32 +12,27 @@
 namespace tensegric_fit::tffd {
 namespace {
 
-// W may lean this little off the triangle's plane, or the triangle be this
-// thin, before 1e-12 could no longer be held.
+// W may lean this little off the triangle's plane, or the triangle be this thin, before 1e-12 could no longer
+// be held.
 constexpr double kFlat = 1e-4;
 
-} // namespace
+}  // namespace
 
-Eigen::Vector3d Frame::closest(const Eigen::Vector3d &q) const {
+Eigen::Vector3d Frame::closest(const Eigen::Vector3d& q) const {
   const Eigen::Vector2d uv = in_plane_from_offset * (q - corners[0]);
   const Eigen::Vector3d inside(1 - uv[0] - uv[1], uv[0], uv[1]);
-  if (inside.minCoeff() >= 0)
-    return inside;
+  if (inside.minCoeff() >= 0) return inside;
 
-  // Not over the triangle: the closest point lies on one of the sides that q is
-  // beyond.
+  // Not over the triangle: the closest point lies on one of the sides that q is beyond.
   Eigen::Vector3d best = Eigen::Vector3d::Zero();
   double best_distance = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
-    if (inside[k] >= 0)
-      continue;
+    if (inside[k] >= 0) continue;
     const int a = (k + 1) % 3, b = (k + 2) % 3;
     const Eigen::Vector3d along = corners[b] - corners[a];
-    const double t =
-        std::clamp(along.dot(q - corners[a]) / along.squaredNorm(), 0.0, 1.0);
+    const double t = std::clamp(along.dot(q - corners[a]) / along.squaredNorm(), 0.0, 1.0);
     const double distance = (q - corners[a] - t * along).squaredNorm();
-    if (distance >= best_distance)
-      continue;
+    if (distance >= best_distance) continue;
     best_distance = distance;
     best.setZero();
     best[a] = 1 - t;
@@ -46,46 +41,37 @@ Eigen::Vector3d Frame::closest(const Eigen::Vector3d &q) const {
   return best;
 }
 
-std::vector<Frame> frames_of(const geometry::ControlMesh &control, Axis axis) {
+std::vector<Frame> frames_of(const geometry::ControlMesh& control, Axis axis) {
   std::vector<Frame> frames;
   frames.reserve(control.triangles.size());
-  for (const Eigen::Vector3i &t : control.triangles) {
+  for (const Eigen::Vector3i& t : control.triangles) {
     Frame frame;
-    for (int k = 0; k < 3; ++k)
-      frame.corners[k] = control.outer[t[k]];
-    const Eigen::Vector3d u = frame.corners[1] - frame.corners[0],
-                          v = frame.corners[2] - frame.corners[0];
+    for (int k = 0; k < 3; ++k) frame.corners[k] = control.outer[t[k]];
+    const Eigen::Vector3d u = frame.corners[1] - frame.corners[0], v = frame.corners[2] - frame.corners[0];
     const Eigen::Vector3d twice_area = u.cross(v);
     if (!(twice_area.norm() > kFlat * u.norm() * v.norm()))
-      throw geometry::Refusal(
-          geometry::refusal::kBadMesh,
-          "control triangle " + std::to_string(frames.size()) + " has no area");
-    frame.centroid =
-        (frame.corners[0] + frame.corners[1] + frame.corners[2]) / 3;
+      throw geometry::Refusal(geometry::refusal::kBadMesh,
+                              "control triangle " + std::to_string(frames.size()) + " has no area");
+    frame.centroid = (frame.corners[0] + frame.corners[1] + frame.corners[2]) / 3;
     frame.normal = twice_area.normalized();
     frame.area = twice_area.norm() / 2;
     frame.radius = 0;
-    for (const Eigen::Vector3d &corner : frame.corners)
-      frame.radius += (corner - frame.centroid).norm() / 3;
+    for (const Eigen::Vector3d& corner : frame.corners) frame.radius += (corner - frame.centroid).norm() / 3;
 
     Eigen::Vector3d w = frame.normal;
     if (axis == Axis::inner_to_outer) {
-      w = frame.centroid -
-          (control.inner[t[0]] + control.inner[t[1]] + control.inner[t[2]]) / 3;
+      w = frame.centroid - (control.inner[t[0]] + control.inner[t[1]] + control.inner[t[2]]) / 3;
       if (!(std::abs(w.dot(frame.normal)) > kFlat * frame.radius))
-        throw geometry::Refusal(geometry::refusal::kBadMesh,
-                                "the inner nodes of control triangle " +
-                                    std::to_string(frames.size()) +
-                                    " lie in the plane of its outer nodes");
+        throw geometry::Refusal(geometry::refusal::kBadMesh, "the inner nodes of control triangle " +
+                                                                 std::to_string(frames.size()) +
+                                                                 " lie in the plane of its outer nodes");
     }
-    const Eigen::Matrix3d plane =
-        (Eigen::Matrix3d() << u, v, frame.normal).finished().inverse();
+    const Eigen::Matrix3d plane = (Eigen::Matrix3d() << u, v, frame.normal).finished().inverse();
     frame.in_plane_from_offset = plane.topRows<2>();
-    frame.local_from_offset =
-        (Eigen::Matrix3d() << u, v, w).finished().inverse();
+    frame.local_from_offset = (Eigen::Matrix3d() << u, v, w).finished().inverse();
     frames.push_back(frame);
   }
   return frames;
 }
 
-} // namespace tensegric_fit::tffd
+}  // namespace tensegric_fit::tffd

@@ -59,9 +59,8 @@ Closest closest_triangle(const Eigen::Vector3d& q, const Eigen::Vector3d* facing
   Closest closest;
   for (const int t : candidates) {
     const Frame& frame = frames[t];
+    if (frame.farther_than(std::min(closest.distance, reach * frame.radius), q)) continue;
     if (facing && !(facing->dot(frame.normal) > 0)) continue;
-    const double least = frame.least_distance(q);
-    if (least > closest.distance || least > reach * frame.radius) continue;
     const Eigen::Vector3d barycentric = frame.closest(q);
     const Eigen::Vector3d offset = q - frame.at(barycentric);
     const double distance = offset.norm();

@@ -25,6 +25,10 @@ tffd::Options options_from(const ros::NodeHandle& private_node) {
   const std::string setting = parameters.choice("setting", "standard", {"standard", "paper"});
   options.setting = setting == "paper" ? tffd::Setting::paper : tffd::Setting::standard;
   options.beta = parameters.number("beta", options.beta, 0, 20);
+  options.precision = parameters.choice("precision", "reference", {"reference", "fast"}) == "fast"
+                          ? tffd::Precision::fast
+                          : tffd::Precision::reference;
+  options.truncation = parameters.number("truncation", options.truncation, 0, 0.1);
   parameters.check_all_known();
   return options;
 }
@@ -36,8 +40,14 @@ struct BoundBody {
   geometry::TriangleMesh mesh;
   geometry::ControlMesh control_mesh;
   Eigen::Isometry3d body_from_scan;
+  geometry::Posture posture;
   tffd::Binding binding;
   double volume;
+
+  bool is_of(const FittedScan& scan) const {
+    return body == scan.body && control == scan.control && posture.twist == scan.fit->twist &&
+           posture.side_lean == scan.fit->side_lean;
+  }
 };
 
 class TffdNode {
@@ -65,7 +75,7 @@ class TffdNode {
   }
 
   Stage::Result deform(FittedScan scan) {
-    if (!bound_ || bound_->body != scan.body || bound_->control != scan.control) bound_ = bind(scan);
+    if (!bound_ || !bound_->is_of(scan)) bound_ = bind(scan);
     const std::vector<Eigen::Vector3d> outer = points_in(scan.fit->outer);
     const std::vector<Eigen::Vector3d> vertices = bound_->binding.deform(outer, points_in(scan.fit->inner));
     const std::vector<double> distortion =
@@ -95,9 +105,13 @@ class TffdNode {
     geometry::ControlMesh control = control_in(*scan.control);
     tffd::Binding binding(mesh, control, options_);
     const double volume = geometry::cone_volume(mesh.vertices, mesh.triangles);
-    return std::make_shared<const BoundBody>(
-        BoundBody{scan.body, scan.control, std::move(mesh), std::move(control),
-                  measures_in(*scan.landmarks).body_from_scan, std::move(binding), volume});
+    const geometry::BodyMeasures measures = measures_in(*scan.landmarks);
+    const geometry::Posture posture{scan.fit->twist, scan.fit->side_lean};
+    if (posture.twist != 0 || posture.side_lean != 0)
+      binding = binding.posed(geometry::BoneFrames(measures, posture));
+    return std::make_shared<const BoundBody>(BoundBody{scan.body, scan.control, std::move(mesh),
+                                                       std::move(control), measures.body_from_scan, posture,
+                                                       std::move(binding), volume});
   }
 
   void show(const FittedScan& scan, const std::shared_ptr<const BoundBody>& bound) {

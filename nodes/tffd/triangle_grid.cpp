@@ -15,7 +15,7 @@ struct Sphere {
   double radius;
 };
 
-// Where least_distance(q) <= reach * radius, and a little for rounding.
+// Where the triangle is not farther_than(reach * radius), and a little for rounding.
 Sphere reach_of(const Frame& frame, double reach) {
   return {frame.centroid, (reach + 1.5) * frame.radius * (1 + 1e-9)};
 }

@@ -19,7 +19,7 @@ class TriangleGrid {
     const int* end() const { return last; }
   };
 
-  /// Ascending: every triangle with least_distance(q) <= reach * radius, and some others.
+  /// Ascending: every triangle that is not farther_than(reach * radius, q), and some others.
   Range near(const Eigen::Vector3d& q) const;
 
  private:

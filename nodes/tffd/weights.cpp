@@ -35,7 +35,7 @@ void find_near(const Eigen::Vector3d& q, const std::vector<Frame>& frames, const
   near.clear();
   double nearest = 1;
   for (const int t : kernel.grid.near(q)) {
-    if (frames[t].least_distance(q) > kernel.beta * frames[t].radius) continue;
+    if (frames[t].farther_than(kernel.beta * frames[t].radius, q)) continue;
     near.push_back(seen_from(q, t, frames[t], kernel.beta));
     nearest = std::min(nearest, near.back().z);
   }
