@@ -102,7 +102,7 @@ void add_fold_gradient(const std::vector<UnitVolume>& units, const Positions& x,
 }
 
 void add_fold_hessian(const std::vector<UnitVolume>& units, const Positions& x,
-                      const std::vector<int>& free_index, NodeMatrix& hessian) {
+                      const std::vector<int>& free_index, NodeMatrix& hessian, double whole) {
   for (const UnitVolume& unit : units) {
     const double share = volume_share(unit, x);
     if (share >= kBegins) continue;
@@ -110,7 +110,7 @@ void add_fold_hessian(const std::vector<UnitVolume>& units, const Positions& x,
     const Spokes s = spokes(unit, x);
     const auto by_node = share_gradient(unit, s);
     // The share's own second derivative, by pairs of spokes: that by a is b x c.
-    const double scale = f.slope / unit.rest;
+    const double scale = whole * f.slope / unit.rest;
     const Eigen::Matrix3d ab = -scale * cross(s.c), bc = -scale * cross(s.a), ca = -scale * cross(s.b);
     const Eigen::Matrix3d to_apex[] = {(ca - ab) / 3, (ab - bc) / 3, (bc - ca) / 3};
     for (int i = 0; i < 6; ++i) {

@@ -30,10 +30,11 @@ double volume_share(const UnitVolume& unit, const Positions& x);
 /// Infinite where a unit is turned inside out.
 double fold_energy(const std::vector<UnitVolume>& units, const Positions& x);
 
-/// Add the energy's first and second derivative by the free nodes. \pre the energy is finite
+/// Add the energy's first and second derivative by the free nodes, with `whole` of the part of the second one
+/// that may be negative. \pre the energy is finite
 void add_fold_gradient(const std::vector<UnitVolume>& units, const Positions& x,
                        const std::vector<int>& free_index, Eigen::VectorXd& gradient);
 void add_fold_hessian(const std::vector<UnitVolume>& units, const Positions& x,
-                      const std::vector<int>& free_index, NodeMatrix& hessian);
+                      const std::vector<int>& free_index, NodeMatrix& hessian, double whole = 1);
 
 }  // namespace tensegric_fit::tensegric

@@ -10,7 +10,8 @@
 namespace tensegric_fit::tensegric {
 namespace {
 
-constexpr int kMostRaises = 16;
+constexpr int kMostTries = 12;
+constexpr double kLeastTakenBack = 1.0 / 16;
 
 std::vector<std::pair<int, int>> coupled_nodes(const Problem& problem) {
   std::vector<std::pair<int, int>> pairs;
@@ -50,7 +51,6 @@ Kkt::Kkt(const Problem& problem)
       regions_(static_cast<int>(problem.volumes.size())),
       bands_(static_cast<int>(problem.bands.size())),
       least_raise_(1e-3 * spring(problem.model, problem.model.members.back())),
-      raise_(least_raise_),
       hessian_(problem.free_nodes, coupled_nodes(problem)) {
   factor_.analyzePattern(hessian_.lower());
 }
@@ -103,15 +103,15 @@ double Kkt::energy(const Balance& at, const Load& load) const {
   return energy;
 }
 
-void Kkt::assemble(const Balance& at) {
+void Kkt::assemble(const Balance& at, double whole) {
   hessian_.clear();
-  add_member_hessian(problem_.model, at.x, problem_.free_index, hessian_);
-  add_fold_hessian(problem_.units, at.x, problem_.free_index, hessian_);
+  add_member_hessian(problem_.model, at.x, problem_.free_index, hessian_, whole);
+  add_fold_hessian(problem_.units, at.x, problem_.free_index, hessian_, whole);
   for (int b = 0; b < bands_; ++b)
     add_length_hessian(problem_.bands[b], at.x, problem_.free_index, std::max(0.0, at.tensions[b]), hessian_);
   for (int r = 0; r < regions_; ++r)
     add_volume_hessian(problem_.volumes[r], at.x, problem_.free_index,
-                       -at.pressures[r] / problem_.volumes[r].area, hessian_);
+                       -whole * at.pressures[r] / problem_.volumes[r].area, hessian_);
 }
 
 bool Kkt::usable() const {
@@ -161,14 +161,17 @@ bool Kkt::factorise(const Balance& at, const Load& load, const Defect& defect) {
 
 Step Kkt::step(const Balance& at, const Load& load, const Defect& defect, bool to_saddle) {
   Step result;
-  assemble(at);
+  assemble(at, 1);
   result.minimum = factorise(at, load, defect);
   if (!result.minimum && !(to_saddle && usable())) {
-    raise_ = std::max(least_raise_, raise_ / 8);
-    hessian_.add_to_diagonal(raise_);
-    for (int tries = 0; tries < kMostRaises && !factorise(at, load, defect); ++tries) {
-      hessian_.add_to_diagonal(2 * raise_);
-      raise_ *= 3;
+    double raise = least_raise_;
+    taken_back_ = std::max(kLeastTakenBack, taken_back_ / 2);
+    for (int tries = 0; tries < kMostTries; ++tries) {
+      assemble(at, 1 - taken_back_);
+      hessian_.add_to_diagonal(raise);
+      if (factorise(at, load, defect)) break;
+      if (taken_back_ == 1) raise *= 8;
+      taken_back_ = std::min(1.0, 2 * taken_back_);
     }
   }
   if (!usable()) {

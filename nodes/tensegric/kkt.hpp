@@ -1,5 +1,6 @@
 /// One Newton step on the conditions of balance: forces, volumes and bands together (DESIGN §4, solver 3).
-/// The second derivative is taken whole. With the members' positive semi-definite parts instead, steps past a
+/// The second derivative is taken whole where that leads to a minimum, else with as much of its negative
+/// parts (pressed struts, volumes, units about to fold) as does. With none of them everywhere, steps past a
 /// point where the tissue snaps over were too short: 300 of them did not do what 14 do.
 #pragma once
 
@@ -59,8 +60,9 @@ class Kkt {
 
   Defect defect(const Balance& at, const Load& load) const;
 
-  /// Newton's step. Where the second derivative is no minimum's, its diagonal is raised until it is one's, so
-  /// that the step leads downhill; with `to_saddle` it is left as it is. Not finite where there is no step.
+  /// Newton's step. Where the second derivative is no minimum's, its negative parts are taken back until it
+  /// is one's, so that the step leads downhill; with `to_saddle` it is left as it is. Not finite where there
+  /// is no step.
   Step step(const Balance& at, const Load& load, const Defect& defect, bool to_saddle);
 
   /// A move of least effort that takes `conditions` to zero, by the matrix of the last step.
@@ -79,13 +81,14 @@ class Kkt {
   static Eigen::VectorXd shortest_move(const Defect& defect, const Eigen::VectorXd& conditions);
 
  private:
-  void assemble(const Balance& at);
+  void assemble(const Balance& at, double whole);
   bool usable() const;
   bool factorise(const Balance& at, const Load& load, const Defect& defect);
 
   const Problem& problem_;
   int regions_, bands_;
-  double least_raise_, raise_;  // of the diagonal: the smallest tried, and the last that served
+  double least_raise_;     // of the diagonal, where negative parts are taken back
+  double taken_back_ = 1;  // of the negative parts: the last share that served
   int factorisations_ = 0;
   NodeMatrix hessian_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;

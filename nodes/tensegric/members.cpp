@@ -27,7 +27,7 @@ void add_member_gradient(const Model& model, const Positions& x, const std::vect
 }
 
 void add_member_hessian(const Model& model, const Positions& x, const std::vector<int>& free_index,
-                        NodeMatrix& hessian) {
+                        NodeMatrix& hessian, double whole) {
   for (const Member& m : model.members) {
     const int a = free_index[m.a], b = free_index[m.b];
     if (a < 0 && b < 0) continue;
@@ -36,7 +36,7 @@ void add_member_hessian(const Model& model, const Positions& x, const std::vecto
     const double force = tension(model, m, length);
     if (length == 0 || (force == 0 && !m.strut)) continue;
     const Eigen::Vector3d u = span / length;
-    const double across = force / length;
+    const double across = (force > 0 ? 1 : whole) * force / length;
     Eigen::Matrix3d block = (spring(model, m) - across) * u * u.transpose();
     block.diagonal().array() += across;
     hessian.add(a, a, block);

@@ -29,8 +29,9 @@ double member_energy(const Model& model, const Positions& x);
 void add_member_gradient(const Model& model, const Positions& x, const std::vector<int>& free_index,
                          Eigen::VectorXd& gradient);
 
-/// Adds the energy's second derivative.
+/// Adds the energy's second derivative, with `whole` of what pressed struts take away from it: 0 leaves it
+/// positive semi-definite.
 void add_member_hessian(const Model& model, const Positions& x, const std::vector<int>& free_index,
-                        NodeMatrix& hessian);
+                        NodeMatrix& hessian, double whole = 1);
 
 }  // namespace tensegric_fit::tensegric

@@ -71,6 +71,22 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
   return solution;
 }
 
+// The papers' solvers, from where nodes that are not solved for are where they belong.
+Outcome relax_from(Problem& problem, const Solution* start, Recorder& recorder) {
+  const bool adaptive = problem.options.solver == SolverName::adaptive;
+  if (start == nullptr && problem.options.bones.still()) return relax(problem, nullptr, adaptive, recorder);
+  pose_apexes(problem, 1);
+  const Positions target = posed(problem, 1);
+  Positions x = start == nullptr ? target : positions_of(*start);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (problem.free_index[i] < 0) x[i] = target[i];
+  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
+  Solution from = start == nullptr ? Solution() : *start;
+  from.outer.assign(x.begin(), middle);
+  from.inner.assign(middle, x.end());
+  return relax(problem, &from, adaptive, recorder);
+}
+
 }  // namespace
 
 std::string to_string(SolverName name) {
@@ -117,7 +133,7 @@ Solution solve(const Model& model, const Garment& garment, const SolverOptions& 
                   start == nullptr ? 0 : start->residual);
   const Outcome outcome = options.solver == SolverName::equilibrium
                               ? find_equilibrium(problem, start, recorder)
-                              : relax(problem, start, options.solver == SolverName::adaptive, recorder);
+                              : relax_from(problem, start, recorder);
   return report(problem, outcome, std::move(recorder.history));
 }
 

@@ -1,0 +1,233 @@
+// Requests that fold the skin or are out of reach: nothing turns inside out, and each ends in a balance.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tensegric/fold_barrier.hpp"
+#include "tensegric/shape_check.hpp"
+#include "tensegric/solver.hpp"
+#include "tensegric_bust.hpp"
+
+namespace tensegric_fit::tensegric {
+namespace {
+
+GarmentLine line(const std::string& name, double ratio, std::vector<std::string> through = {}) {
+  GarmentLine result;
+  result.name = name;
+  result.ratio = ratio;
+  result.through = std::move(through);
+  return result;
+}
+
+Garment chest(double ratio) {
+  Garment garment;
+  garment.lines.push_back(line("chest", ratio));
+  return garment;
+}
+
+Positions positions(const Solution& s) {
+  Positions x = s.outer;
+  x.insert(x.end(), s.inner.begin(), s.inner.end());
+  return x;
+}
+
+// A balance at kept volumes, whatever the lines came to.
+void expect_balance(const Solution& s) {
+  EXPECT_LE(s.residual, 1e-8);
+  for (const RegionResult& r : s.regions) EXPECT_NEAR(r.volume_after / r.volume_before, 1, 1e-9);
+}
+
+class Folding : public testing::Test {
+ protected:
+  const geometry::ControlMesh control = bust_mesh();
+  const Model model = build_model(control, {});
+  const std::vector<UnitVolume> units = unit_volumes(model, model.free_index());
+};
+
+TEST_F(Folding, BarrierIsNothingAboveItsBeginAndWithoutBoundAtZero) {
+  ASSERT_EQ(units.size(), 2 * control.triangles.size());
+  Positions x = model.rest_positions();
+  EXPECT_EQ(fold_energy(units, x), 0);
+  const UnitVolume& unit = units[units.size() / 2];
+  EXPECT_NEAR(volume_share(unit, x), 1, 1e-14);
+  const Positions rest = x;
+  const auto flattened = [&](double share) {  // the apex goes straight to the triangle
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d apex = (rest[unit.nodes[3]] + rest[unit.nodes[4]] + rest[unit.nodes[5]]) / 3;
+      const Eigen::Vector3d middle = (rest[unit.nodes[0]] + rest[unit.nodes[1]] + rest[unit.nodes[2]]) / 3;
+      x[unit.nodes[3 + k]] = rest[unit.nodes[3 + k]] + (1 - share) * (middle - apex);
+    }
+    EXPECT_NEAR(volume_share(unit, x), share, 1e-12);
+    return fold_energy({unit}, x);
+  };
+  EXPECT_EQ(flattened(0.71), 0);
+  double last = 0;
+  for (double share : {0.6, 0.4, 0.2, 0.05, 1e-3, 1e-9}) {
+    EXPECT_GT(flattened(share), last);
+    last = flattened(share);
+  }
+  EXPECT_TRUE(std::isinf(flattened(-0.1)));
+}
+
+TEST_F(Folding, DerivativesOfTheBarrier) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  const std::vector<int> free_index = model.free_index();
+  std::vector<std::pair<int, int>> pairs;
+  for (const UnitVolume& unit : units)
+    for (int a : unit.nodes)
+      for (int b : unit.nodes)
+        if (a != b && free_index[a] >= 0 && free_index[b] >= 0)
+          pairs.emplace_back(free_index[a], free_index[b]);
+  Positions x = model.rest_positions();
+  for (std::size_t i = 0; i < control.outer.size(); ++i) x[i] += 0.5 * (control.inner[i] - control.outer[i]);
+  for (Eigen::Vector3d& p : x)
+    for (int k = 0; k < 3; ++k) p[k] += 5e-4 * normal(random);
+  ASSERT_GT(fold_energy(units, x), 0);
+  ASSERT_TRUE(std::isfinite(fold_energy(units, x)));
+  const Eigen::VectorXd direction =
+      Eigen::VectorXd::NullaryExpr(3 * model.free_nodes(), [&] { return normal(random); });
+  const double step = 1e-7;  // m; rounding and the third derivative then stay below 1e-7 of the result
+  const auto moved = [&](double by) {
+    Positions y = x;
+    for (std::size_t i = 0; i < y.size(); ++i)
+      if (free_index[i] >= 0) y[i] += by * direction.segment<3>(3 * free_index[i]);
+    return y;
+  };
+  const auto gradient = [&](const Positions& y) {
+    Eigen::VectorXd g = Eigen::VectorXd::Zero(direction.size());
+    add_fold_gradient(units, y, free_index, g);
+    return g;
+  };
+  const double slope = (fold_energy(units, moved(step)) - fold_energy(units, moved(-step))) / (2 * step);
+  EXPECT_NEAR(gradient(x).dot(direction), slope, 1e-6 * (std::abs(slope) + gradient(x).norm()));
+  NodeMatrix hessian(model.free_nodes(), pairs);
+  add_fold_hessian(units, x, free_index, hessian);
+  const Eigen::VectorXd change = (gradient(moved(step)) - gradient(moved(-step))) / (2 * step);
+  const Eigen::VectorXd product = hessian.lower().selfadjointView<Eigen::Lower>() * direction;
+  EXPECT_LE((change - product).norm(), 1e-6 * change.norm());
+}
+
+TEST_F(Folding, NothingTurnsOverAt15Percent) {
+  for (int refinement : {1, 2}) {
+    BustShape shape;
+    shape.columns *= refinement;
+    shape.rows *= refinement;
+    const Model finer = build_model(bust_mesh(shape), {});
+    for (double ratio : {0.90, 0.85}) {
+      const Solution s = solve(finer, chest(ratio), {});
+      EXPECT_EQ(s.status, Status::converged) << s.note;
+      expect_balance(s);
+      EXPECT_NEAR(s.lines[0].final / s.lines[0].neutral, 1, 1e-6);
+      EXPECT_EQ(triangle_change(finer, positions(s)).turned_over, 0);
+      for (const UnitVolume& unit : unit_volumes(finer, finer.free_index()))
+        EXPECT_GT(volume_share(unit, positions(s)), 0.05);
+    }
+  }
+}
+
+TEST_F(Folding, MeritNeverRises) {
+  for (double ratio : {0.95, 0.85, 0.5})
+    for (const Iterate& iterate : solve(model, chest(ratio), {}).history)
+      EXPECT_LE(iterate.merit_change, 1e-12);  // rounding of a sum of some thousand parts
+}
+
+TEST_F(Folding, BelowTheStraightWayEndsInABalance) {
+  double last = 0;
+  for (double ratio : {0.3, 0.1}) {
+    const Solution s = solve(model, chest(ratio), {});
+    EXPECT_EQ(s.status, Status::infeasible) << s.note;
+    expect_balance(s);
+    EXPECT_LE(s.iterations, 120);
+    const LineResult& chest_line = s.lines[0];
+    const auto& nodes = chest_line.nodes;
+    EXPECT_NEAR(chest_line.straight, (control.outer[nodes.front()] - control.outer[nodes.back()]).norm(),
+                1e-12);
+    EXPECT_LT(chest_line.neutral, chest_line.straight);
+    EXPECT_GE(chest_line.final, chest_line.straight);
+    EXPECT_EQ(chest_line.reachable, chest_line.final);
+    EXPECT_NE(s.note.find("straight"), std::string::npos) << s.note;
+    if (last > 0) {
+      EXPECT_NEAR(chest_line.final, last, 1e-6);  // pulled as hard, it comes as far
+    }
+    last = chest_line.final;
+  }
+}
+
+TEST_F(Folding, ContradictingLinesEndInABalance) {
+  for (double ratio : {0.6, 0.3}) {
+    Garment garment = chest(ratio);
+    garment.lines.push_back(line("tips", ratio, {"bust_point_L", "bust_point_R"}));
+    garment.lines.push_back(line("left", ratio, {"bust_point_L", "axilla_L"}));
+    garment.lines.push_back(line("right", ratio, {"bust_point_R", "axilla_R"}));
+    garment.lines.push_back(line("left again", ratio, {"bust_point_L", "axilla_L"}));
+    for (std::size_t i = 1; i < garment.lines.size(); ++i) garment.lines[i].taut = true;
+    const Solution s = solve(model, garment, {});
+    EXPECT_EQ(s.status, Status::infeasible) << s.note;
+    expect_balance(s);
+    EXPECT_LE(s.iterations, 200);
+  }
+}
+
+TEST_F(Folding, VeryStiffBandsAreAsGoodAsRigid) {
+  const Solution rigid = solve(model, chest(0.90), {});
+  for (double stiffness : {1e3, 1e6, 1e9}) {
+    Garment garment = chest(0.90);
+    garment.lines[0].law.kind = TensionLaw::Kind::stiffness;
+    garment.lines[0].law.stiffness = stiffness;
+    const Solution s = solve(model, garment, {});
+    EXPECT_EQ(s.status, Status::converged) << s.note;
+    expect_balance(s);
+    const LineResult& chest_line = s.lines[0];
+    // T = stiffness (L / l - 1), as far as the stretch can be told from 1
+    EXPECT_NEAR(chest_line.final / chest_line.neutral - 1, chest_line.tension / stiffness, 1e-11);
+    EXPECT_NEAR(chest_line.tension, rigid.lines[0].tension, 30 / stiffness);
+  }
+  Garment beyond = chest(0.3);
+  beyond.lines[0].law.kind = TensionLaw::Kind::table;
+  beyond.lines[0].law.table = {{1, 0}, {1.01, 1}, {1.02, 1e9}};
+  const Solution s = solve(model, beyond, {});
+  EXPECT_EQ(s.status, Status::infeasible) << s.note;
+  expect_balance(s);
+}
+
+// Stopped at any time, by whatever means, the answer is a balance on the way.
+TEST_F(Folding, StoppedEarlyItIsTheLastBalance) {
+  const int whole = solve(model, chest(0.80), {}).iterations;
+  double last = 1;
+  for (int most = 1; most < whole; ++most) {
+    SolverOptions options;
+    options.max_iterations = most;
+    const Solution s = solve(model, chest(0.80), options);
+    EXPECT_EQ(s.status, Status::capped);
+    for (const RegionResult& r : s.regions) EXPECT_NEAR(r.volume_after / r.volume_before, 1, 1e-9);
+    EXPECT_LE(s.residual, 0.06);  // the balance of a load on the way is found to 0.05
+    EXPECT_NE(s.note.find("%"), std::string::npos) << s.note;
+    const double ratio = s.lines[0].final / s.lines[0].initial;
+    EXPECT_LE(ratio, last + 1e-9);  // the longer the nearer
+    last = ratio;
+  }
+  EXPECT_LT(last, 0.95);
+}
+
+TEST_F(Folding, TimeBudgetAndCancelling) {
+  SolverOptions options;
+  options.time_budget = 1e-9;
+  const Solution none = solve(model, chest(0.90), options);
+  EXPECT_EQ(none.status, Status::capped);
+  EXPECT_EQ(none.iterations, 0);
+  EXPECT_EQ(none.outer, control.outer);
+  EXPECT_NE(none.note.find("time budget"), std::string::npos);
+  options.time_budget = 600;
+  EXPECT_EQ(solve(model, chest(0.90), options).status, Status::converged);
+  const Solution cancelled = solve(model, chest(0.90), {}, nullptr,
+                                   [](const Iterate& iterate, const auto&) { return iterate.iteration < 8; });
+  EXPECT_EQ(cancelled.status, Status::capped);
+  EXPECT_NE(cancelled.note.find("cancelled"), std::string::npos);
+  EXPECT_NEAR(cancelled.regions[0].volume_after / cancelled.regions[0].volume_before, 1, 1e-9);
+}
+
+}  // namespace
+}  // namespace tensegric_fit::tensegric
