@@ -83,8 +83,11 @@ double BodyVolume::operator()(const std::vector<Eigen::Vector3d>& nodes,
   for (std::size_t i = 0; i < nodes.size(); ++i) motion[i] = nodes[i] - rest_nodes_[i];
   std::vector<Eigen::Vector3d> positions = rest_;
   const int reached = static_cast<int>(starts_.size()) - 1;
-  for (int v = 0; v < reached; ++v)
-    for (int i = starts_[v]; i < starts_[v + 1]; ++i) positions[v] += weights_[i] * motion[columns_[i]];
+  for (int v = 0; v < reached; ++v) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int i = starts_[v]; i < starts_[v + 1]; ++i) sum += weights_[i] * motion[columns_[i]];
+    positions[v] += sum;
+  }
   if (!gradient) return geometry::cone_volume(positions, triangles_);
 
   double six_volumes = 0;
@@ -98,9 +101,10 @@ double BodyVolume::operator()(const std::vector<Eigen::Vector3d>& nodes,
     by_vertex[t[2]] += a.cross(b);
   }
   gradient->assign(nodes.size(), Eigen::Vector3d::Zero());
-  for (int v = 0; v < reached; ++v)
-    for (int i = starts_[v]; i < starts_[v + 1]; ++i)
-      (*gradient)[columns_[i]] += weights_[i] / 6 * by_vertex[v];
+  for (int v = 0; v < reached; ++v) {
+    const Eigen::Vector3d sixth = by_vertex[v] / 6;
+    for (int i = starts_[v]; i < starts_[v + 1]; ++i) (*gradient)[columns_[i]] += weights_[i] * sixth;
+  }
   return six_volumes / 6;
 }
 
