@@ -1,11 +1,43 @@
 #include "reconstruction/poisson.hpp"
 
+#include <fcntl.h>
 #include <pcl/point_types.h>
 #include <pcl/surface/poisson.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <mutex>
 
 namespace tensegric_fit::reconstruction {
+namespace {
+
+constexpr float kSamplesPerNode = 4;  // cells as deep as the points are dense
+
+/// PCL prints to standard output, which belongs to the program's user: it goes nowhere while one lives.
+class QuietOutput {
+ public:
+  QuietOutput() {
+    std::fflush(stdout);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return;
+    output_ = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+    if (output_ >= 0) dup2(nowhere, STDOUT_FILENO);
+    close(nowhere);
+  }
+  ~QuietOutput() {
+    if (output_ < 0) return;
+    std::fflush(stdout);
+    dup2(output_, STDOUT_FILENO);
+    close(output_);
+  }
+  QuietOutput(const QuietOutput&) = delete;
+  QuietOutput& operator=(const QuietOutput&) = delete;
+
+ private:
+  int output_ = -1;
+};
+
+}  // namespace
 
 geometry::TriangleMesh poisson_surface(const geometry::PointCloud& cloud, int depth) {
   const auto input = pcl::make_shared<pcl::PointCloud<pcl::PointNormal>>();
@@ -19,8 +51,10 @@ geometry::TriangleMesh poisson_surface(const geometry::PointCloud& cloud, int de
   {
     static std::mutex one_at_a_time;
     const std::lock_guard<std::mutex> lock(one_at_a_time);
+    const QuietOutput quiet;
     pcl::Poisson<pcl::PointNormal> poisson;
     poisson.setDepth(depth);
+    poisson.setSamplesPerNode(kSamplesPerNode);
     poisson.setThreads(1);
     poisson.setInputCloud(input);
     poisson.reconstruct(vertices, faces);

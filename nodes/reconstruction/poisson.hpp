@@ -6,9 +6,10 @@
 
 namespace tensegric_fit::reconstruction {
 
-/// A surface around the points, as PCL leaves it: it can have bubbles and spots that are not manifold. One at
-/// a time in a process, on one thread: PCL's implementation keeps global state. \pre float32 resolves the
-/// coordinates; unit normals
+/// A surface around the points, as PCL leaves it: it can have bubbles and spots that are not manifold. Its
+/// cells are as fine as the points are dense, down to `depth`. One at a time in a process, on one thread:
+/// PCL's implementation keeps global state. What it prints to standard output is dropped. \pre float32
+/// resolves the coordinates; unit normals
 geometry::TriangleMesh poisson_surface(const geometry::PointCloud& cloud, int depth);
 
 }  // namespace tensegric_fit::reconstruction

@@ -6,6 +6,7 @@
 #include "geometry/decimate.hpp"
 #include "reconstruction/body_points.hpp"
 #include "reconstruction/floor.hpp"
+#include "reconstruction/handles.hpp"
 #include "reconstruction/normals.hpp"
 #include "reconstruction/poisson.hpp"
 #include "reconstruction/repair.hpp"
@@ -14,6 +15,7 @@
 #include "reconstruction/standing.hpp"
 #include "reconstruction/support.hpp"
 #include "reconstruction/surface_fit.hpp"
+#include "reconstruction/thinning.hpp"
 #include "reconstruction/validate.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -23,6 +25,7 @@ using geometry::PointCloud;
 using geometry::TriangleMesh;
 
 constexpr double kUnseenEdge = 0.005;  // m; the edge of a foot rounds off below what the sensors see of it
+constexpr double kLongestLoop = 0.3;   // m round; a bridge that is thicker is the body's own
 constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher stands on something else
 
 const double kFlatOnFloor =
@@ -91,7 +94,10 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   append(body, sight_line_points(body));
   append(body, soles);
   // 4. One closed surface on the points and above the ground.
-  TriangleMesh mesh = one_closed_surface(poisson_surface(body, options.poisson_depth));
+  TriangleMesh mesh = one_closed_surface(poisson_surface(thinned(body), options.poisson_depth));
+  mesh = without_handles(mesh, kLongestLoop);
+  if (static_cast<int>(mesh.triangles.size()) < options.body_triangles)
+    mesh = geometry::with_triangles(mesh, options.body_triangles);
   fit_to_points(mesh, body);
   for (Eigen::Vector3d& v : mesh.vertices) v.z() = std::max(v.z(), 0.0);
   // 5. As many triangles as asked for; what of the surface nobody saw.

@@ -12,7 +12,8 @@ namespace tensegric_fit::reconstruction {
 /// Field defaults are the parameters' defaults.
 struct Options {
   int body_triangles = 62000;  ///< triangles of the body mesh, the size in the papers
-  int poisson_depth = 8;  ///< octree depth of the screened Poisson reconstruction: cells of stature / 2^depth
+  int poisson_depth = 9;  ///< octree depth of the screened Poisson reconstruction: the smallest cells have
+                          ///< 1.1 stature / 2^depth; smooth skin gets larger ones
   int min_points = 5000;  ///< fewer points on the body are refused
   int max_points = 10000000;        ///< more points in the scan are refused
   double support_distance = 0.010;  ///< m; a vertex farther than this from every point counts as filled

@@ -10,22 +10,28 @@ namespace {
 
 constexpr int kRounds = 3;
 constexpr int kNeighbours = 24;
-constexpr double kReach = 0.008;        // m; points farther away do not count
-constexpr double kBandwidth = 0.003;    // m; of the Gaussian weight
-constexpr double kSameSide = 0.3;       // cosine between the normals of vertex and point
-constexpr double kLargestStep = 0.003;  // m, in one round
+constexpr double kReach = 2.5;             // bandwidths; points farther away do not count
+constexpr double kLeastBandwidth = 0.003;  // m, of the Gaussian weight
+constexpr double kMostBandwidth = 0.010;   // m
+constexpr double kOfNeighbourhood = 0.4;   // bandwidth by the distance of the last neighbour
+constexpr double kSameSide = 0.3;          // cosine between the normals of vertex and point
+constexpr double kLargestStep = 0.003;     // m, in one round
 
-/// Signed distance of `p` from the points' surface; 0 where no point counts.
+/// Signed distance of `p` from the points' surface; 0 where no point counts. It is measured along the mean of
+/// the normals here and at the point, which is square to the chord of a round surface: along the point's own
+/// normal a finger would come out a millimetre too thick.
 double distance_from_points(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                             const geometry::PointCloud& cloud, const std::vector<int>& near) {
+  const double bandwidth =
+      std::clamp(kOfNeighbourhood * (p - cloud.points[near.back()]).norm(), kLeastBandwidth, kMostBandwidth);
   double weights = 0, sum = 0;
   for (int j : near) {
     const Eigen::Vector3d d = p - cloud.points[j];
-    const double squared = d.squaredNorm();
-    if (squared > kReach * kReach || cloud.normals[j].dot(normal) < kSameSide) continue;
-    const double weight = std::exp(-squared / (2 * kBandwidth * kBandwidth));
+    const double relative = d.squaredNorm() / (bandwidth * bandwidth);
+    if (relative > kReach * kReach || cloud.normals[j].dot(normal) < kSameSide) continue;
+    const double weight = std::exp(-relative / 2);
     weights += weight;
-    sum += weight * cloud.normals[j].dot(d);
+    sum += weight * (cloud.normals[j] + normal).dot(d) / 2;
   }
   return weights > 0 ? sum / weights : 0;
 }

@@ -8,7 +8,7 @@ namespace tensegric_fit::reconstruction {
 
 /// Moves each vertex along its normal onto the implicit moving least squares surface of the points around it
 /// that face its way (Kolluri 2008): Poisson's cells are coarser than the points are dense, and round off
-/// fingers and folds. Vertices without points near them stay. \pre unit normals in `cloud`
+/// fingers and folds. Vertices without points near them stay. \pre unit normals in `cloud`, not empty
 void fit_to_points(geometry::TriangleMesh& mesh, const geometry::PointCloud& cloud);
 
 }  // namespace tensegric_fit::reconstruction

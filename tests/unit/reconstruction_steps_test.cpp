@@ -2,10 +2,13 @@
 
 #include "geometry/decimate.hpp"
 #include "reconstruction/floor.hpp"
+#include "reconstruction/handles.hpp"
 #include "reconstruction/normals.hpp"
 #include "reconstruction/repair.hpp"
 #include "reconstruction/sight_lines.hpp"
 #include "reconstruction/standing.hpp"
+#include "reconstruction/surface_fit.hpp"
+#include "reconstruction/thinning.hpp"
 #include "reconstruction_figure.hpp"
 
 namespace {
@@ -150,6 +153,79 @@ TEST(ReconstructionSteps, RepairTurnsASurfaceOutward) {
   TriangleMesh mesh = sphere(Eigen::Vector3d::Zero(), 500);
   for (Eigen::Vector3i& t : mesh.triangles) std::swap(t[0], t[1]);
   EXPECT_GT(volume(one_closed_surface(mesh)), 0);
+}
+
+/// A ring around the z axis, outward: `large` from the axis to the middle of a tube of radius `small`.
+TriangleMesh ring(double large, double small) {
+  constexpr int kAround = 60, kTube = 24;
+  TriangleMesh mesh;
+  for (int i = 0; i < kAround; ++i) {
+    for (int j = 0; j < kTube; ++j) {
+      const double u = 2 * M_PI * i / kAround, v = 2 * M_PI * j / kTube, r = large + small * std::cos(v);
+      mesh.vertices.emplace_back(r * std::cos(u), r * std::sin(u), small * std::sin(v));
+      const auto at = [](int a, int b) { return a % kAround * kTube + b % kTube; };
+      mesh.triangles.emplace_back(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      mesh.triangles.emplace_back(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  }
+  return mesh;
+}
+
+TEST(ReconstructionSteps, AHandleIsCutWhereItIsThin) {
+  const TriangleMesh mesh = ring(0.1, 0.02);  // 0.126 m round the tube, 0.50 m round the hole
+  ASSERT_EQ(genus(mesh), 1);
+  const TriangleMesh opened = without_handles(mesh, 0.3);
+  EXPECT_EQ(genus(opened), 0);
+  EXPECT_TRUE(geometry::is_closed(opened));
+  EXPECT_NO_THROW(geometry::edges_of(opened));
+  // The cut takes nothing away: both rims lie in one plane across the tube, give or take a row of triangles.
+  EXPECT_NEAR(volume(opened), volume(mesh), 0.02 * volume(mesh));
+  // Two fans of about 24 triangles each were added.
+  EXPECT_NEAR(static_cast<double>(opened.triangles.size()), mesh.triangles.size() + 48.0, 16);
+  EXPECT_EQ(genus(without_handles(mesh, 0.1)), 1) << "a loop longer than allowed is the body's own";
+  EXPECT_EQ(without_handles(sphere({0, 0, 0}, 500), 0.3).triangles, sphere({0, 0, 0}, 500).triangles);
+}
+
+TEST(ReconstructionSteps, ThinningKeepsPointsWhereTheSkinBends) {
+  // A finger of 8 mm radius and a wall, both with 1 point a square millimetre.
+  std::mt19937 random(3);
+  geometry::PointCloud cloud;
+  constexpr double kFinger = 0.008, kLength = 0.08;
+  for (int i = 0; i < 4000; ++i) {
+    const double turn = 2 * M_PI * figure::uniform(random);
+    const Eigen::Vector3d normal(std::cos(turn), std::sin(turn), 0);
+    cloud.points.push_back(kFinger * normal + Eigen::Vector3d(0, 0, kLength * figure::uniform(random)));
+    cloud.normals.push_back(normal);
+  }
+  for (int i = 0; i < 40000; ++i) {
+    cloud.points.emplace_back(1, 0.2 * figure::uniform(random), 0.2 * figure::uniform(random));
+    cloud.normals.emplace_back(1, 0, 0);
+  }
+  const geometry::PointCloud thin = thinned(cloud);
+  double finger = 0, wall = 0;
+  for (const Eigen::Vector3d& p : thin.points) ++(p.x() > 0.5 ? wall : finger);
+  EXPECT_NEAR(wall, 400, 80);  // one in 10 mm by 10 mm, and what the rims of the cubes add
+  EXPECT_GT(finger, 400);      // 40 cm^2, one in 2.5 mm by 2.5 mm: 640, some cubes hold two sides
+  for (const Eigen::Vector3d& n : thin.normals) EXPECT_NEAR(n.norm(), 1, 1e-12);
+}
+
+TEST(ReconstructionSteps, AFingerKeepsItsThickness) {
+  // Points on a ball of 8 mm radius, a mesh that is 1.5 mm too large.
+  std::mt19937 random(4);
+  constexpr double kRadius = 0.008;
+  geometry::PointCloud cloud;
+  for (int i = 0; i < 400; ++i) {  // 0.5 a square millimetre
+    const Eigen::Vector3d normal = figure::direction(random);
+    cloud.points.push_back(kRadius * normal);
+    cloud.normals.push_back(normal);
+  }
+  TriangleMesh mesh = sphere({0, 0, 0}, 1000);
+  for (Eigen::Vector3d& v : mesh.vertices) v *= kRadius + 0.0015;
+  fit_to_points(mesh, cloud);
+  double sum = 0;
+  for (const Eigen::Vector3d& v : mesh.vertices) sum += v.norm() / static_cast<double>(mesh.vertices.size());
+  // Along the points' own normals the mean would lie bandwidth^2 / radius = 1.1 mm too far out.
+  EXPECT_NEAR(sum, kRadius, 0.0002);
 }
 
 }  // namespace

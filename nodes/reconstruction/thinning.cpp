@@ -1,0 +1,62 @@
+#include "reconstruction/thinning.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "reconstruction/voxel_grid.hpp"
+
+namespace tensegric_fit::reconstruction {
+namespace {
+
+using geometry::PointCloud;
+
+constexpr double kSurroundings = 0.01;                           // m; cubes whose 27 show how the skin bends
+constexpr std::array<double, 3> kCube = {0.0025, 0.005, 0.010};  // m
+constexpr std::array<double, 2> kAgreement = {0.7, 0.9};  // length of the mean normal that parts the cubes
+
+/// Adds the mean point and normal of every cube.
+void add_means(const PointCloud& cloud, double cube, PointCloud& means) {
+  if (cloud.points.empty()) return;
+  const VoxelGrid grid(cloud.points, cube);
+  for (int c = 0; c < grid.cell_count(); ++c) {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
+    for (int i = grid.begin(c); i < grid.end(c); ++i) {
+      point += cloud.points[grid.order()[i]];
+      normal += cloud.normals[grid.order()[i]];
+    }
+    if (!(normal.norm() > 1e-6)) continue;  // two sides of something thin: no one point stands for them
+    means.points.push_back(point / (grid.end(c) - grid.begin(c)));
+    means.normals.push_back(normal.normalized());
+  }
+}
+
+}  // namespace
+
+PointCloud thinned(const PointCloud& cloud) {
+  const VoxelGrid grid(cloud.points, kSurroundings);
+  std::array<PointCloud, kCube.size()> by_cube;
+  std::vector<Eigen::Vector3d> sum(grid.cell_count(), Eigen::Vector3d::Zero());
+  for (int c = 0; c < grid.cell_count(); ++c)
+    for (int i = grid.begin(c); i < grid.end(c); ++i) sum[c] += cloud.normals[grid.order()[i]];
+  std::vector<int> around;
+  for (int c = 0; c < grid.cell_count(); ++c) {
+    grid.around(c, around);
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    int count = 0;
+    for (int a : around) {
+      normal += sum[a];
+      count += grid.end(a) - grid.begin(a);
+    }
+    const auto level = std::upper_bound(kAgreement.begin(), kAgreement.end(), normal.norm() / count);
+    PointCloud& level_points = by_cube[level - kAgreement.begin()];
+    for (int i = grid.begin(c); i < grid.end(c); ++i) {
+      level_points.points.push_back(cloud.points[grid.order()[i]]);
+      level_points.normals.push_back(cloud.normals[grid.order()[i]]);
+    }
+  }
+  PointCloud means;
+  for (std::size_t level = 0; level < kCube.size(); ++level) add_means(by_cube[level], kCube[level], means);
+  return means;
+}
+
+}  // namespace tensegric_fit::reconstruction
