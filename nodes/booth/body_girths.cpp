@@ -85,7 +85,7 @@ double largest_girth_height(const Tape& tape, double low, double high) {
   return best;
 }
 
-// The least girth in between, where it is less than on either side of it.
+// The least girth in between, where it is less than at both ends by more than a tape would feel.
 std::optional<double> waist_height(const Tape& tape, double low, double high) {
   const std::vector<double> heights = levels(low, high, 0.005);
   std::vector<double> girths;
@@ -94,7 +94,8 @@ std::optional<double> waist_height(const Tape& tape, double low, double high) {
   for (std::size_t i = 1; i + 1 < girths.size(); ++i)
     if (girths[i] < girths[i - 1] && girths[i] <= girths[i + 1] && (!least || girths[i] < girths[*least]))
       least = i;
-  if (!least) return std::nullopt;
+  constexpr double kFelt = 0.002;
+  if (!least || std::min(girths.front(), girths.back()) - girths[*least] < kFelt) return std::nullopt;
   // Top of the parabola through the three
   const double below = girths[*least - 1], at = girths[*least], above = girths[*least + 1];
   return heights[*least] + 0.005 * 0.5 * (below - above) / (below - 2 * at + above);
@@ -130,8 +131,8 @@ std::string measure_girths(const BodyShape& shape, const geometry::TriangleMesh&
 
   girth("bust", tape.round_trunk(bust));
   girth("bust_max", tape.round_trunk(bust_max));
-  girth("underbust",
-        tape.round_nearest({shape.scaled(0.05), 0, underbust - 0.003}, Vector3d::UnitZ(), Part::trunk));
+  girth("underbust", tape.round_nearest({shape.posed({0.05, 0, 1.15}).x(), 0, underbust - 0.003},
+                                        Vector3d::UnitZ(), Part::trunk));
   girth("waist", tape.round_trunk(waist));
   girth("waist_ruler", tape.round_trunk(ruler));
   girth("hip", tape.round_trunk(hip));

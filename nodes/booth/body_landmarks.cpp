@@ -16,12 +16,19 @@ struct Fold {
   double curvature;
 };
 
+// Where a level ray from the front meets the skin first.
+Vector3d foremost(const BodyShape& shape, double y, double z) {
+  Vector3d p(shape.scaled(0.60), y, z);
+  while (p.x() > 0 && shape.value(p) > 0) p.x() -= 0.002;
+  return shape.exit_point(p, Vector3d::UnitX());
+}
+
 Fold fold_below(const BodyShape& shape, double y, double bust_height) {
   const double step = shape.scaled(0.001);
-  constexpr int kSteps = 220, kWindow = 4;  // curvature over 8 mm, less than a fold's width
-  constexpr int kNipple = 18;               // steps to leave the hollow round the nipple behind
+  constexpr int kSteps = 320, kWindow = 4;  // curvature over 8 mm, less than a fold's width
+  constexpr double kAbove = 0.03;           // where a breast hangs, its fold is higher than its tip
   const Vector3d in_plane(1, 0, 1);
-  Vector3d p = shape.exit_point({shape.scaled(0.05), y, bust_height}, Vector3d::UnitX());
+  Vector3d p = foremost(shape, y, bust_height + shape.scaled(kAbove));
   std::vector<Vector3d> profile;
   std::vector<double> turn;  // direction of the outward normal, upwards positive
   for (int i = 0; i < kSteps; ++i) {
@@ -31,9 +38,9 @@ Fold fold_below(const BodyShape& shape, double y, double bust_height) {
     p = shape.project(p + step * Vector3d(g.z(), 0, -g.x()), in_plane);
   }
   Fold fold{profile.front(), 0};
-  for (int i = kNipple; i + kWindow < kSteps; ++i) {
+  for (int i = kWindow; i + kWindow < kSteps; ++i) {
     const double curvature = (turn[i + kWindow] - turn[i - kWindow]) / (2 * kWindow * step);
-    if (curvature > fold.curvature) fold = {profile[i], curvature};
+    if (curvature > fold.curvature && shape.is_under_breast(profile[i])) fold = {profile[i], curvature};
   }
   return fold;
 }
@@ -83,21 +90,17 @@ Vector3d rearmost(const BodyShape& shape, double side) {
   return best;
 }
 
-Vector3d crotch(const BodyShape& shape) {
-  Vector3d lowest(0, 0, std::numeric_limits<double>::infinity());
-  for (double x = -0.030; x < 0.070; x += 0.0005) {
-    const Vector3d p = shape.exit_point({shape.scaled(x), 0, shape.scaled(0.90)}, -Vector3d::UnitZ());
-    if (p.z() < lowest.z()) lowest = p;
-  }
-  return lowest;
-}
-
-// The notch at the throat: where the front of the neck is farthest back.
+// The notch at the throat: where the front of the neck is farthest back on a body without a stoop.
 Vector3d throat(const BodyShape& shape) {
-  Vector3d deepest(std::numeric_limits<double>::infinity(), 0, 0);
+  Vector3d deepest;
+  double ahead = std::numeric_limits<double>::infinity();
   for (double z = 1.390; z < 1.460; z += 0.0005) {
-    const Vector3d p = shape.exit_point({shape.scaled(0.02), 0, shape.scaled(z)}, Vector3d::UnitX());
-    if (p.x() < deepest.x()) deepest = p;
+    const Vector3d inside(0.02, 0, z);
+    const Vector3d p =
+        shape.exit_point(shape.posed(inside), shape.posed_direction(inside, Vector3d::UnitX()));
+    if (shape.upright(p).x() >= ahead) continue;
+    ahead = shape.upright(p).x();
+    deepest = p;
   }
   return deepest;
 }
@@ -113,10 +116,10 @@ Passage passage(const BodyShape& shape, double side, double z) {
   const BodyShape::Axis arm = shape.upper_arm_axis(side > 0);
   const Vector3d bone = arm.origin + (z - arm.origin.z()) / arm.direction.z() * arm.direction;
   Passage result{Vector3d::Zero(), std::numeric_limits<double>::infinity()};
-  for (double x = -0.05; x < 0.07; x += 0.002) {
+  for (double x = -0.058; x < 0.062; x += 0.002) {
     Passage here{Vector3d::Zero(), -1};
     for (double y = shape.scaled(0.10); y < std::abs(bone.y()); y += 0.001) {
-      const Vector3d p(shape.scaled(x), side * y, z);
+      const Vector3d p(arm.origin.x() + shape.scaled(x), side * y, z);
       const double v = shape.value(p);
       if (v > here.clearance) here = {p, v};
     }
@@ -126,7 +129,8 @@ Passage passage(const BodyShape& shape, double side, double z) {
 }
 
 Vector3d axilla(const BodyShape& shape, double side) {
-  double open = shape.scaled(1.15), closed = shape.scaled(1.35);
+  const double joint = shape.upper_arm_axis(side > 0).origin.z();
+  double open = joint - shape.scaled(0.18), closed = joint + shape.scaled(0.02);
   while (closed - open > 0.0002) {
     const double middle = (open + closed) / 2;
     (passage(shape, side, middle).clearance > 0 ? open : closed) = middle;
@@ -141,8 +145,9 @@ std::vector<geometry::Landmark> find_body_landmarks(const BodyShape& shape) {
   const auto add = [&landmarks](const std::string& name, const Vector3d& p) {
     landmarks.push_back({name, p, 1.0, ""});
   };
-  const auto reference = [&shape](double x, double y, double z) -> Vector3d {
-    return {shape.scaled(x), shape.scaled(y), shape.scaled(z)};
+  // From a point of the reference body outwards
+  const auto skin = [&shape](const Vector3d& inside, const Vector3d& direction) {
+    return shape.exit_point(shape.posed(inside), shape.posed_direction(inside, direction));
   };
   for (const bool left : {true, false}) {
     const double side = left ? 1 : -1;
@@ -154,14 +159,14 @@ std::vector<geometry::Landmark> find_body_landmarks(const BodyShape& shape) {
     add("fold_lowest" + suffix, lowest_fold(shape, bust_point));
     add("shoulder" + suffix,
         shape.exit_point(shape.upper_arm_axis(left).origin, Vector3d(-0.50, side * 0.46, 0.75).normalized()));
-    add("neck_side" + suffix, shape.exit_point(reference(0.028, 0, 1.443), side * Vector3d::UnitY()));
+    add("neck_side" + suffix, skin({0.028, 0, 1.443}, side * Vector3d::UnitY()));
     add("axilla" + suffix, axilla(shape, side));
     add("buttock" + suffix, rearmost(shape, side));
   }
   add("neck_front", throat(shape));
-  add("neck_back", shape.exit_point(reference(0.02, 0, 1.430), -Vector3d::UnitX()));
-  add("navel", shape.exit_point(reference(0.05, 0, 1.050), Vector3d::UnitX()));
-  add("crotch", crotch(shape));
+  add("neck_back", skin({0.02, 0, 1.430}, -Vector3d::UnitX()));
+  add("navel", skin({0.05, 0, 1.050}, Vector3d::UnitX()));
+  add("crotch", shape.exit_point(shape.posed({0.014, 0, 0.90}), -Vector3d::UnitZ()));
   return landmarks;
 }
 

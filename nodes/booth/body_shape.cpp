@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "booth/body_sections.hpp"
+
 namespace tensegric_fit::booth {
 namespace {
 
@@ -12,55 +14,12 @@ using Eigen::Vector3d;
 constexpr double kReferenceStature = 1.70;
 constexpr double kUpperArm = 0.270;  // shoulder joint to elbow
 constexpr double kElbowFlexion = 0.45;
+constexpr double kMiddle = 0.04;  // x of the axis about which the trunk is thick or thin
 const Vector3d kShoulderJoint(0.008, 0.165, 1.330);
-const Vector3d kBreastCentre(0.100, 0.088, 1.236);
-const Vector3d kBreastReach(0.080, 0.056, 0.062);  // forward, sideways, down
-constexpr double kBreastUp = 0.100;                // reach upwards: a drop, not a ball
-constexpr double kBreastOutward = 0.28;            // radians
-constexpr double kBreastSlope = 0.60;              // how fast its upper half recedes towards the collarbone
-constexpr double kBreastSag = 0.045;               // how far the tip sinks without any firmness
-constexpr double kNippleHeight = 0.005, kNippleWidth = 0.006;
-
-std::vector<Section> torso_sections() {
-  // z, back, front, right, left, exponent: from between the thighs to the neck inside the head
-  return {{0.799, -0.036, 0.036, -0.090, 0.090, 2.0}, {0.840, -0.050, 0.100, -0.145, 0.145, 2.2},
-          {0.880, -0.062, 0.114, -0.163, 0.163, 2.3}, {0.920, -0.066, 0.124, -0.166, 0.166, 2.4},
-          {0.960, -0.060, 0.130, -0.160, 0.160, 2.4}, {1.000, -0.045, 0.135, -0.148, 0.148, 2.4},
-          {1.040, -0.030, 0.138, -0.133, 0.133, 2.4}, {1.080, -0.023, 0.140, -0.121, 0.121, 2.5},
-          {1.120, -0.024, 0.144, -0.121, 0.121, 2.6}, {1.160, -0.028, 0.148, -0.126, 0.126, 2.7},
-          {1.200, -0.039, 0.148, -0.134, 0.134, 2.7}, {1.240, -0.051, 0.144, -0.142, 0.142, 2.7},
-          {1.280, -0.060, 0.134, -0.149, 0.149, 2.6}, {1.320, -0.063, 0.117, -0.153, 0.153, 2.6},
-          {1.355, -0.060, 0.100, -0.157, 0.157, 2.6}, {1.385, -0.053, 0.083, -0.146, 0.146, 2.5},
-          {1.410, -0.042, 0.070, -0.117, 0.117, 2.3}, {1.430, -0.035, 0.065, -0.082, 0.082, 2.1},
-          {1.450, -0.027, 0.068, -0.058, 0.058, 2.0}, {1.470, -0.019, 0.075, -0.051, 0.051, 2.0},
-          {1.500, -0.010, 0.084, -0.048, 0.048, 2.0}, {1.550, 0.000, 0.100, -0.048, 0.048, 2.0}};
-}
-
-std::vector<Section> leg_sections() {
-  return {{0.030, -0.004, 0.074, 0.078, 0.130, 2.0}, {0.080, -0.008, 0.066, 0.080, 0.129, 2.1},
-          {0.120, -0.008, 0.056, 0.081, 0.131, 2.1}, {0.170, -0.013, 0.055, 0.082, 0.139, 2.1},
-          {0.230, -0.023, 0.061, 0.077, 0.150, 2.0}, {0.290, -0.033, 0.068, 0.068, 0.160, 2.0},
-          {0.350, -0.037, 0.075, 0.061, 0.168, 2.0}, {0.410, -0.032, 0.080, 0.060, 0.168, 2.0},
-          {0.470, -0.013, 0.095, 0.053, 0.161, 2.0}, {0.530, -0.002, 0.114, 0.045, 0.155, 2.0},
-          {0.590, -0.009, 0.125, 0.035, 0.157, 2.0}, {0.650, -0.017, 0.134, 0.026, 0.166, 2.0},
-          {0.710, -0.024, 0.139, 0.018, 0.175, 2.1}, {0.770, -0.036, 0.136, 0.013, 0.180, 2.1},
-          {0.830, -0.052, 0.126, 0.012, 0.182, 2.2}, {0.880, -0.060, 0.114, 0.014, 0.178, 2.2},
-          {0.940, -0.050, 0.100, 0.030, 0.160, 2.2}};
-}
-
-// Arm frames: z up along the bone, x forward, origin at its upper joint.
-std::vector<Section> upper_arm_sections() {
-  return {{-0.290, -0.036, 0.036, -0.035, 0.035}, {-0.250, -0.037, 0.037, -0.036, 0.036},
-          {-0.200, -0.040, 0.041, -0.038, 0.038}, {-0.140, -0.043, 0.044, -0.040, 0.040},
-          {-0.080, -0.046, 0.047, -0.043, 0.044}, {-0.030, -0.049, 0.050, -0.045, 0.048},
-          {0.010, -0.047, 0.048, -0.043, 0.046},  {0.040, -0.040, 0.040, -0.036, 0.036}};
-}
-
-std::vector<Section> forearm_sections() {
-  return {{-0.250, -0.025, 0.025, -0.018, 0.018}, {-0.210, -0.026, 0.026, -0.021, 0.021},
-          {-0.150, -0.031, 0.031, -0.027, 0.027}, {-0.090, -0.037, 0.037, -0.034, 0.034},
-          {-0.040, -0.039, 0.038, -0.036, 0.036}, {0.015, -0.034, 0.034, -0.033, 0.033}};
-}
+const Vector3d kChest(0.144, 0.088, 1.236);  // the chest wall under a breast
+constexpr double kBreastDepth = 0.044;       // of a breast's middle under it
+constexpr double kCrease = 0.014;            // over which the skin under the breast is rounded
+const Vector3d kBelly(0.060, 0, 1.010);
 
 double bell(double t) {
   return std::exp(-t * t);
@@ -78,30 +37,32 @@ Vector3d on_left(const Vector3d& p) {
   return {p.x(), std::abs(p.y()), p.z()};
 }
 
+Spine spine_of(double stoop) {
+  // The chest bends forward; the neck gives half of it back, for she looks ahead
+  return Spine({{0.98, 1.30, 0.0, stoop}, {1.43, 1.52, 0.04, -0.5 * stoop}});
+}
+
 }  // namespace
 
 BodyShape::BodyShape(const BodyParameters& parameters)
     : scale_(parameters.stature / kReferenceStature),
+      build_(parameters.build),
       waist_(parameters.waist),
       hip_(parameters.hip),
+      belly_(parameters.belly),
+      navel_(0.139 + 0.075 * parameters.belly, 0, 1.050),
+      arm_thickness_(1 + 0.7 * (parameters.build - 1)),
+      spine_(spine_of(parameters.stoop)),
       torso_(torso_sections(), 0.05),
       leg_(leg_sections(), 0.03),
       upper_arm_(upper_arm_sections(), 0.06),
       forearm_(forearm_sections(), 0.04) {
-  for (int side = 0; side < 2; ++side) {
-    Breast& breast = breasts_[side];
-    breast.size = parameters.bust * (1 + (side == 0 ? 0.5 : -0.5) * parameters.asymmetry);
-    breast.sag = 1 - parameters.firmness;
-    breast.centre =
-        kBreastCentre - Vector3d(0, 0.04 * (breast.size - 1), 0.020 * breast.sag + 0.06 * (breast.size - 1));
-    breast.local = Eigen::AngleAxisd(-kBreastOutward, Vector3d::UnitZ()).toRotationMatrix();
-    // The mound's tip: as far forward as the reach, as far down as the sag takes it there
-    breast.nipple =
-        breast.centre + breast.local.transpose() * Vector3d(breast.size * kBreastReach.x(), 0,
-                                                            -kBreastSag * breast.sag * breast.size);
-  }
+  for (const double side : {0.5, -0.5})
+    breasts_.emplace_back(thickened(kChest) - kBreastDepth * Vector3d::UnitX(),
+                          parameters.bust * (1 + side * parameters.asymmetry), 1 - parameters.firmness);
+  // Arms hang from the shoulders and do not turn with the chest
   const Eigen::Isometry3d shoulder =
-      Eigen::Translation3d(kShoulderJoint) *
+      Eigen::Translation3d(spine_.bent(thickened(kShoulderJoint))) *
       Eigen::Isometry3d(Eigen::AngleAxisd(parameters.arm_angle, Vector3d::UnitX()));
   const Eigen::Isometry3d elbow = shoulder * Eigen::Translation3d(0, 0, -kUpperArm) *
                                   Eigen::AngleAxisd(-kElbowFlexion, Vector3d::UnitY());
@@ -109,48 +70,59 @@ BodyShape::BodyShape(const BodyParameters& parameters)
   forearm_from_body_ = elbow.inverse();
 }
 
-double BodyShape::Breast::value(const Vector3d& p) const {
-  Vector3d q = local * (p - centre);
-  const double forward = std::max(q.x(), 0.0) / (size * kBreastReach.x());
-  q.z() += kBreastSag * sag * size * forward * forward;
-  Vector3d radii = size * kBreastReach;
-  if (q.z() > 0) {
-    radii.z() = size * kBreastUp;
-    q.x() += kBreastSlope * q.z() * q.z() / (q.z() + 0.03);
-  }
-  const double bump = (p - nipple).squaredNorm() / (2 * kNippleWidth * kNippleWidth);
-  return ellipsoid(q, radii) - (bump < 20 ? kNippleHeight * std::exp(-bump) : 0);
+double BodyShape::thickness(double z) const {
+  // Fat sits on the trunk, less on hips, thighs and shoulders, hardly on shins and neck, not on the head
+  const double share = 0.25 + 0.45 * smooth_step((z - 0.10) / 0.70) + 0.3 * smooth_step((z - 0.88) / 0.18) -
+                       0.6 * smooth_step((z - 1.25) / 0.14) - 0.4 * smooth_step((z - 1.42) / 0.10);
+  const double hips = 1 + (hip_ - 1) * bell((z - 0.87) / 0.16);
+  const double waist = 1 + (waist_ - 1) * bell((z - 1.08) / 0.085);
+  return hips * waist * (1 + (build_ - 1) * share);
+}
+
+Vector3d BodyShape::thickened(const Vector3d& p) const {
+  const double girth = thickness(p.z());
+  return {kMiddle + girth * (p.x() - kMiddle), girth * p.y(), p.z()};
 }
 
 double BodyShape::breasts(const Vector3d& p) const {
   return smooth_union(breasts_[0].value(p), breasts_[1].value(mirrored(p)), 0.020);
 }
 
-double BodyShape::trunk(const Vector3d& p) const {
-  const double hips = 1 + (hip_ - 1) * bell((p.z() - 0.87) / 0.16);
-  const double girth = hips * (1 + (waist_ - 1) * bell((p.z() - 1.08) / 0.085));
-  const Vector3d q(0.04 + (p.x() - 0.04) / girth, p.y() / girth, p.z());
+double BodyShape::trunk_without_breasts(const Vector3d& p) const {
+  const double girth = thickness(p.z());
+  const Vector3d q(kMiddle + (p.x() - kMiddle) / girth, p.y() / girth, p.z());
   const double legs = smooth_union(leg_(q), leg_(mirrored(q)), 0.010);
   const auto buttock = [&q](double side) {
     return ellipsoid(q - Vector3d(-0.018, side * 0.068, 0.885), {0.078, 0.072, 0.085});
   };
   double d = smooth_union(torso_(q), legs, 0.035);
   d = smooth_union(d, smooth_union(buttock(1), buttock(-1), 0.012), 0.040);
+  if (belly_ > 0) d = smooth_union(d, ellipsoid(q - kBelly, {navel_.x() - kBelly.x(), 0.125, 0.125}), 0.060);
+  // The perineum: level from front to back, a bridge between the thighs
+  d = smooth_union(d, tapered_capsule(q, {-0.002, 0, 0.8165}, {0.058, 0, 0.8165}, 0.020, 0.020), 0.010);
   d -= 0.003 * bell((q - Vector3d(-0.035, 0, 1.430)).norm() / 0.014);  // the spine's lowest neck vertebra
-  d += 0.006 * bell((q - Vector3d(0.139, 0, 1.050)).norm() / 0.009);   // navel
-  d *= girth;
+  d += 0.006 * bell((q - navel_).norm() / 0.009);
+  return d * girth;
+}
+
+double BodyShape::trunk(const Vector3d& p) const {
   // A crease under the breast, a gentle slope above it
-  const double level = (breasts_[0].centre.z() + breasts_[1].centre.z()) / 2 - 0.02;
-  const double k = 0.014 + 0.050 * smooth_step((p.z() - level) / 0.10);
-  return smooth_union(d, breasts(p), k);
+  const double level = (breasts_[0].centre().z() + breasts_[1].centre().z()) / 2 - 0.02;
+  const double k = kCrease + 0.050 * smooth_step((p.z() - level) / 0.10);
+  return smooth_union(trunk_without_breasts(p), breasts(p), k);
 }
 
 double BodyShape::arm(const Vector3d& p) const {
+  const auto thick = [](const Loft& limb, Vector3d q, double thickness) {
+    q.head<2>() /= thickness;
+    return thickness * limb(q);
+  };
   const Vector3d upper = upper_arm_from_body_ * p, fore = forearm_from_body_ * p;
   const double palm = ellipsoid(fore - Vector3d(0.004, 0, -0.290), {0.040, 0.017, 0.058});
   const double fingers = ellipsoid(fore - Vector3d(0.000, -0.006, -0.365), {0.034, 0.012, 0.062});
   const double thumb = tapered_capsule(fore, {0.020, -0.004, -0.270}, {0.062, -0.014, -0.335}, 0.014, 0.009);
-  double d = smooth_union(upper_arm_(upper), forearm_(fore), 0.030);
+  double d = smooth_union(thick(upper_arm_, upper, arm_thickness_),
+                          thick(forearm_, fore, (1 + arm_thickness_) / 2), 0.030);
   d = smooth_union(d, palm, 0.025);
   d = smooth_union(d, fingers, 0.015);
   return smooth_union(d, thumb, 0.012);
@@ -164,11 +136,11 @@ double BodyShape::head(const Vector3d& p) const {
 }
 
 double BodyShape::reference_value(const Vector3d& p) const {
-  const Vector3d left = on_left(p);
-  double d = trunk(p);
+  const Vector3d left = on_left(p), upright = spine_.straightened(p);
+  double d = trunk(upright);
   d = smooth_union(d, arm(left),
-                   0.024 + 0.036 * smooth_step((p.z() - 1.27) / 0.08));  // sharper in the armpit
-  d = smooth_union(d, head(p), 0.030);
+                   0.024 + 0.036 * smooth_step((upright.z() - 1.27) / 0.08));  // sharper in the armpit
+  d = smooth_union(d, head(upright), 0.030);
   const double heel = ellipsoid(left - Vector3d(0.021, 0.104, 0.031), {0.040, 0.034, 0.046});
   const double sole = ellipsoid(left - Vector3d(0.095, 0.110, 0.018), {0.098, 0.043, 0.028});
   const double instep = tapered_capsule(left, {0.035, 0.104, 0.085}, {0.120, 0.108, 0.020}, 0.034, 0.020);
@@ -182,8 +154,20 @@ double BodyShape::value(const Vector3d& p) const {
 }
 
 Eigen::AlignedBox3d BodyShape::half_box() const {
-  // Room for arms held out
-  return {Vector3d(scaled(-0.18), 0, 0), Vector3d(scaled(0.42), scaled(0.75), scaled(1.74))};
+  // Room for the arms and for a head that is carried ahead
+  constexpr double kFingertips = 0.430;  // below the elbow
+  const Vector3d elbow = forearm_from_body_.inverse().translation(),
+                 tips = forearm_from_body_.inverse() * Vector3d(0, 0, -kFingertips),
+                 crown = spine_.bent({0.15, 0, 1.70});
+  Eigen::AlignedBox3d box(Vector3d(-0.18, 0, 0), Vector3d(0.42, 0.45, 1.74));
+  for (const Vector3d& p : {elbow, tips, crown}) {
+    box.extend(p + Vector3d(0.08, 0.08, 0));
+    box.extend(p - Vector3d(0.08, 0, 0));
+  }
+  // Bellies and buttocks
+  box.extend(Vector3d(0.05 - 0.15 * build_ * hip_, 0, 0));
+  box.extend(Vector3d(0.05 + (0.25 + 0.1 * belly_) * build_ * hip_ * waist_, 0, 0));
+  return {Vector3d(scale_ * box.min()), Vector3d(scale_ * box.max())};
 }
 
 Vector3d BodyShape::exit_point(const Vector3d& inside, const Vector3d& direction, double reach) const {
@@ -203,15 +187,31 @@ Vector3d BodyShape::exit_point(const Vector3d& inside, const Vector3d& direction
 
 bool BodyShape::is_arm(const Vector3d& p) const {
   const Vector3d q = p / scale_;
-  return arm(on_left(q)) < trunk(q);
+  return arm(on_left(q)) < trunk(spine_.straightened(q));
+}
+
+bool BodyShape::is_under_breast(const Vector3d& p) const {
+  const Vector3d q = spine_.straightened(p / scale_);
+  return std::abs(trunk_without_breasts(q) - breasts(q)) < kCrease;
+}
+
+Vector3d BodyShape::posed(const Vector3d& reference) const {
+  return scale_ * spine_.bent(thickened(reference));
+}
+
+Vector3d BodyShape::posed_direction(const Vector3d& reference, const Vector3d& direction) const {
+  return spine_.bent_direction(reference, direction);
+}
+
+Vector3d BodyShape::upright(const Vector3d& p) const {
+  return scale_ * spine_.straightened(p / scale_);
 }
 
 BodyShape::Axis BodyShape::breast_axis(bool left) const {
   const Breast& breast = breasts_[left ? 0 : 1];
-  const Vector3d forward = breast.local.row(0),
-                 origin = breast.nipple - 0.5 * breast.size * kBreastReach.x() * forward;
-  if (left) return {scale_ * origin, forward};
-  return {scale_ * mirrored(origin), mirrored(forward)};
+  const Vector3d origin = left ? breast.inside() : mirrored(breast.inside()),
+                 forward = left ? breast.forward() : mirrored(breast.forward());
+  return {scale_ * spine_.bent(origin), spine_.bent_direction(origin, forward)};
 }
 
 BodyShape::Axis BodyShape::upper_arm_axis(bool left) const {
@@ -221,7 +221,8 @@ BodyShape::Axis BodyShape::upper_arm_axis(bool left) const {
 }
 
 BodyShape::Axis BodyShape::neck_axis() const {
-  return {scale_ * Vector3d(0.033, 0, 1.471), Vector3d(0.373, 0, 0.928).normalized()};
+  const Vector3d origin(0.033, 0, 1.471);
+  return {posed(origin), posed_direction(origin, Vector3d(0.373, 0, 0.928))};
 }
 
 }  // namespace tensegric_fit::booth

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
+#include <vector>
 
+#include "booth/breast.hpp"
 #include "booth/implicit.hpp"
+#include "booth/spine.hpp"
 #include "booth/virtual_body.hpp"
 
 namespace tensegric_fit::booth {
@@ -24,6 +26,8 @@ class BodyShape : public Implicit {
 
   /// Whether a skin point belongs to an arm rather than to the trunk.
   bool is_arm(const Eigen::Vector3d& p) const;
+  /// Whether a point is about as near to a breast as to the trunk without breasts.
+  bool is_under_breast(const Eigen::Vector3d& p) const;
 
   /// A ray in the body frame.
   struct Axis {
@@ -32,28 +36,31 @@ class BodyShape : public Implicit {
   Axis breast_axis(bool left) const;     ///< from the middle of the breast to the nipple
   Axis upper_arm_axis(bool left) const;  ///< from the shoulder joint down the upper arm
   Axis neck_axis() const;  ///< from the middle of the neck's girth upwards, normal to the girth's plane
+  /// Where a point of the reference body is on this one, and the direction `direction` there.
+  Eigen::Vector3d posed(const Eigen::Vector3d& reference) const;
+  Eigen::Vector3d posed_direction(const Eigen::Vector3d& reference, const Eigen::Vector3d& direction) const;
+  /// The same place on this body without a stoop.
+  Eigen::Vector3d upright(const Eigen::Vector3d& p) const;
   /// A length of the reference body (stature 1.70 m) on this one.
   double scaled(double reference) const { return scale_ * reference; }
 
  private:
-  struct Breast {
-    Eigen::Vector3d centre;  // reference body, left side
-    Eigen::Matrix3d local;   // rows: forward along the breast, sideways, up
-    double size, sag;
-    Eigen::Vector3d nipple;  // top of the breast under the nipple
-    double value(const Eigen::Vector3d& p) const;
-  };
-
-  // On the reference body; p and side mirror as one.
+  // On the reference body; p and side mirror as one. All but arm() take points of the body without a stoop.
+  double thickness(double z) const;  // of the trunk, relative to the reference
+  Eigen::Vector3d thickened(const Eigen::Vector3d& p) const;
+  double trunk_without_breasts(const Eigen::Vector3d& p) const;
   double trunk(const Eigen::Vector3d& p) const;
   double breasts(const Eigen::Vector3d& p) const;
   double arm(const Eigen::Vector3d& p) const;
   double head(const Eigen::Vector3d& p) const;
   double reference_value(const Eigen::Vector3d& p) const;
 
-  double scale_, waist_, hip_;
+  double scale_, build_, waist_, hip_, belly_;
+  Eigen::Vector3d navel_;
+  double arm_thickness_;
+  Spine spine_;
   Loft torso_, leg_, upper_arm_, forearm_;
-  std::array<Breast, 2> breasts_;                              // left, right (mirrored to the left side)
+  std::vector<Breast> breasts_;                                // left, right (mirrored to the left side)
   Eigen::Isometry3d upper_arm_from_body_, forearm_from_body_;  // left side
 };
 

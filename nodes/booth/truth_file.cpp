@@ -15,6 +15,10 @@ Json measures(const std::vector<geometry::Measure>& list) {
   return result;
 }
 
+Json triple(const Eigen::Vector3d& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
 Json matrix(const Eigen::Isometry3d& transform) {
   Json rows = Json::array();
   for (int r = 0; r < 4; ++r) {
@@ -42,7 +46,7 @@ Json definitions() {
        "hull perimeter of the horizontal section without the arms; bust: all loops at the mean height of "
        "the bust points; underbust: the trunk's loop 3 mm below its height; neck: in the plane across "
        "the neck"},
-      {"crotch", "lowest skin point of the mid-plane between the legs"},
+      {"crotch", "perineum, on the level bridge between the legs"},
       {"axilla", "where trunk and arm part"},
       {"shoulder", "over the outer end of the collarbone"}};
 }
@@ -53,7 +57,7 @@ void write_truth(const std::string& path, const VirtualBody& body, const BodyPar
                  const ScannerOptions& scanner) {
   Json truth = {{"name", "virtual_booth"}, {"units", "m"}, {"up", "z"}, {"facing", "+x"}, {"left", "+y"}};
   for (const geometry::Landmark& landmark : body.truth.landmarks)
-    truth["landmarks"][landmark.name] = {landmark.position.x(), landmark.position.y(), landmark.position.z()};
+    truth["landmarks"][landmark.name] = triple(landmark.position);
   truth["heights"] = measures(body.truth.heights);
   truth["girths"] = measures(body.truth.girths);
   truth["extra"] = {{"waist_method", body.waist_method}};
@@ -63,14 +67,24 @@ void write_truth(const std::string& path, const VirtualBody& body, const BodyPar
                    {"closed", true},
                    {"volume_m3", geometry::cone_volume(body.mesh.vertices, body.mesh.triangles)}};
   truth["parameters"] = {
-      {"stature", parameters.stature},     {"bust", parameters.bust},   {"firmness", parameters.firmness},
-      {"asymmetry", parameters.asymmetry}, {"waist", parameters.waist}, {"hip", parameters.hip},
+      {"stature", parameters.stature},     {"build", parameters.build}, {"bust", parameters.bust},
+      {"firmness", parameters.firmness},   {"waist", parameters.waist}, {"asymmetry", parameters.asymmetry},
+      {"belly", parameters.belly},         {"hip", parameters.hip},     {"stoop", parameters.stoop},
       {"arm_angle", parameters.arm_angle}, {"yaw", parameters.yaw},     {"tilt", parameters.tilt}};
   truth["scan_from_body"] = matrix(body.truth.body_from_scan.inverse());
   truth["scan"] = {{"columns", scanner.columns},   {"sensors_per_column", scanner.sensors_per_column},
                    {"points", scanner.points},     {"noise", scanner.noise},
                    {"outliers", scanner.outliers}, {"misregistration", scanner.misregistration},
-                   {"floor", scanner.floor},       {"seed", scanner.seed}};
+                   {"floor", scanner.floor},       {"frame", scanner.frame},
+                   {"seed", scanner.seed}};
+  for (const DarkPatch& patch : scanner.dark)
+    truth["scan"]["dark"].push_back(
+        {{"centre", triple(patch.centre)}, {"radii", triple(patch.radii)}, {"share", patch.share}});
+  if (scanner.fracture.shift.norm() > 0)
+    truth["scan"]["fracture"] = {{"centre", triple(scanner.fracture.centre)},
+                                 {"radii", triple(scanner.fracture.radii)},
+                                 {"shift", triple(scanner.fracture.shift)},
+                                 {"from_column", scanner.fracture.from_column}};
   std::ofstream file(path);
   file << truth.dump(1) << '\n';
   file.flush();

@@ -49,12 +49,15 @@ void check_apart(const geometry::TriangleMesh& mesh) {
 
 void check_parameters(const BodyParameters& parameters) {
   check("stature", parameters.stature, 1.40, 2.00);
-  check("bust", parameters.bust, 0.75, 1.20);
-  check("firmness", parameters.firmness, 0.2, 1);
+  check("build", parameters.build, 0.85, 1.50);
+  check("bust", parameters.bust, 0.75, 1.50);
+  check("firmness", parameters.firmness, -0.8, 1);
   check("asymmetry", parameters.asymmetry, -0.2, 0.2);
   check("waist", parameters.waist, 0.90, 1.40);
+  check("belly", parameters.belly, 0, 1);
   check("hip", parameters.hip, 0.90, 1.25);
-  check("arm_angle", parameters.arm_angle, 0.25, 0.80);
+  check("arm_angle", parameters.arm_angle, 0.25, 1.40);
+  check("stoop", parameters.stoop, -0.1, 0.4);
   check("yaw", parameters.yaw, -M_PI, M_PI);
   check("tilt", parameters.tilt, -0.26, 0.26);
 }

@@ -12,12 +12,15 @@ namespace tensegric_fit::booth {
 /// in radians.
 struct BodyParameters {
   double stature = 1.70;    ///< 1.40 to 2.00; the whole body scales with it
-  double bust = 1.0;        ///< 0.75 to 1.20, size of the breasts as a length, relative to the default
-  double firmness = 0.8;    ///< 0.2 to 1; less lets the breasts sag towards their folds
+  double build = 1.0;       ///< 0.85 to 1.50, thickness of trunk and limbs relative to the default
+  double bust = 1.0;        ///< 0.75 to 1.50, size of the breasts as a length, relative to the default
+  double firmness = 0.8;    ///< -0.8 to 1; less lets the breasts sag, below 0 they hang over their folds
   double asymmetry = 0.0;   ///< -0.2 to 0.2; by how much the left breast is larger than the right
   double waist = 1.0;       ///< 0.90 to 1.40, thickness of the trunk at the waist, relative to the default
+  double belly = 0.0;       ///< 0 to 1, how round it is; 1 stands out by 75 mm
   double hip = 1.0;         ///< 0.90 to 1.25, thickness of hips and upper thighs, relative to the default
-  double arm_angle = 0.40;  ///< 0.25 to 0.80, between the upper arms and the vertical
+  double arm_angle = 0.40;  ///< 0.25 to 1.40, between the upper arms and the vertical
+  double stoop = 0.0;       ///< -0.1 to 0.4, how far the spine bends forward above the waist
   double yaw = 0.0;         ///< -pi to pi, her facing in the scan's frame, from x towards y
   double tilt = 0.0;        ///< -0.26 to 0.26 (15 degrees), her lean forward
 };

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "booth/example_shape.hpp"
+#include "booth/random_body.hpp"
 #include "booth/scan_bag.hpp"
 #include "booth/truth_file.hpp"
 #include "booth/virtual_body.hpp"
@@ -21,9 +22,8 @@ using namespace tensegric_fit;
 
 constexpr int kUsage = 2, kRefused = 3;
 
-void run(const booth::BodyParameters& body, const booth::ScannerOptions& scanner,
-         const std::filesystem::path& out) {
-  const booth::VirtualBody subject = booth::make_body(body);
+void run(const booth::VirtualBody& subject, const booth::BodyParameters& body,
+         const booth::ScannerOptions& scanner, const std::filesystem::path& out) {
   const booth::VirtualScan scan = booth::scan_body(subject.mesh, scanner);
   std::filesystem::create_directories(out);
   geometry::write_ply_mesh(out / "body.ply", subject.mesh);
@@ -56,16 +56,23 @@ int main(int argc, char** argv) {
   booth::BodyParameters body;
   booth::ScannerOptions scanner;
   std::string out = "virtual_booth", shape;
+  std::uint64_t customer = 0;
   CLI::App app("Scans a parametric body with virtual depth sensors. Metres, radians.");
   app.option_defaults()->always_capture_default();
   app.add_option("--out", out, "directory for the files");
   app.add_option("--shape", shape, "write this shape and which part of it to hold, in place of a scan")
       ->check(CLI::IsMember(booth::example_shapes()));
+  CLI::Option* by_lot = app.add_option("--customer", customer,
+                                       "draw body and booth by lot; all other options but --out are drawn");
   app.add_option("--stature", body.stature, "height of the body");
   app.add_option("--bust", body.bust, "size of the breasts, as a length relative to the default");
-  app.add_option("--firmness", body.firmness, "of the breasts, 0.2 to 1");
+  app.add_option("--firmness", body.firmness,
+                 "of the breasts, -0.8 to 1; below 0 they hang over their folds");
   app.add_option("--asymmetry", body.asymmetry, "by how much the left breast is larger than the right");
   app.add_option("--waist", body.waist, "thickness at the waist relative to the default");
+  app.add_option("--build", body.build, "thickness of trunk and limbs relative to the default");
+  app.add_option("--belly", body.belly, "how round the belly is, 0 to 1");
+  app.add_option("--stoop", body.stoop, "how far the spine bends forward");
   app.add_option("--hip", body.hip, "thickness at the hips relative to the default");
   app.add_option("--arm-angle", body.arm_angle, "between the upper arms and the vertical");
   app.add_option("--yaw", body.yaw, "her facing in the scan's frame, from x towards y");
@@ -76,16 +83,24 @@ int main(int argc, char** argv) {
   app.add_option("--outliers", scanner.outliers, "share of points that lie off the surface");
   app.add_option("--misregistration", scanner.misregistration, "standard deviation of each column's shift");
   app.add_flag("--floor", scanner.floor, "let the sensors see the floor");
+  app.add_flag("--frame", scanner.frame, "let the sensors see the booth's frame");
+  for (CLI::Option* option : app.get_options())
+    if (option != by_lot && option->get_name() != "--help" && option->get_name() != "--out")
+      by_lot->excludes(option);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsage;
   }
   try {
-    if (shape.empty()) {
-      run(body, scanner, out);
-    } else {
+    if (!shape.empty()) {
       write_shape(shape, out);
+    } else if (by_lot->count() > 0) {
+      body = booth::random_body(customer);
+      const booth::VirtualBody subject = booth::make_body(body);
+      run(subject, body, booth::random_scanner(customer, subject), out);
+    } else {
+      run(booth::make_body(body), body, scanner, out);
     }
   } catch (const geometry::Refusal& refusal) {
     std::cerr << "virtual_booth: " << refusal.code() << ": " << refusal.what() << '\n';

@@ -32,11 +32,19 @@ void check_options(const ScannerOptions& options) {
   check("misregistration", options.misregistration, 0, 0.01);
   check("grazing", options.grazing, 0, 0.9);
   check("floor_radius", options.floor_radius, 0.1, 3.0);
+  for (const DarkPatch& patch : options.dark) {
+    check("dark.share", patch.share, 0, 1);
+    check("dark.radii", patch.radii.minCoeff(), 1e-6, 10);
+  }
+  check("fracture.radii", options.fracture.radii.minCoeff(), 1e-6, 10);
+  check("fracture.shift", options.fracture.shift.norm(), 0, 0.05);
 }
 
 // Each sensor sees its share of the height, and half as much again for overlap.
-std::vector<Sensor> sensors(const ScannerOptions& options, double height) {
-  constexpr double kHalfWidth = 0.75;  // metres to either side of the axis: room for arms held out
+std::vector<Sensor> sensors(const ScannerOptions& options, const geometry::TriangleMesh& body,
+                            double height) {
+  double half_width = 0.75;  // metres to either side of the axis: room for arms held out
+  for (const Vector3d& p : body.vertices) half_width = std::max(half_width, p.head<2>().norm() + 0.02);
   std::vector<Sensor> result;
   const double share = height / options.sensors_per_column;
   for (int column = 0; column < options.columns; ++column) {
@@ -47,12 +55,32 @@ std::vector<Sensor> sensors(const ScannerOptions& options, double height) {
       sensor.position = options.distance * outward + Vector3d(0, 0, (i + 0.5) * share);
       sensor.axes << Vector3d::UnitZ().cross(outward).transpose(), Vector3d::UnitZ().transpose(),
           -outward.transpose();
-      sensor.half_width = kHalfWidth / options.distance;
+      sensor.half_width = half_width / options.distance;
       sensor.half_height = 0.75 * share / options.distance;
       result.push_back(sensor);
     }
   }
   return result;
+}
+
+// Four beams in a square over her head.
+geometry::TriangleMesh booth_frame() {
+  constexpr double kHeight = 2.0, kReach = 0.86, kThickness = 0.03;
+  geometry::TriangleMesh frame;
+  for (const auto& [radius, z] : {std::pair{kReach, kHeight},
+                                  {kReach, kHeight - kThickness},
+                                  {kReach - kThickness, kHeight - kThickness},
+                                  {kReach - kThickness, kHeight}})
+    for (const auto& [x, y] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}})
+      frame.vertices.emplace_back(radius * x, radius * y, z);
+  for (int face = 0; face < 4; ++face) {
+    for (int side = 0; side < 4; ++side) {
+      const int a = 4 * face + side, b = 4 * face + (side + 1) % 4, c = (a + 4) % 16, d = (b + 4) % 16;
+      frame.triangles.emplace_back(a, b, d);
+      frame.triangles.emplace_back(a, d, c);
+    }
+  }
+  return frame;
 }
 
 std::vector<Hit> look(const Sensor& sensor, const geometry::TriangleMesh& body, const ScannerOptions& options,
@@ -62,6 +90,7 @@ std::vector<Hit> look(const Sensor& sensor, const geometry::TriangleMesh& body, 
   };
   DepthImage image(sensor, pixels(sensor.half_height), pixels(sensor.half_width));
   image.draw(body);
+  if (options.frame) image.draw(booth_frame());
   if (options.floor) image.draw_floor(options.floor_radius);
   return image.hits();
 }
@@ -71,6 +100,21 @@ double return_share(double incidence, double grazing) {
   return grazing == 0 ? 1 : std::clamp(incidence / grazing - 1, 0.0, 1.0);
 }
 
+// Share of them that hair and cloth let return.
+double bright_share(const Vector3d& p, const std::vector<DarkPatch>& patches) {
+  double share = 1;
+  for (const DarkPatch& patch : patches)
+    if ((p - patch.centre).cwiseQuotient(patch.radii).norm() < 1) share *= 1 - patch.share;
+  return share;
+}
+
+// Where a column sees a point of the skin.
+Vector3d fractured(const Vector3d& p, const Fracture& fracture, int column) {
+  if (column < fracture.from_column) return p;
+  const double inside = 1 - (p - fracture.centre).cwiseQuotient(fracture.radii).squaredNorm();
+  return inside > 0 ? Vector3d(p + inside * inside * fracture.shift) : p;
+}
+
 // Resolution at which somewhat more rays return than points are wanted.
 double resolution(const std::vector<Sensor>& all, const geometry::TriangleMesh& body,
                   const ScannerOptions& options) {
@@ -78,7 +122,7 @@ double resolution(const std::vector<Sensor>& all, const geometry::TriangleMesh& 
   double returns = 0;
   for (const Sensor& sensor : all)
     for (const Hit& hit : look(sensor, body, options, kTrial))
-      returns += return_share(hit.incidence, options.grazing);
+      returns += return_share(hit.incidence, options.grazing) * bright_share(hit.point, options.dark);
   if (returns == 0) throw geometry::Refusal(geometry::refusal::kNotABody, "the sensors see no surface");
   return kTrial * std::sqrt(kMargin * options.points / returns);
 }
@@ -104,7 +148,7 @@ VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& 
   geometry::check_mesh(body);
   const double height = body.vertices.empty() ? 0 : geometry::bounding_box(body.vertices)[1].z();
   check("height of the body over z = 0", height, 0.1, 3.0);
-  const std::vector<Sensor> all = sensors(options, height);
+  const std::vector<Sensor> all = sensors(options, body, height);
   const double pixels_per_unit = resolution(all, body, options);
 
   Random random(options.seed);
@@ -113,12 +157,16 @@ VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& 
   for (std::size_t s = 0; s < all.size(); ++s) {
     if (s % options.sensors_per_column == 0) error = column_error(random, options.misregistration);
     for (const Hit& hit : look(all[s], body, options, pixels_per_unit)) {
-      if (random.uniform() >= return_share(hit.incidence, options.grazing)) continue;
+      if (random.uniform() >=
+          return_share(hit.incidence, options.grazing) * bright_share(hit.point, options.dark))
+        continue;
       const Vector3d ray = (hit.point - all[s].position).normalized();
       constexpr double kFarthestOutlier = 0.050;
       const double off = random.uniform() < options.outliers ? kFarthestOutlier * (2 * random.uniform() - 1)
                                                              : options.noise * random.normal();
-      points.emplace_back(error * Vector3d(hit.point + off * ray), static_cast<int>(s));
+      const int column = static_cast<int>(s) / options.sensors_per_column;
+      const Vector3d skin = fractured(hit.point, options.fracture, column);
+      points.emplace_back(error * Vector3d(skin + off * ray), static_cast<int>(s));
     }
   }
   random.shuffle(points);

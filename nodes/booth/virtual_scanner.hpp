@@ -9,13 +9,27 @@
 
 namespace tensegric_fit::booth {
 
+/// Hair and black cloth: in an ellipsoid this share of the points does not return.
+struct DarkPatch {
+  Eigen::Vector3d centre, radii;
+  double share;  ///< 0 to 1
+};
+
+/// She moved while the columns looked one after the other: those from `from_column` on see the skin in an
+/// ellipsoid shifted, most in its middle.
+struct Fracture {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), radii = Eigen::Vector3d::Ones(),
+                  shift = Eigen::Vector3d::Zero();  ///< at most 0.05 long
+  int from_column = 0;
+};
+
 /// Field defaults are the parameters' defaults. Metres, radians.
 struct ScannerOptions {
   int columns = 4;  ///< 2 to 12, evenly round the z axis, the first at 45 degrees from x
   int sensors_per_column =
       3;                   ///< 1 to 6, evenly spread over the body's height, each looking level at the z axis
   double distance = 1.40;  ///< 1.0 to 4.0, of the columns from the z axis
-  int points = 180000;     ///< 1000 to 2000000, of body and floor together
+  int points = 180000;     ///< 1000 to 2000000, of body, floor and frame together
   double noise = 0.0008;   ///< 0 to 0.01, standard deviation along the ray
   double outliers = 0.001;  ///< 0 to 0.2, share of points that lie up to 50 mm off along their ray
   double misregistration =
@@ -23,6 +37,9 @@ struct ScannerOptions {
   double grazing = 0.15;  ///< 0 to 0.9, cosine of incidence below which no point returns; twice that, all do
   bool floor = false;     ///< whether the floor z = 0 is seen, as a disc
   double floor_radius = 0.60;  ///< 0.1 to 3.0
+  bool frame = false;          ///< whether the booth's square frame is seen, 2 m up, 0.86 m to each side
+  std::vector<DarkPatch> dark;
+  Fracture fracture;
   std::uint64_t seed = 1;
 };
 

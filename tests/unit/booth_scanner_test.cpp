@@ -159,6 +159,45 @@ TEST(VirtualScannerTest, FloorIsThereOnRequestOnly) {
   for (const Vector3d& p : scan.cloud.points) ASSERT_LT(p.head<2>().norm(), options.floor_radius + 0.2);
 }
 
+TEST(VirtualScannerTest, TheFrameIsSeenOnRequestOnly) {
+  const auto frame_points = [](const VirtualScan& scan) {
+    return std::count_if(scan.cloud.points.begin(), scan.cloud.points.end(),
+                         [](const Vector3d& p) { return p.z() > 1.9 && p.head<2>().norm() > 0.7; });
+  };
+  ScannerOptions options;
+  options.outliers = 0;
+  EXPECT_EQ(frame_points(booth::scan_body(body().mesh, options)), 0);
+  options.frame = true;
+  EXPECT_GT(frame_points(booth::scan_body(body().mesh, options)), 1000);
+}
+
+TEST(VirtualScannerTest, DarkPatchesLoseTheirShareOfPoints) {
+  ScannerOptions options = perfect();
+  const auto on_top = [&options] {
+    const VirtualScan scan = booth::scan_body(ball(), options);
+    const auto count = std::count_if(scan.cloud.points.begin(), scan.cloud.points.end(),
+                                     [](const Vector3d& p) { return p.z() > kCentre.z(); });
+    return static_cast<double>(count) / static_cast<double>(scan.cloud.points.size());
+  };
+  const double before = on_top();
+  // A box-like ellipsoid: all of the upper half, nothing of the lower one
+  options.dark = {{kCentre + Vector3d(0, 0, 9), Vector3d(9, 9, 9), 0.75}};
+  const double left = 0.25 * before;
+  EXPECT_NEAR(on_top(), left / (left + 1 - before), 0.03);  // 20,000 points; the ellipsoid's curvature: 9 mm
+}
+
+TEST(VirtualScannerTest, AFractureShiftsWhatLaterColumnsSee) {
+  ScannerOptions options = perfect();
+  options.fracture = {kCentre, Vector3d::Constant(0.8), Vector3d(0, 0, 0.02), 2};
+  // On the ball's skin, halfway to the edge of the ellipsoid
+  const double expected = 0.02 * (1 - 0.25) * (1 - 0.25);
+  const VirtualScan scan = booth::scan_body(ball(), options);
+  for (std::size_t i = 0; i < scan.cloud.points.size(); ++i) {
+    const Vector3d back = scan.cloud.points[i] - Vector3d(0, 0, scan.sensor[i] / 3 >= 2 ? expected : 0);
+    ASSERT_LT(std::abs(off_ball(back)), 0.00006);  // chords
+  }
+}
+
 TEST(VirtualScannerTest, OptionsOutOfRangeAreRefusedByName) {
   const auto refused = [](ScannerOptions options) {
     try {

@@ -1,0 +1,21 @@
+/// Customers and booths drawn by lot: no two alike, each known exactly.
+#pragma once
+
+#include <cstdint>
+
+#include "booth/virtual_body.hpp"
+#include "booth/virtual_scanner.hpp"
+
+namespace tensegric_fit::booth {
+
+/// Drawn from the spans of women of 20 to 80: stature 1.50 to 1.80 m, bust girth 0.78 to 1.30 m, firm to
+/// hanging breasts, arms 15 to 80 degrees from the vertical, some stooped, turned or tilted. Same seed, same
+/// body. The body can be made.
+BodyParameters random_body(std::uint64_t seed);
+
+/// Eight to twelve sensors, 40,000 to 250,000 points; noise 0.5 to 1.5 mm, columns up to about 2 mm off,
+/// outliers to 0.5 %; on some floor, frame, hair, black underwear, or a fracture of 5 to 15 mm at an
+/// underarm. Same arguments, same options.
+ScannerOptions random_scanner(std::uint64_t seed, const VirtualBody& body);
+
+}  // namespace tensegric_fit::booth

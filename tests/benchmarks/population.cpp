@@ -1,0 +1,109 @@
+/// population: bodies drawn by lot, scanned, measured and compared with what is known of them. Prints a line
+/// a body, then how each measure does against ISO 20685. Exit 0 where every measure holds on 95 % of the
+/// bodies.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <iostream>
+#include <map>
+
+#include "booth/random_body.hpp"
+#include "booth/virtual_body.hpp"
+#include "booth/virtual_scanner.hpp"
+#include "comparison.hpp"
+#include "fit/chain.hpp"
+#include "geometry/status.hpp"
+
+namespace {
+
+using namespace tensegric_fit;
+
+constexpr double kShareAsked = 0.95;
+
+/// Every body is refused with a name or measured.
+struct Result {
+  std::vector<population::Error> errors;
+  std::string refusal;
+};
+
+Result measure(const booth::VirtualBody& body, int seed, bool mesh_only) {
+  try {
+    fit::StageTimes times;
+    const fit::Body measured =
+        mesh_only ? fit::measure_mesh(body.mesh, {}, times)
+                  : fit::measure_scan(booth::scan_body(body.mesh, booth::random_scanner(seed, body)).cloud,
+                                      {}, times);
+    const bool has_waist = body.waist_method.find("ruler") == std::string::npos;
+    return {population::errors_of(measured.measures, body.truth, has_waist), ""};
+  } catch (const geometry::Refusal& refusal) {
+    return {{}, fmt::format("{}: {}", refusal.code(), refusal.what())};
+  }
+}
+
+std::string description(const booth::BodyParameters& p, const booth::VirtualBody& body) {
+  std::string girths;
+  for (const geometry::Measure& girth : body.truth.girths)
+    if (girth.name == "bust" || girth.name == "underbust" || girth.name == "hip")
+      girths += fmt::format(" {} {:.2f}", girth.name, girth.metres);
+  return fmt::format("stature {:.2f}{} firmness {:.1f} belly {:.1f} arms {:.0f} stoop {:.0f} tilt {:.0f}",
+                     p.stature, girths, p.firmness, p.belly, p.arm_angle * 180 / M_PI, p.stoop * 180 / M_PI,
+                     p.tilt * 180 / M_PI);
+}
+
+std::string failures(const std::vector<population::Error>& errors) {
+  std::string text;
+  for (const population::Error& e : errors)
+    if (!(std::abs(e.millimetres) <= e.limit)) text += fmt::format("; {} {:+.1f}", e.measure, e.millimetres);
+  return text.empty() ? "; all within" : text;
+}
+
+int run(int first, int count, bool mesh_only) {
+  std::vector<std::vector<population::Error>> bodies;
+  std::vector<int> seeds;
+  std::map<std::string, std::vector<int>> refusals;
+  for (int seed = first; seed < first + count; ++seed) {
+    const booth::BodyParameters parameters = booth::random_body(seed);
+    const booth::VirtualBody body = booth::make_body(parameters);
+    const Result result = measure(body, seed, mesh_only);
+    std::cout << fmt::format("{} {}{}\n", seed, description(parameters, body),
+                             result.refusal.empty() ? failures(result.errors) : "; " + result.refusal)
+              << std::flush;
+    if (!result.refusal.empty()) {
+      refusals[result.refusal].push_back(seed);
+      continue;
+    }
+    bodies.push_back(result.errors);
+    seeds.push_back(seed);
+  }
+
+  bool holds = refusals.empty();
+  std::cout << fmt::format("\n{:<20} {:>6} {:>9} {:>16} {:>7} {:>8} {:>8}  {}\n", "measure, mm", "limit",
+                           "within", "mean +- 95 %", "median", "largest", "missing", "worst seed");
+  for (const population::Row& row : population::summary(bodies, seeds)) {
+    const bool enough =
+        row.within >= kShareAsked * row.bodies && std::abs(row.mean) + row.interval <= row.limit;
+    holds = holds && enough;
+    std::cout << fmt::format("{:<20} {:>6} {:>4}/{:<4} {:>8.2f} +- {:<4.2f} {:>7.2f} {:>8.1f} {:>8}  {}{}\n",
+                             row.measure, row.limit, row.within, row.bodies, row.mean, row.interval,
+                             row.median, row.largest, row.missing, row.worst, enough ? "" : "  short");
+  }
+  for (const auto& [refusal, refused] : refusals)
+    std::cout << fmt::format("refused {} of {}, first seed {}: {}\n", refused.size(), count, refused.front(),
+                             refusal);
+  return holds ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int first = 1, count = 20;
+  bool mesh_only = false;
+  CLI::App app("Measures bodies drawn by lot and compares with their truth.");
+  app.option_defaults()->always_capture_default();
+  app.add_option("--first", first, "first seed")->check(CLI::NonNegativeNumber);
+  app.add_option("--bodies", count, "how many")->check(CLI::PositiveNumber);
+  app.add_flag("--mesh-only", mesh_only, "measure the true surface: what landmarks alone do wrong");
+  CLI11_PARSE(app, argc, argv);
+  return run(first, count, mesh_only);
+}
