@@ -51,9 +51,8 @@ Kkt::Kkt(const Problem& problem)
       regions_(static_cast<int>(problem.volumes.size())),
       bands_(static_cast<int>(problem.bands.size())),
       least_raise_(1e-3 * spring(problem.model, problem.model.members.back())),
-      hessian_(problem.free_nodes, coupled_nodes(problem)) {
-  factor_.analyzePattern(hessian_.lower());
-}
+      hessian_(problem.free_nodes, coupled_nodes(problem)),
+      factor_(hessian_) {}
 
 Defect Kkt::defect(const Balance& at, const Load& load) const {
   Defect result;
@@ -114,16 +113,12 @@ void Kkt::assemble(const Balance& at, double whole) {
                        -whole * at.pressures[r] / problem_.volumes[r].area, hessian_);
 }
 
-bool Kkt::usable() const {
-  return factor_.info() == Eigen::Success && factor_.vectorD().allFinite();
-}
-
 // Factorises and forms the Schur complement; true where the balance is a minimum under its conditions: by the
 // law of inertia, where the matrix has as many negative pivots as the complement has negative eigenvalues.
 bool Kkt::factorise(const Balance& at, const Load& load, const Defect& defect) {
-  factor_.factorize(hessian_.lower());
+  usable_ = factor_.factorise(hessian_);
   ++factorisations_;
-  if (!usable()) return false;
+  if (!usable_) return false;
   solved_ = factor_.solve(defect.jacobian);
   const int count = regions_ + bands_;
   by_length_.setOnes(count);
@@ -145,7 +140,7 @@ bool Kkt::factorise(const Balance& at, const Load& load, const Defect& defect) {
   schur_.diagonal() += by_multiplier_;
   schur_factor_.compute(schur_);
 
-  const Eigen::Index negative = (factor_.vectorD().array() <= 0).count();
+  const int negative = factor_.negative_pivots();
   if (negative == 0) return true;
   std::vector<int> kept;
   for (int i = 0; i < count; ++i)
@@ -163,7 +158,7 @@ Step Kkt::step(const Balance& at, const Load& load, const Defect& defect, bool t
   Step result;
   assemble(at, 1);
   result.minimum = factorise(at, load, defect);
-  if (!result.minimum && !(to_saddle && usable())) {
+  if (!result.minimum && !(to_saddle && usable_)) {
     double raise = least_raise_;
     taken_back_ = std::max(kLeastTakenBack, taken_back_ / 2);
     for (int tries = 0; tries < kMostTries; ++tries) {
@@ -174,7 +169,7 @@ Step Kkt::step(const Balance& at, const Load& load, const Defect& defect, bool t
       taken_back_ = std::min(1.0, 2 * taken_back_);
     }
   }
-  if (!usable()) {
+  if (!usable_) {
     result.move.setConstant(defect.gradient.size(), std::numeric_limits<double>::quiet_NaN());
     return result;
   }

@@ -5,9 +5,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCholesky>
+#include <Eigen/QR>
 #include <vector>
 
+#include "tensegric/front_factor.hpp"
 #include "tensegric/node_matrix.hpp"
 #include "tensegric/problem.hpp"
 
@@ -82,7 +83,6 @@ class Kkt {
 
  private:
   void assemble(const Balance& at, double whole);
-  bool usable() const;
   bool factorise(const Balance& at, const Load& load, const Defect& defect);
 
   const Problem& problem_;
@@ -91,7 +91,8 @@ class Kkt {
   double taken_back_ = 1;  // of the negative parts: the last share that served
   int factorisations_ = 0;
   NodeMatrix hessian_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+  FrontFactor factor_;
+  bool usable_ = false;                        // the last factorisation
   Eigen::MatrixXd solved_;                     // the conditions' gradients, solved for
   Eigen::VectorXd by_length_, by_multiplier_;  // each condition's derivatives
   Eigen::MatrixXd schur_;

@@ -48,6 +48,15 @@ void NodeMatrix::add(int row, int column, const Eigen::Matrix3d& block) {
     for (int i = 0; i < 3; ++i) values[columns[3 * column + j] + (3 - j) + 3 * rank + i] += block(i, j);
 }
 
+Eigen::Matrix3d NodeMatrix::block(int column, int rank) const {
+  Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
+  for (int j = 0; j < 3; ++j) {
+    const double* values = lower_.valuePtr() + lower_.outerIndexPtr()[3 * column + j];
+    for (int i = rank < 0 ? j : 0; i < 3; ++i) result(i, j) = values[rank < 0 ? i - j : 3 - j + 3 * rank + i];
+  }
+  return result;
+}
+
 void NodeMatrix::add_to_diagonal(double value) {
   for (int j = 0; j < lower_.cols(); ++j) lower_.valuePtr()[lower_.outerIndexPtr()[j]] += value;
 }

@@ -19,6 +19,14 @@ class NodeMatrix {
   /// fixed node) adds nothing. \pre the pair is in the pattern
   void add(int row, int column, const Eigen::Matrix3d& block);
   void add_to_diagonal(double value);
+  int nodes() const { return static_cast<int>(start_.size()) - 1; }
+  /// The nodes below the diagonal in a block column, ascending.
+  std::vector<int> below(int column) const {
+    return {rows_.begin() + start_[column], rows_.begin() + start_[column + 1]};
+  }
+  /// The block at the `rank`th of below(column), or with rank -1 the lower triangle of the one on the
+  /// diagonal.
+  Eigen::Matrix3d block(int column, int rank) const;
   /// Lower triangle.
   const Eigen::SparseMatrix<double>& lower() const { return lower_; }
 
