@@ -30,11 +30,11 @@ Needle needle_of(const std::vector<Eigen::Vector3d>& vertices, const Eigen::Vect
 }  // namespace
 
 std::vector<Tie> tie_needles(const geometry::TriangleMesh& body, std::vector<Anchor>& anchors) {
-  std::vector<int> anchor_of(body.vertices.size(), -1);
-  for (std::size_t i = 0; i < anchors.size(); ++i) anchor_of[anchors[i].vertex] = static_cast<int>(i);
+  std::vector<double> shares(body.vertices.size(), 0);
+  for (const Anchor& anchor : anchors) shares[anchor.vertex] = anchor.share;
   std::vector<Needle> needles;
   for (const Eigen::Vector3i& t : body.triangles) {
-    if (anchor_of[t[0]] < 0 || anchor_of[t[1]] < 0 || anchor_of[t[2]] < 0) continue;
+    if (shares[t[0]] == 0 && shares[t[1]] == 0 && shares[t[2]] == 0) continue;
     const Needle needle = needle_of(body.vertices, t);
     if (needle.narrowness < kNarrow) needles.push_back(needle);
   }
@@ -42,17 +42,21 @@ std::vector<Tie> tie_needles(const geometry::TriangleMesh& body, std::vector<Anc
                    [](const Needle& a, const Needle& b) { return a.narrowness < b.narrowness; });
 
   enum Role : char { none, carries, tied };
-  std::vector<Role> roles(anchors.size(), none);
+  std::vector<Role> roles(shares.size(), none);
   std::vector<Tie> ties;
   for (const Needle& needle : needles) {
     const Tie& tie = needle.tie;
-    const int top = anchor_of[tie.vertex], from = anchor_of[tie.from], to = anchor_of[tie.to];
-    if (roles[top] != none || roles[from] == tied || roles[to] == tied) continue;
-    roles[top] = tied;
-    roles[from] = roles[to] = carries;
-    anchors[top].share = anchors[from].share + tie.part * (anchors[to].share - anchors[from].share);
+    if (roles[tie.vertex] != none || roles[tie.from] == tied || roles[tie.to] == tied) continue;
+    const double share = shares[tie.from] + tie.part * (shares[tie.to] - shares[tie.from]);
+    if (share == 0) continue;
+    roles[tie.vertex] = tied;
+    roles[tie.from] = roles[tie.to] = carries;
+    shares[tie.vertex] = share;
     ties.push_back(tie);
   }
+  anchors.clear();
+  for (std::size_t v = 0; v < shares.size(); ++v)
+    if (shares[v] > 0) anchors.push_back({static_cast<int>(v), shares[v]});
   return ties;
 }
 

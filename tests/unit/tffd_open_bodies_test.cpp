@@ -1,0 +1,62 @@
+// Garments on scanned bodies: the skin must not turn over.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "control_mesh/fit_template.hpp"
+#include "geometry/ply.hpp"
+#include "landmarks/find_landmarks.hpp"
+#include "tensegric/solver.hpp"
+#include "tffd/binding.hpp"
+
+namespace tensegric_fit::tffd {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+const std::string kSource = TENSEGRIC_FIT_SOURCE_DIR;
+
+Eigen::Vector3d normal(const Eigen::Vector3i& t, const Points& p) {
+  return geometry::area_vector(p[t[0]], p[t[1]], p[t[2]]);
+}
+
+class OpenBody : public testing::TestWithParam<const char*> {};
+
+TEST_P(OpenBody, NoTriangleTurnsOverAtFifteenPercent) {
+  const std::string file = kSource + "/../shared/data/open/" + GetParam() + "_body.ply";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+  const geometry::TriangleMesh body = geometry::read_ply_mesh(file);
+  const geometry::BodyMeasures measures = landmarks::find_landmarks(body, {}, {});
+  const auto piece = [&](const char* name) {
+    const auto pattern = control_mesh::load_template(kSource + "/launch/templates/" + name + ".yaml");
+    return control_mesh::fit_template(pattern, body, measures, {});
+  };
+  const geometry::ControlMesh control = geometry::joined({piece("bust"), piece("hips")});
+  const tensegric::Model model = tensegric::build_model(control, {});
+  const Binding binding(body, control, {});
+  const std::vector<geometry::Edge> edges = geometry::edges_of(body);
+  for (const char* name : {"B1", "B3", "B4", "H1", "H3"}) {
+    tensegric::Garment garment = tensegric::load_garment(kSource + "/launch/garments/" + name + ".yaml");
+    for (auto& line : garment.lines) line.ratio = 0.85;
+    const tensegric::Solution worn = tensegric::solve(model, garment, {});
+    const Points after = binding.deform(worn.outer, worn.inner);
+    int turned = 0, folded = 0;
+    for (const Eigen::Vector3i& t : body.triangles)
+      turned += normal(t, body.vertices).dot(normal(t, after)) <= 0;
+    // Creases may close somewhat; a triangle that lies on its neighbour is a fold.
+    for (const geometry::Edge& edge : edges) {
+      if (edge.right < 0) continue;
+      const Eigen::Vector3i &l = body.triangles[edge.left], &r = body.triangles[edge.right];
+      const auto cosine = [&](const Points& p) {
+        return normal(l, p).normalized().dot(normal(r, p).normalized());
+      };
+      folded += cosine(body.vertices) > 0 && cosine(after) < -0.7;
+    }
+    EXPECT_EQ(turned, 0) << name;
+    EXPECT_EQ(folded, 0) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tffd, OpenBody, testing::Values("F0", "F1", "F2"));
+
+}  // namespace
+}  // namespace tensegric_fit::tffd
