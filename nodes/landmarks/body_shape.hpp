@@ -10,9 +10,15 @@ namespace tensegric_fit::landmarks {
 
 /// x forward, y left, z up, floor at 0.
 struct BodyShape {
-  explicit BodyShape(geometry::TriangleMesh body_in_its_frame);
+  /// `filled` as for find_landmarks.
+  explicit BodyShape(geometry::TriangleMesh body_in_its_frame, std::vector<char> filled = {});
+
+  /// Whether the scan saw none of the skin within `radius` of a point: any vertex there is one of a filled
+  /// hole.
+  bool unseen(const Eigen::Vector3d& point, double radius) const;
 
   geometry::TriangleMesh mesh;
+  std::vector<char> filled;              ///< empty, or one flag a vertex: the scan saw nothing there
   std::vector<Eigen::Vector3d> normals;  ///< area-weighted, unit, one a vertex
   SlicedMesh sliced;
   BodyLevels levels;

@@ -179,10 +179,12 @@ void upper_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
     record.height("neck", neck.origin.z());
     record.girth("neck", neck.tape);
   }
-  const Shoulders shoulders = find_shoulders(body, trunk, neck);
-  if (shoulders.found)
-    for (Side side : {kLeft, kRight})
-      record.landmark(std::string("shoulder") + kSuffix[side], shoulders.points[side]);
+  for (Side side : {kLeft, kRight}) {
+    const Shoulder shoulder = find_shoulder(body, trunk, neck, side);
+    if (shoulder.found)
+      record.landmark(std::string("shoulder") + kSuffix[side], shoulder.point, shoulder.confidence,
+                      shoulder.reason);
+  }
   if (body.levels.has_head) {
     record.height("stature", body.stature);
   } else {
@@ -200,7 +202,7 @@ BodyMeasures find_landmarks(const TriangleMesh& mesh, const std::vector<char>& f
     throw geometry::Refusal(geometry::refusal::kBadMesh, "one flag a vertex is needed to tell filled holes");
 
   const BodyFrame frame = find_body_frame(mesh);
-  const BodyShape body(in_frame(mesh, frame.body_from_scan));
+  const BodyShape body(in_frame(mesh, frame.body_from_scan), filled);
   const Trunk trunk(body);
   Record record(body, filled, frame);
   const double hip = lower_trunk(body, trunk, record);

@@ -10,7 +10,7 @@ namespace tensegric_fit::landmarks {
 namespace {
 
 constexpr double kBehindPubis =
-    0.65;  // of the way from the pubis to the cleft of the buttocks lies the perineum's middle
+    0.040;  // statures: the perineum's middle, on bone, however far back thighs touch
 
 constexpr double kThigh = 0.13;  // statures under the buttock point: the back of the thigh, below the fold
 constexpr double kFoldByProportion = 0.065;
@@ -40,7 +40,7 @@ bool find_buttock(const BodyShape& body, Side side, Eigen::Vector3d& point) {
 GlutealFold find_gluteal_fold(const BodyShape& body, const Eigen::Vector3d& buttock) {
   const double s = body.stature, beside = 0.01;
   const std::vector<int> skin = triangles_in_box(
-      body, {buttock.x() - 0.02 * s, buttock.y() - beside, buttock.z() - (kThigh + 0.01) * s},
+      body, {buttock.x() - 0.02 * s, buttock.y() - beside, buttock.z() - (kThigh + 0.03) * s},
       {buttock.x() + 0.09 * s, buttock.y() + beside, buttock.z()});
   const Profile profile = cut_profile(body, skin, buttock, -Eigen::Vector3d::UnitX());
   const Eigen::Vector3d* deepest = nullptr;
@@ -84,7 +84,7 @@ Eigen::Vector3d side_of(const Outline& outline, Side side) {
 Eigen::Vector3d find_crotch(const BodyShape& body) {
   const double y = body.crotch.above.y, s = body.stature;
   const Bridge bridge = narrowest_bridge(body.sliced.outlines_at(body.crotch.height + 0.003 * s), y, y);
-  return {bridge.front + kBehindPubis * (bridge.back - bridge.front), y, body.crotch.height};
+  return {std::max(bridge.front - kBehindPubis * s, bridge.back), y, body.crotch.height};
 }
 
 }  // namespace tensegric_fit::landmarks

@@ -1,9 +1,9 @@
 #include "landmarks/neck.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "landmarks/neck_plane.hpp"
 #include "landmarks/profile.hpp"
 
 namespace tensegric_fit::landmarks {
@@ -12,11 +12,31 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-// In statures. The neck's girth is taken a little above its base: 40 mm above the notch at the throat.
-constexpr double kPlaneAboveNotch = 0.0236;
 constexpr double kHighest = 0.93;    // of stature: the mouth; a neck is lower
 constexpr double kNeckToHead = 0.7;  // a neck's section is smaller than this share of the head's
-constexpr double kRadius = 0.085;    // a thick neck is within, shoulders and chin are not
+constexpr double kCorner = 15;       // 1/m: chin and neck meet in a corner more hollow than that
+
+// In statures, with the girth in statures too: fat under the chin lowers the corner, and a thick neck is
+// hardly thinner anywhere. Along the skin from the corner under the chin down to the girth's plane and to the
+// notch; along the axis from the plane down to vertebra and neck side.
+constexpr double kGirth = 0.188;
+double plane_below_corner(double girth) {
+  return 0.0207 - 0.10 * (girth - kGirth);
+}
+double notch_below_corner(double girth) {
+  return 0.0348 - 0.166 * (girth - kGirth);
+}
+double side_below_plane(double girth) {
+  return 0.0107 - 0.105 * (girth - kGirth);
+}
+constexpr double kBackBelowPlane = 0.0383, kSideForwards = 0.003;
+constexpr double kPlaneAboveNotch = 0.0236;
+constexpr double kUprightLean = 23 * kDegree;
+
+// The plane of a thin neck's base leans further than that of its least girth, a thick one's less.
+double base_lean(double lean, double girth) {
+  return lean + std::clamp(-160 * (girth - kGirth), -3.0, 4.0) * kDegree;
+}
 
 // Area of the trunk's section: the median of five levels, since at lips and ears one section can fall into
 // pieces.
@@ -30,7 +50,6 @@ double steady_area(const std::vector<Level>& levels, int at) {
 
 // The level between axillae and head at which trunk and neck are thinnest, or -1.
 int thinnest_level(const BodyShape& body, const Trunk& trunk) {
-  if (!body.levels.has_head) return -1;
   const std::vector<Level>& levels = body.levels.levels;
   int thinnest = -1;
   double least = 1e9, widest_above = 0;
@@ -47,120 +66,168 @@ int thinnest_level(const BodyShape& body, const Trunk& trunk) {
   return thinnest;
 }
 
-// The tape round the neck in the plane through `origin` leaning forward by `lean`; empty where it is not
-// closed.
-std::vector<Vector3d> neck_tape(const BodyShape& body, const std::vector<int>& skin, const Vector3d& origin,
-                                double lean) {
-  const Vector3d normal(std::sin(lean), 0, std::cos(lean));
-  const geometry::SectionLoop* around = nullptr;
-  double nearest = kRadius * body.stature;
-  const std::vector<geometry::SectionLoop> loops = cut(body, skin, origin, normal);
-  for (const geometry::SectionLoop& loop : loops) {
-    if (!loop.closed) continue;
-    Vector3d mean = Vector3d::Zero();
-    for (const Vector3d& p : loop.points) mean += p / static_cast<double>(loop.points.size());
-    if ((mean - origin).norm() < nearest && loop.points.size() > 20) {
-      nearest = (mean - origin).norm();
-      around = &loop;
+struct Plane {
+  Vector3d origin;
+  double lean;
+};
+
+// The thinnest loop round the neck, whatever its lean.
+Plane thinnest_plane(const NeckPlanes& planes, const Vector3d& middle, double stature) {
+  Plane plane{middle, 0};
+  for (int pass = 0; pass < 4; ++pass) {
+    plane.lean = planes.least_lean(plane.origin);
+    plane.origin = planes.middle_of_tape(plane.origin, plane.lean);
+    const Vector3d axis = NeckPlanes::normal_of(plane.lean), start = plane.origin;
+    double least = planes.girth(start, plane.lean);
+    for (int step = -4; step <= 4; ++step) {
+      const Vector3d origin = start + 0.004 * stature * step * axis;
+      const double girth = planes.girth(origin, plane.lean);
+      if (girth >= least) continue;
+      least = girth;
+      plane.origin = origin;
     }
+    const bool settled = plane.origin == start;
+    plane.origin = planes.middle_of_tape(plane.origin, plane.lean);
+    if (settled) break;
   }
-  return around == nullptr ? std::vector<Vector3d>() : geometry::tape(around->points, normal);
+  return plane;
 }
 
-// The notch at the throat: where the front profile, running down from the chin, stops receding and turns to
-// the chest.
-bool find_notch(const BodyShape& body, const Vector3d& neck_middle, Vector3d& notch) {
+// Front of chin, neck and chest in the middle, from top to bottom.
+Profile front_of_neck(const BodyShape& body, const Vector3d& middle) {
   const double s = body.stature;
-  const std::vector<int> skin = triangles_in_box(body, neck_middle + Vector3d(0, -0.01 * s, -0.07 * s),
-                                                 neck_middle + Vector3d(0.12 * s, 0.01 * s, 0.005 * s));
-  const Profile front = cut_profile(body, skin, neck_middle, Vector3d::UnitX());
+  return cut_profile(body,
+                     triangles_in_box(body, middle + Vector3d(-0.02 * s, -0.01 * s, -0.07 * s),
+                                      middle + Vector3d(0.12 * s, 0.01 * s, 0.07 * s)),
+                     middle, Vector3d::UnitX());
+}
+
+// Where chin and neck meet: the most hollow point round the height of the thinnest loop, or -1.
+int corner_under_chin(const Profile& front, const Plane& thinnest, double stature) {
+  const Vector3d axis = NeckPlanes::normal_of(thinnest.lean);
+  int level = -1;
+  double nearest = 0.01 * stature;
+  for (int i = 0; i < static_cast<int>(front.points.size()); ++i) {
+    const double off = std::abs(axis.dot(front.points[i] - thinnest.origin));
+    if (off >= nearest) continue;
+    nearest = off;
+    level = i;
+  }
+  if (level < 0) return -1;
+  const int up = static_cast<int>(0.030 * stature / front.step),
+            down = static_cast<int>(0.012 * stature / front.step);
+  int corner = -1;
+  double most = kCorner;
+  for (int i = std::max(0, level - up); i <= level + down; ++i) {
+    if (front.hollowness(i, 8) <= most) continue;
+    most = front.hollowness(i, 8);
+    corner = i;
+  }
+  return corner;
+}
+
+// The notch at the throat where no corner tells: where the profile, running down, stops receding.
+int deepest_point(const Profile& front, const Vector3d& middle) {
   int deepest = -1;
   for (int i = 0; i < static_cast<int>(front.points.size()); ++i)
-    if (deepest < 0 || front.points[i].x() < front.points[deepest].x()) deepest = i;
-  if (deepest < 0) return false;
-  // Middle of the stretch that is as deep to 0.3 mm: noise moves a single point by centimetres.
-  Vector3d sum = Vector3d::Zero();
-  int count = 0;
-  for (const Vector3d& p : front.points) {
-    if (p.x() > front.points[deepest].x() + 0.0003) continue;
-    sum += p;
-    ++count;
-  }
-  notch = sum / count;
-  return true;
+    if (front.points[i].z() < middle.z() &&
+        (deepest < 0 || front.points[i].x() < front.points[deepest].x() - 1e-9))
+      deepest = i;
+  return deepest;
+}
+
+const Vector3d& along(const Profile& front, int from, double length) {
+  const int at = from + static_cast<int>(std::lround(length / front.step));
+  return front.points[std::clamp(at, 0, static_cast<int>(front.points.size()) - 1)];
 }
 
 }  // namespace
 
 Neck find_neck(const BodyShape& body, const Trunk& trunk) {
+  const double s = body.stature;
   Neck neck;
+  if (!body.levels.has_head) {
+    neck.missing = "no neck and head";
+    return neck;
+  }
+  neck.missing = "no neck thinner than the head was found";
   const int level = thinnest_level(body, trunk);
   if (level < 0) return neck;
-  const Level& thinnest = body.levels.levels[level];
-  const Eigen::Vector2d& centre = thinnest.outlines[thinnest.trunk].centroid;
-  const Vector3d middle(centre.x(), centre.y(), thinnest.height);
-  if (!find_notch(body, middle, neck.front)) return neck;
+  const Level& at = body.levels.levels[level];
+  const Eigen::Vector2d& centre = at.outlines[at.trunk].centroid;
+  const NeckPlanes planes(body, {centre.x(), centre.y(), at.height});
 
-  // The plane's origin is the middle of its own loop, a fixed way above the notch; its lean is the one of
-  // least girth.
-  const double s = body.stature, radius = kRadius * s;
-  neck.origin = {middle.x(), middle.y(), neck.front.z() + kPlaneAboveNotch * s};
-  const std::vector<int> skin = triangles_in_box(body, neck.origin - Vector3d(radius, radius, radius),
-                                                 neck.origin + Vector3d(radius, radius, radius));
-  double lean = 0;
-  for (int pass = 0; pass < 3; ++pass) {
-    double least = 1e9;
-    for (double angle = 0; angle <= 45 * kDegree; angle += 1.5 * kDegree) {
-      const double girth = geometry::length_of(neck_tape(body, skin, neck.origin, angle), true);
-      if (girth <= 0 || girth >= least) continue;
-      least = girth;
-      lean = angle;
-    }
-    neck.tape = neck_tape(body, skin, neck.origin, lean);
-    if (neck.tape.empty()) return neck;
-    Vector3d low = neck.tape.front(), high = low;
-    for (const Vector3d& p : neck.tape) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    neck.origin.head<2>() = (low + high).head<2>() / 2;
+  // 1. The thinnest loop, and from its front the corner under the chin.
+  const Plane thinnest = thinnest_plane(planes, {centre.x(), centre.y(), at.height}, s);
+  const Profile front = front_of_neck(body, thinnest.origin);
+  const int corner = corner_under_chin(front, thinnest, s), deepest = deepest_point(front, thinnest.origin);
+  if (corner < 0 && deepest < 0) return neck;
+  if (corner < 0) {
+    neck.confidence = 0.45;
+    neck.reason = "no corner between chin and neck; from the deepest point of the throat";
   }
-  neck.tape = neck_tape(body, skin, neck.origin, lean);
-  neck.axis = {std::sin(lean), 0, std::cos(lean)};
-  neck.girth = geometry::length_of(neck.tape, true);
-  neck.found = !neck.tape.empty();
+
+  // 2. The girth is the least one round the middle of the neck's base, a given way below that corner.
+  double lean = thinnest.lean, girth = planes.girth(thinnest.origin, lean) / s;
+  neck.origin = thinnest.origin;
+  for (int pass = 0; pass < 3; ++pass) {
+    const Vector3d anchor = corner >= 0
+                                ? along(front, corner, plane_below_corner(girth) * s)
+                                : Vector3d(front.points[deepest] + Vector3d(0, 0, kPlaneAboveNotch * s));
+    const double base = base_lean(lean, girth);
+    const Vector3d axis = NeckPlanes::normal_of(base);
+    neck.origin += axis.dot(anchor - neck.origin) * axis;
+    neck.origin = planes.middle_of_tape(neck.origin, base);
+    lean = planes.least_lean(neck.origin);
+    neck.tape = planes.tape(neck.origin, lean);
+    if (neck.tape.empty()) return neck;
+    neck.girth = geometry::length_of(neck.tape, true);
+    girth = neck.girth / s;
+  }
+  neck.front = corner >= 0 ? along(front, corner, notch_below_corner(girth) * s) : front.points[deepest];
+  const double base = base_lean(lean, girth);
+  neck.axis = NeckPlanes::normal_of(base);
+  neck.forwards = {std::cos(base), 0, -std::sin(base)};
+  neck.turn = base - kUprightLean;
+  neck.found = true;
   return neck;
 }
 
 Vector3d find_neck_back(const BodyShape& body, const Neck& neck) {
   const double s = body.stature;
-  const Vector3d at(neck.origin.x(), neck.origin.y(), neck.front.z());
-  const std::vector<int> skin = triangles_in_box(body, at + Vector3d(-0.12 * s, -0.01 * s, -0.03 * s),
-                                                 at + Vector3d(0, 0.01 * s, 0.04 * s));
-  const Profile back = cut_profile(body, skin, at, -Vector3d::UnitX());
-  Vector3d nape = at - Vector3d(0.045 * s, 0, 0);
+  const Vector3d reach = Vector3d(0.12, 0.01, 0.12) * s,
+                 wanted = neck.origin - kBackBelowPlane * s * neck.axis;
+  Vector3d nape = wanted - 0.03 * s * neck.forwards;
   double nearest = 1e9;
-  for (const Vector3d& p : back.points) {
-    if (std::abs(p.z() - at.z()) >= nearest) continue;
-    nearest = std::abs(p.z() - at.z());
-    nape = p;
+  const std::vector<int> skin = triangles_in_box(body, wanted - reach, wanted + reach);
+  for (const geometry::SectionLoop& loop : cut(body, skin, neck.origin, Vector3d::UnitY())) {
+    for (const Vector3d& p : loop.points) {
+      const double off = std::abs(neck.axis.dot(p - wanted));
+      if (neck.forwards.dot(p - wanted) > 0 || off >= nearest) continue;
+      nearest = off;
+      nape = p;
+    }
   }
   return nape;
 }
 
 Vector3d find_neck_side(const BodyShape& body, const Neck& neck, Side side) {
-  // Where the line from neck to shoulder is as steep as it is flat.
   const double s = body.stature, sign = kSign[side];
-  const Vector3d low = neck.origin + Vector3d(-0.01 * s, sign > 0 ? 0 : -0.1 * s, -0.05 * s);
-  const Vector3d high = neck.origin + Vector3d(0.01 * s, sign > 0 ? 0.1 * s : 0, 0.03 * s);
-  const Profile slope =
-      cut_profile(body, triangles_in_box(body, low, high), neck.origin, sign * Vector3d::UnitY());
-  const int reach = 10;
-  for (int i = reach; i + reach < static_cast<int>(slope.points.size()); ++i) {
-    const Vector3d run = slope.points[i + reach] - slope.points[i - reach];
-    if (std::abs(run.y()) > std::abs(run.z())) return slope.points[i];
+  const Vector3d wanted =
+      neck.origin + kSideForwards * s * neck.forwards - side_below_plane(neck.girth / s) * s * neck.axis;
+  const Vector3d reach = Vector3d(0.03, 0.08, 0.05) * s;
+  Vector3d place = wanted + Vector3d(0, sign * 0.035 * s, 0);
+  double nearest = 1e9;
+  const std::vector<int> skin = triangles_in_box(body, wanted - reach, wanted + reach);
+  for (const geometry::SectionLoop& loop : cut(body, skin, wanted, neck.forwards)) {
+    for (const Vector3d& p : loop.points) {
+      const double off = std::abs(neck.axis.dot(p - wanted));
+      if (sign * (p.y() - wanted.y()) < 0.01 * s || off >= nearest) continue;
+      nearest = off;
+      place = p;
+    }
   }
-  return neck.origin + Vector3d(0, sign * 0.035 * s, -0.012 * s);
+  return place;
 }
 
 }  // namespace tensegric_fit::landmarks

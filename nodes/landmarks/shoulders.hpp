@@ -1,19 +1,23 @@
 /// Shoulder points.
 #pragma once
 
+#include <string>
+
 #include "landmarks/neck.hpp"
 #include "landmarks/trunk.hpp"
 
 namespace tensegric_fit::landmarks {
 
-struct Shoulders {
+/// The acromion, as the skin over it.
+struct Shoulder {
   bool found = false;
-  Eigen::Vector3d points[2] = {Eigen::Vector3d::Zero(),
-                               Eigen::Vector3d::Zero()};  ///< left, right: the acromia, as the skin over them
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double confidence = 0.9;
+  std::string reason;  ///< of a low confidence, or why it was not found
 };
 
-/// Both at the same distance from the neck's middle: half the breadth that slopes and axillae of both sides
-/// tell.
-Shoulders find_shoulders(const BodyShape& body, const Trunk& trunk, const Neck& neck);
+/// Of one side alone: a collarbone's length out from the neck's side, and half an arm's breadth beyond the
+/// axilla, where these tell; behind the neck's side. Turns with the neck where the body stoops.
+Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& neck, Side side);
 
 }  // namespace tensegric_fit::landmarks

@@ -13,6 +13,9 @@ constexpr double kAxillaShare = 0.75;     // of stature, where no arm tells
 constexpr double kHighestWaist = 0.70;    // of stature
 constexpr double kWidestChest = 1.7;      // of the waist; what reaches further out is a forearm already
 constexpr double kBeyondShoulders = 0.2;  // of stature, from the middle
+constexpr double kWidestGap =
+    0.02;  // statures, of arm and trunk a fraction of a millimetre under the place where they join
+constexpr double kFilling = 0.006;   // statures, 10 mm: as much of an armpit sensors may not see
 constexpr double kUnderArm = 0.025;  // statures under the axilla where the arm tells how far it is raised
 constexpr double kRaised = 1.5;      // times that, from the trunk to the arm: 56 degrees
 
@@ -24,6 +27,45 @@ int trunk_among(const std::vector<Outline>& outlines, const BodyLevels& levels, 
   for (std::size_t i = 0; i < outlines.size(); ++i)
     if (contains(outlines[i], middle)) return static_cast<int>(i);
   return -1;
+}
+
+Eigen::Vector3d nearest_on(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& p) {
+  const double along = (p - a).dot(b - a) / std::max((b - a).squaredNorm(), 1e-18);
+  return a + std::clamp(along, 0.0, 1.0) * (b - a);
+}
+
+// Middle of the narrowest place between two outlines; returns how narrow it is.
+double gap_between(const Outline& one, const Outline& other, Eigen::Vector3d& middle) {
+  double least = 1e9;
+  const auto look = [&](const Outline& points, const Outline& line) {
+    for (const Eigen::Vector3d& p : points.points) {
+      for (std::size_t i = 0; i < line.points.size(); ++i) {
+        const Eigen::Vector3d q = nearest_on(line.points[i], line.points[(i + 1) % line.points.size()], p);
+        if ((p - q).norm() >= least) continue;
+        least = (p - q).norm();
+        middle = (p + q) / 2;
+      }
+    }
+  };
+  look(one, other);
+  look(other, one);
+  return least;
+}
+
+// The narrowest place between the trunk and what is beside it, or false where nothing is near.
+bool gap_beside(const Outline& trunk, const std::vector<Outline>& outlines, Side side, double widest,
+                Eigen::Vector3d& middle) {
+  bool found = false;
+  for (const Outline& other : outlines) {
+    if (kSign[side] * (other.centroid.y() - trunk.centroid.y()) <= 0 || other.area >= trunk.area) continue;
+    Eigen::Vector3d here = Eigen::Vector3d::Zero();
+    const double gap = gap_between(trunk, other, here);
+    if (gap >= widest) continue;
+    widest = gap;
+    middle = here;
+    found = true;
+  }
+  return found;
 }
 
 double reach(const Outline& outline, Side side) {
@@ -77,6 +119,13 @@ Axilla Trunk::find_axilla(Side side) const {
   // elbow that touches the body comes before).
   const std::vector<Level>& levels = body_.levels.levels;
   const double jump = 0.02 * body_.stature;  // half the breadth of a slim arm
+  // Where the arm has parted again, a hand or an elbow touched the trunk; where it has not, a forearm joins.
+  const auto parted_between = [&](int first, int last) {
+    const double joined = reach(levels[first].outlines[levels[first].trunk], side) + jump / 2;
+    for (int i = first + 1; i < last; ++i)
+      if (levels[i].trunk >= 0 && reach(levels[i].outlines[levels[i].trunk], side) < joined) return true;
+    return false;
+  };
   int below = -1;
   double waist = 1e9;
   for (int i = body_.levels.nearest(body_.crotch.height + 0.08 * body_.stature);
@@ -86,7 +135,8 @@ Axilla Trunk::find_axilla(Side side) const {
     const Outline &here = levels[i].outlines[levels[i].trunk],
                   &above = levels[i + 1].outlines[levels[i + 1].trunk];
     if (levels[i].height < kHighestWaist * body_.stature) waist = std::min(waist, reach(here, side));
-    if (reach(here, side) < kWidestChest * waist && reach(above, side) - reach(here, side) > jump) below = i;
+    if (reach(here, side) >= kWidestChest * waist || reach(above, side) - reach(here, side) <= jump) continue;
+    if (below < 0 || parted_between(below, i)) below = i;
   }
   if (below < 0) below = level_of_raised_arm(side);
   Axilla axilla;
@@ -95,7 +145,7 @@ Axilla Trunk::find_axilla(Side side) const {
   double low = levels[below].height, high = levels[below + 1].height;
   Outline trunk = levels[below].outlines[levels[below].trunk];
   const double narrow = reach(trunk, side);
-  for (int halving = 0; halving < 5; ++halving) {
+  for (int halving = 0; halving < 12; ++halving) {
     const double z = (low + high) / 2;
     std::vector<Outline> outlines = body_.sliced.outlines_at(z);
     const int at = trunk_among(outlines, body_.levels, z);
@@ -130,9 +180,16 @@ Axilla Trunk::find_axilla(Side side) const {
     const Junction junction = find_junction(
         body_.sliced, {low - 0.01 * body_.stature, low + 0.06 * body_.stature, std::min(inner, outer),
                        std::max(inner, outer), arm->high.x() - arm->low.x()});
-    axilla.point = {(junction.above.back + junction.above.front) / 2, junction.above.y, junction.height};
-    axilla.filled = junction.height - low > 0.006 * body_.stature;
-  } else {
+    if (gap_beside(trunk, outlines, side, kWidestGap * body_.stature, axilla.point)) {
+      axilla.filled = junction.height - low > kFilling * body_.stature ||
+                      body_.unseen(axilla.point, kFilling * body_.stature);
+      // How far to the side it is, skin that fills it tells well; how high and how far back, it does not.
+      if (axilla.filled)
+        axilla.point = {(junction.above.back + junction.above.front) / 2, axilla.point.y(), junction.height};
+      return axilla;
+    }
+  }
+  if (!gap_beside(trunk, outlines, side, kWidestGap * body_.stature, axilla.point)) {
     // Where the skin under the arm turns from upright to level: the section's reach grows as fast as its
     // height.
     const auto turns_out = [&](int i) {

@@ -81,7 +81,7 @@ TEST(Landmarks, OfASymmetricPersonAreWhereTheShapesPutThem) {
               0.03);  // a capsule of radius 50 to 55 mm, melted into the shoulders
   EXPECT_NEAR(measures.landmark("crotch").y(), 0, 0.01);
   // The arm melts into the trunk over 20 mm, so its root is no sharper than that.
-  EXPECT_NEAR(measures.landmark("axilla_L").z(), measures.landmark("axilla_R").z(), 0.015);
+  EXPECT_NEAR(measures.landmark("axilla_L").z(), measures.landmark("axilla_R").z(), 0.020);
 }
 
 TEST(Landmarks, WaistIsTheTrunksLeastTape) {
