@@ -13,7 +13,7 @@ namespace {
 using geometry::Refusal;
 namespace refusal = geometry::refusal;
 
-constexpr double kShortestMember = 1e-6;  // m; below it a direction is noise
+constexpr double kShortestMember = 1e-8;  // of the model's size; below it a direction is noise
 constexpr double kHighestPull =
     0.8;  // tension / k at rest: a natural length stays above a fifth of the rest length
 
@@ -23,28 +23,45 @@ void check_option(double value, double low, double high, const char* name) {
                                            std::to_string(low) + ", " + std::to_string(high) + "]");
 }
 
-// Fewer than three fixed nodes, or all in one line, leave the model free to move as a whole.
+// Fewer than three fixed nodes, or all in one line, leave a piece free to move as a whole.
 void check_held(const Model& model, const Positions& rest) {
-  std::vector<Eigen::Vector3d> held;
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    if (model.is_fixed(static_cast<int>(i))) held.push_back(rest[i]);
-  Eigen::Vector3d far = Eigen::Vector3d::Zero();  // from the first one to the farthest from it
-  for (const Eigen::Vector3d& p : held)
-    if ((p - held.front()).norm() > far.norm()) far = p - held.front();
-  double largest = 0;
-  for (const Eigen::Vector3d& p : held) largest = std::max(largest, far.cross(p - held.front()).norm());
-  if (!(largest > 1e-6 * far.squaredNorm()))
-    throw Refusal(refusal::kBadMesh, "the control mesh needs three fixed nodes or more, not in one line");
+  const geometry::ControlMesh& control = model.control;
+  const int count = static_cast<int>(control.outer.size());
+  std::vector<std::vector<Eigen::Vector3d>> held;  // of each piece
+  std::vector<char> counted(count, 0);
+  const std::vector<int> pieces = geometry::components_of({control.outer, control.triangles});
+  for (std::size_t t = 0; t < pieces.size(); ++t) {
+    held.resize(std::max<std::size_t>(held.size(), pieces[t] + 1));
+    for (int k = 0; k < 3; ++k) {
+      const int node = control.triangles[t][k];
+      for (int layer : {node, node + count})
+        if (!counted[node] && model.is_fixed(layer)) held[pieces[t]].push_back(rest[layer]);
+      counted[node] = 1;
+    }
+  }
+  for (const auto& points : held) {
+    Eigen::Vector3d far = Eigen::Vector3d::Zero();  // from the first one to the farthest from it
+    for (const Eigen::Vector3d& p : points)
+      if ((p - points.front()).norm() > far.norm()) far = p - points.front();
+    double largest = 0;
+    for (const Eigen::Vector3d& p : points) largest = std::max(largest, far.cross(p - points.front()).norm());
+    if (!(largest > 1e-6 * far.squaredNorm()))
+      throw Refusal(refusal::kBadMesh,
+                    "each piece of the control mesh needs three fixed nodes or more, not in one line");
+  }
 }
 
 // Members at their rest lengths, and the number of units that share each.
 std::vector<int> place_members(Model& model, const Positions& rest) {
   const int count = static_cast<int>(model.control.outer.size());
+  const auto box = geometry::bounding_box(rest);
+  const double shortest = kShortestMember * (box[1] - box[0]).norm();
   std::vector<int> units;
   const auto place = [&](int a, int b, bool strut, int sharing) {
     const double length = (rest[a] - rest[b]).norm();
-    if (!(length > kShortestMember))
-      throw Refusal(refusal::kBadMesh, "two nodes of the tensegric model that a part joins lie on one point");
+    if (!(length > shortest && std::isfinite(length)))
+      throw Refusal(refusal::kBadMesh,
+                    "two nodes of the tensegric model that a part joins lie on one point, or as good as");
     model.members.push_back({a, b, strut, length, length});
     units.push_back(sharing);
   };
@@ -107,8 +124,8 @@ double Model::mean_tension() const {
 
 Model build_model(const geometry::ControlMesh& control, const ModelOptions& options) {
   geometry::check_control_mesh(control);
-  check_option(options.strut_stiffness, 0.01, 1000, "strut_stiffness");
-  check_option(options.prestress, 0.001, 0.2, "prestress");
+  check_option(options.strut_stiffness, kSoftestStrut, kStiffestStrut, "strut_stiffness");
+  check_option(options.prestress, kLowestPrestress, kHighestPrestress, "prestress");
   Model model;
   model.control = control;
   model.options = options;
@@ -124,6 +141,7 @@ Model build_model(const geometry::ControlMesh& control, const ModelOptions& opti
     mean += tension / model.tensile_parts();
     highest = std::max(highest, tension);
   }
+  if (!(mean > 0)) throw Refusal(refusal::kBadMesh, "the control mesh has no prestress at all");
   const double scale = std::min(options.prestress / mean, kHighestPull / highest);
   for (std::size_t i = 0; i < model.members.size(); ++i) {
     Member& m = model.members[i];

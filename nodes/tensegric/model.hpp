@@ -11,10 +11,13 @@ namespace tensegric_fit::tensegric {
 /// Node positions: outer node i at i, inner node i at V + i. Metres, the scan's frame.
 using Positions = std::vector<Eigen::Vector3d>;
 
+inline constexpr double kSoftestStrut = 1e-3, kStiffestStrut = 1e6;
+inline constexpr double kLowestPrestress = 1e-6, kHighestPrestress = 0.5;
+
 /// Field defaults are the parameters' defaults.
 struct ModelOptions {
-  double strut_stiffness = 0.3;  ///< k_s / k, 0.01 to 1000: the papers' rigid strut is the limit
-  double prestress = 0.05;       ///< mean tension of the tensile parts at rest / k, 0.001 to 0.2
+  double strut_stiffness = 0.3;  ///< k_s / k: the papers' rigid strut is the limit
+  double prestress = 0.05;       ///< mean tension of the tensile parts at rest / k
 };
 
 /// A strut (two-way spring) or a tensile part (pulls only) between two nodes. Stiffness k / rest for a

@@ -137,7 +137,7 @@ class NearestBalance {
 
 Eigen::VectorXd force_densities(const Model& model, const std::vector<int>& units) {
   NearestBalance balance(model, units);
-  for (double lowest : {0.1, 0.01, 0.001}) {
+  for (double lowest : {0.1, 0.01, 0.001, 0.0}) {
     const Eigen::VectorXd density = balance.densities(lowest);
     if (density.size() > 0) return density;
   }

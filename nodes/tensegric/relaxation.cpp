@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tensegric/extrapolation.hpp"
 #include "tensegric/strut_relaxation.hpp"
 
 namespace tensegric_fit::tensegric {
 namespace {
 
 constexpr int kMostCycles = 5000;
-constexpr double kSettled = 1e-7;  // largest net force / mean tensile force at rest
+constexpr double kSettled = 1e-8;  // largest net force / mean tensile force at rest
 constexpr int kWindow = 60;        // cycles over which an oscillation is looked for
 constexpr double kSwing = 1e-3;    // smallest swing of a line ratio or volume error that counts as one
+constexpr int kPlainCycles = 300;  // before the slow rest is extrapolated, as no paper does
+constexpr int kRemembered = 10;    // cycles that it is extrapolated from
+constexpr double kRisen = 10;      // times the least residual: the extrapolation starts anew
 
 // A swing that does not die down: several reversals in the window, as wide in its later half as in its
 // earlier.
@@ -45,6 +49,13 @@ bool oscillates(const std::vector<Iterate>& history) {
   return false;
 }
 
+// Where it came nearest to balance.
+struct Nearest {
+  State state;
+  double residual = 0;
+  int cycle = 0;
+};
+
 }  // namespace
 
 Outcome relax(const Problem& problem, const Solution* start, bool adaptive, Recorder& recorder) {
@@ -53,20 +64,39 @@ Outcome relax(const Problem& problem, const Solution* start, bool adaptive, Reco
   Outcome outcome;
   outcome.state = relaxation.state();
   outcome.residual = relaxation.residual();
+  Nearest nearest{outcome.state, outcome.residual, 0};
+  Eigen::VectorXd before = relaxation.packed();
+  Extrapolation extrapolation(before.size(), kRemembered);
+  const auto settle_for = [&](Status status, const std::string& what) {
+    outcome.state = nearest.state;
+    outcome.residual = nearest.residual;
+    outcome.status = status;
+    outcome.note = what + " after " + std::to_string(outcome.iterations) + " cycles: this is cycle " +
+                   std::to_string(nearest.cycle) + ", the nearest to a balance.";
+    return outcome;
+  };
   while (outcome.residual > kSettled && outcome.iterations < most) {
+    const bool extrapolates = outcome.iterations >= kPlainCycles;
+    if (extrapolates) before = relaxation.packed();
     relaxation.cycle();
+    ++outcome.iterations;
     const double residual = relaxation.residual();
-    if (!relaxation.sane() || !std::isfinite(residual)) {
-      outcome.status = Status::diverged;
-      return outcome;
-    }
+    if (!relaxation.sane() || !std::isfinite(residual))
+      return settle_for(Status::diverged, "The forces of lines and volumes drove each other up; stopped");
     outcome.state = relaxation.state();
     outcome.residual = residual;
-    if (!recorder.record(++outcome.iterations, outcome.state.x, residual)) return outcome;
+    if (residual < nearest.residual) nearest = {outcome.state, residual, outcome.iterations};
+    if (!recorder.record(outcome.iterations, outcome.state.x, residual)) return outcome;
+    if (!extrapolates) continue;
+    if (residual > kRisen * nearest.residual)
+      extrapolation.restart();
+    else
+      relaxation.unpack(extrapolation.next(before, relaxation.packed()));
   }
-  outcome.status = outcome.residual <= kSettled   ? Status::converged
-                   : oscillates(recorder.history) ? Status::oscillating
-                                                  : Status::capped;
+  if (outcome.residual <= kSettled)
+    outcome.status = Status::converged;
+  else if (oscillates(recorder.history))
+    return settle_for(Status::oscillating, "The forces of lines and volumes swing");
   return outcome;
 }
 

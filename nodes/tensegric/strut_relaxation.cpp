@@ -8,9 +8,11 @@
 namespace tensegric_fit::tensegric {
 namespace {
 
-constexpr double kGathering = 0.3;   // share of the missing push that adds up in a cycle
-constexpr double kLeastShare = 0.1;  // of the volume force when it is held back
-constexpr double kFarAway = 3;       // a node that moved this many sizes of the model has left it
+constexpr double kGathering = 0.3;      // share of the missing push that adds up in a cycle
+constexpr double kLeastShare = 0.1;     // of the volume force when it is held back
+constexpr double kFarAway = 3;          // a node that moved this many sizes of the model has left it
+constexpr double kJustTaut = 1 + 1e-6;  // stretch
+constexpr double kShortSegment = 3e-3;  // of the model's size: below it a segment's direction is left alone
 
 // Mean size of the volume's gradient at a node, so that a volume force is the mean push at a node.
 double node_area(const RegionVolume& region) {
@@ -60,22 +62,35 @@ bool StrutRelaxation::sane() const {
 
 StrutRelaxation::Centre StrutRelaxation::centre(int node, int strut) const {
   Centre c;
+  double held = held_[node];
   for (int i : tensile_at_[node]) {
     const Member& m = model_.members[i];
     const Eigen::Vector3d& q = x_[m.a == node ? m.b : m.a];
     const Eigen::Vector3d span = x_[node] - q;
     const double length = span.norm();
-    if (length <= m.natural || length == 0) continue;  // slack parts drop out
+    if (length <= m.natural || length == 0) {  // slack parts drop out
+      held += spring(model_, m);
+      continue;
+    }
     c.at += spring(model_, m) * (q + m.natural / length * span);
     c.weight += spring(model_, m);
   }
   Eigen::Vector3d force = external_.segment<3>(3 * problem_.free_index[node]);
-  for (int s : struts_at_[node])
-    if (s != strut) force += model_.members[s].a == node ? pushes_[s] : Eigen::Vector3d(-pushes_[s]);
-  if (c.weight == 0) {  // nothing holds it: it stays, for the strut alone to move
-    c.weight = spring(model_, model_.members[strut]);
-    c.at = c.weight * x_[node];
+  for (int s : struts_at_[node]) {
+    if (s == strut) continue;
+    const Member& m = model_.members[s];
+    held += spring(model_, m);
+    if (adaptive_) {
+      const Eigen::Vector3d span = x_[m.a] - x_[m.b];
+      const double length = span.norm();
+      if (length > 0) force -= (m.a == node ? 1 : -1) * tension(model_, m, length) / length * span;
+    } else {
+      force += m.a == node ? pushes_[s] : Eigen::Vector3d(-pushes_[s]);
+    }
   }
+  if (!adaptive_) held = c.weight == 0 ? spring(model_, model_.members[strut]) : 0;
+  c.at += held * x_[node];
+  c.weight += held;
   c.at = (c.at + force) / c.weight;
   return c;
 }
@@ -102,20 +117,68 @@ void StrutRelaxation::settle_strut(int s) {
 void StrutRelaxation::update_forces() {
   const int outer = static_cast<int>(model_.control.outer.size());
   external_ = Eigen::VectorXd::Zero(3 * problem_.free_nodes);
+  held_.assign(x_.size(), 0);
   tensions_.clear();
-  for (const Band& band : problem_.bands) {
-    const double stretch = smooth_length(band, x_) / band.neutral;
-    const double pull = band.law.kind == TensionLaw::Kind::rigid
-                            ? problem_.options.line_force * std::max(0.0, stretch - 1)
-                            : law_tension(band.law, stretch);
-    tensions_.push_back(std::min(pull, band.tension_limit));
-    add_length_gradient(band, x_, problem_.free_index, -tensions_.back(), external_);
-  }
+  for (const Band& band : problem_.bands) pull(band);
   const double line_force = external_.norm();
   for (int i = 0; i < outer; ++i)
     if (problem_.free_index[i] >= 0)
       external_.segment<3>(3 * problem_.free_index[i]) += problem_.options.gravity;
   for (std::size_t r = 0; r < problem_.volumes.size(); ++r) push_volume(r, line_force);
+}
+
+void StrutRelaxation::pull(const Band& band) {
+  const double stretch = smooth_length(band, x_) / band.neutral;
+  const bool rigid = band.law.kind == TensionLaw::Kind::rigid;
+  const double tension =
+      rigid ? problem_.options.line_force * std::max(0.0, stretch - 1) : law_tension(band.law, stretch);
+  tensions_.push_back(std::min(tension, band.tension_limit));
+  add_length_gradient(band, x_, problem_.free_index, -tensions_.back(), external_);
+  if (!adaptive_) return;
+  const double slope = tension > band.tension_limit ? 0
+                       : rigid                      ? problem_.options.line_force
+                                                    : law_slope(band.law, std::max(stretch, kJustTaut));
+  hold_back(band, slope / band.neutral, tensions_.back());
+}
+
+// Along the band its tension grows by `slope`, as all its nodes move at once; across it the tension itself
+// turns.
+void StrutRelaxation::hold_back(const Band& band, double slope, double tension) {
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(external_.size());
+  add_length_gradient(band, x_, problem_.free_index, 1, gradient);
+  const double along = slope * gradient.squaredNorm();
+  for (int node : band.nodes) held_[node] += along;
+  for (std::size_t i = 1; i < band.nodes.size(); ++i) {
+    const int a = band.nodes[i - 1], b = band.nodes[i];
+    const double across = 2 * tension / std::max((x_[a] - x_[b]).norm(), kShortSegment * size_);
+    held_[a] += across;
+    held_[b] += across;
+  }
+}
+
+// The pushes of P1's way are as old as their struts' last turn; the adaptive way has no memory of them.
+Eigen::VectorXd StrutRelaxation::packed() const {
+  const auto nodes = static_cast<Eigen::Index>(x_.size()),
+             regions = static_cast<Eigen::Index>(gathered_.size()),
+             struts = adaptive_ ? 0 : static_cast<Eigen::Index>(pushes_.size());
+  Eigen::VectorXd all(3 * (nodes + struts) + external_.size() + regions);
+  Eigen::Index at = 0;
+  for (const Eigen::Vector3d& p : x_) all.segment<3>(3 * at++) = p;
+  for (Eigen::Index s = 0; s < struts; ++s) all.segment<3>(3 * at++) = size_ * pushes_[s];
+  all.segment(3 * at, external_.size()) = size_ * external_;
+  all.tail(regions) = size_ * Eigen::Map<const Eigen::VectorXd>(gathered_.data(), regions);
+  return all;
+}
+
+void StrutRelaxation::unpack(const Eigen::VectorXd& all) {
+  const auto regions = static_cast<Eigen::Index>(gathered_.size()),
+             struts = adaptive_ ? 0 : static_cast<Eigen::Index>(pushes_.size());
+  Eigen::Index at = 0;
+  for (std::size_t i = 0; i < x_.size(); ++i, ++at)
+    if (problem_.free_index[i] >= 0) x_[i] = all.segment<3>(3 * at);
+  for (Eigen::Index s = 0; s < struts; ++s) pushes_[s] = all.segment<3>(3 * at++) / size_;
+  external_ = all.segment(3 * at, external_.size()) / size_;
+  Eigen::Map<Eigen::VectorXd>(gathered_.data(), regions) = all.tail(regions) / size_;
 }
 
 // P1 §3.4; adaptive, P2 §5: held back by as much as the line force is the greater, and what is still
@@ -130,6 +193,10 @@ void StrutRelaxation::push_volume(std::size_t r, double line_force) {
     share = std::clamp(std::abs(missing + gathered_[r]) * push.norm() / line_force, kLeastShare, 1.0);
   if (adaptive_) gathered_[r] += kGathering * share * missing;
   external_ += (share * missing + gathered_[r]) * push;
+  if (!adaptive_) return;
+  const double stiffness =
+      problem_.options.volume_force * push.squaredNorm() * node_area(region) / std::abs(region.rest);
+  for (std::size_t i = 0; i < model_.control.outer.size(); ++i) held_[i] += stiffness;
 }
 
 }  // namespace tensegric_fit::tensegric

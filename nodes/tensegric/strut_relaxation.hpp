@@ -1,5 +1,9 @@
 /// The papers' computation: one strut after the other is put where its forces balance (P1 §3.1), with pseudo
 /// forces of volume and lines (P1 §3.4-3.5, P2 §5).
+///
+/// The adaptive way is stable where P1's swings: struts push as they stand, not as they were when last
+/// processed, and a node is held back by as much as slack parts, other struts and the pseudo forces may
+/// stiffen while it moves. What is at rest under the one is at rest under the other.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,6 +29,10 @@ class StrutRelaxation {
 
   State state() const { return {x_, tensions_}; }
 
+  /// All that a cycle starts from, as one vector of lengths, and back.
+  Eigen::VectorXd packed() const;
+  void unpack(const Eigen::VectorXd& all);
+
  private:
   /// Where a node would go if one of its struts let go of it: the mean of the ends of its taut parts, each
   /// moved by its natural length (C_a of DESIGN §4), and their weight.
@@ -36,7 +44,9 @@ class StrutRelaxation {
   Centre centre(int node, int strut) const;
   void settle_strut(int strut);
   void update_forces();
+  void pull(const Band& band);
   void push_volume(std::size_t region, double line_force);
+  void hold_back(const Band& band, double slope, double tension);
 
   const Problem& problem_;
   const Model& model_;
@@ -49,6 +59,7 @@ class StrutRelaxation {
   Eigen::VectorXd external_;  // pseudo forces by the free nodes
   std::vector<double> tensions_;
   std::vector<double> gathered_;  // volume push that has added up, one a region
+  std::vector<double> held_;      // of each node, adaptive: how fast the pseudo forces change as it moves
 };
 
 }  // namespace tensegric_fit::tensegric

@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "booth/virtual_body.hpp"
+#include "control_mesh/fit_template.hpp"
+#include "landmarks/find_landmarks.hpp"
+#include "stability_case.hpp"
+
+namespace tensegric_fit::stability {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kLaunch = TENSEGRIC_FIT_SOURCE_DIR "/launch/";
+
+booth::BodyParameters parameters_of(const std::string& body) {
+  booth::BodyParameters parameters;  // firm: mannequin-like, symmetric
+  if (body == "average") {
+    parameters.firmness = 0.6;
+    parameters.asymmetry = 0.06;
+    parameters.waist = 1.1;
+    parameters.hip = 1.05;
+  } else if (body == "full") {
+    parameters.bust = 1.15;
+    parameters.firmness = 0.4;
+    parameters.asymmetry = -0.08;
+    parameters.waist = 1.3;
+    parameters.hip = 1.15;
+  }
+  return parameters;
+}
+
+std::vector<std::string> yaml_files(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The pieces of control mesh that the regions need, on the body.
+geometry::ControlMesh dressed(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,
+                              const std::vector<std::string>& regions) {
+  std::vector<geometry::ControlMesh> pieces;
+  for (const std::string& file : yaml_files(kLaunch + "templates")) {
+    const control_mesh::Template pattern = control_mesh::load_template(file);
+    const bool wanted = std::any_of(
+        pattern.regions.begin(), pattern.regions.end(), [&](const control_mesh::TemplateRegion& r) {
+          return std::find(regions.begin(), regions.end(), r.name) != regions.end();
+        });
+    if (wanted) pieces.push_back(control_mesh::fit_template(pattern, body, measures, {}));
+  }
+  return pieces.size() == 1 ? pieces.front() : geometry::joined(pieces);
+}
+
+}  // namespace
+
+std::vector<Case> garment_cases(const std::string& body, const std::vector<double>& ratios) {
+  const geometry::TriangleMesh mesh = booth::make_body(parameters_of(body)).mesh;
+  const geometry::BodyMeasures measures = landmarks::find_landmarks(mesh, {}, {});
+  std::map<std::vector<std::string>, geometry::ControlMesh> meshes;
+  std::vector<Case> cases;
+  for (const std::string& file : yaml_files(kLaunch + "garments")) {
+    const tensegric::Garment garment = tensegric::load_garment(file);
+    if (meshes.count(garment.regions) == 0)
+      meshes[garment.regions] = dressed(mesh, measures, garment.regions);
+    for (double ratio : ratios) {
+      Case all;
+      all.control = meshes[garment.regions];
+      all.garment = garment;
+      set_ratio(all.garment, "", ratio);
+      const std::string at = " at " + std::to_string(ratio).substr(0, 4);
+      all.name = "garments/" + body + " body, " + garment.name + at;
+      cases.push_back(all);
+      if (garment.lines.size() < 2) continue;
+      for (const tensegric::GarmentLine& line : garment.lines) {
+        Case one = all;
+        set_ratio(one.garment, "", 1);
+        set_ratio(one.garment, line.name, ratio);
+        one.name = "garments/" + body + " body, " + garment.name + ", " + line.name + at;
+        cases.push_back(one);
+      }
+    }
+  }
+  return cases;
+}
+
+}  // namespace tensegric_fit::stability

@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "geometry/status.hpp"
+#include "stability_case.hpp"
+#include "tensegric/problem.hpp"
+
+namespace tensegric_fit::stability {
+namespace {
+
+using tensegric::Solution;
+using tensegric::SolverName;
+using tensegric::Status;
+
+constexpr double kLongest = 60e3;  // ms; the slowest cases take a few seconds
+
+bool all_finite(const Solution& s) {
+  const auto finite = [](const Eigen::Vector3d& p) { return p.allFinite(); };
+  bool good = std::all_of(s.outer.begin(), s.outer.end(), finite) &&
+              std::all_of(s.inner.begin(), s.inner.end(), finite) && std::isfinite(s.residual);
+  for (const auto& line : s.lines) good = good && std::isfinite(line.final) && std::isfinite(line.tension);
+  for (const auto& region : s.regions) good = good && std::isfinite(region.volume_after);
+  for (const auto& row : s.history) {
+    good = good && std::isfinite(row.residual);
+    for (double ratio : row.line_ratios) good = good && std::isfinite(ratio);
+    for (double error : row.volume_errors) good = good && std::isfinite(error);
+  }
+  return good;
+}
+
+bool fixed_nodes_stay(const Case& hard, const Solution& s) {
+  for (std::size_t i = 0; i < hard.control.outer.size(); ++i)
+    if ((hard.control.outer_fixed[i] && s.outer[i] != hard.control.outer[i]) ||
+        (hard.control.inner_fixed[i] && s.inner[i] != hard.control.inner[i]))
+      return false;
+  return true;
+}
+
+// DESIGN §7, where a balance is claimed. The papers' solvers pull lines by pseudo forces only, and leave the
+// volume as it comes (relaxation) or bring it back to about 1e-6 % (adaptive, P2 §4).
+void check_balance(const Ending& ending, SolverName solver, Status status, std::vector<std::string>& faults) {
+  const bool exact = solver == SolverName::equilibrium;
+  if (status != Status::converged && status != Status::infeasible) return;
+  if (!(ending.residual <= 1e-8)) faults.push_back("residual above 1e-8");
+  if (solver != SolverName::relaxation && !(ending.volume_error <= (exact ? 1e-9 : 1e-8)))
+    faults.push_back("volume not kept");
+  if (exact && status == Status::converged && !(ending.line_error <= 1e-6))
+    faults.push_back("line not exact");
+}
+
+}  // namespace
+
+Ending run(const Case& hard, SolverName solver, int most_iterations) {
+  Ending ending;
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    tensegric::SolverOptions options = hard.solver;
+    options.solver = solver;
+    if (solver != SolverName::equilibrium && options.max_iterations == 0)
+      options.max_iterations = most_iterations;
+    const tensegric::Model model = tensegric::build_model(hard.control, hard.model);
+    const Solution s = tensegric::solve(model, hard.garment, options, hard.start ? &*hard.start : nullptr);
+    ending.status = to_string(s.status);
+    ending.iterations = s.iterations;
+    ending.residual = s.residual;
+    for (std::size_t b = 0; b < s.lines.size(); ++b)
+      if (hard.garment.lines[b].law.kind == tensegric::TensionLaw::Kind::rigid)
+        ending.line_error = std::max(ending.line_error, s.lines[b].final / s.lines[b].neutral - 1);
+    for (const auto& region : hard.control.regions)
+      ending.volume_error = std::max(
+          ending.volume_error, std::abs(volume_error(region_volume_of(model, region), positions_of(s))));
+    if (!all_finite(s)) ending.faults.push_back("not finite");
+    if (!fixed_nodes_stay(hard, s)) ending.faults.push_back("a fixed node moved");
+    if (!hard.refusal.empty() && hard.refusal != "?") ending.faults.push_back("not refused");
+    if (solver == SolverName::equilibrium &&
+        (s.status == Status::diverged || s.status == Status::oscillating))
+      ending.faults.push_back(ending.status);
+    for (const auto& row : s.history)
+      if (row.merit_change > 1e-12) ending.faults.push_back("merit rises");
+    check_balance(ending, solver, s.status, ending.faults);
+  } catch (const geometry::Refusal& refusal) {
+    ending.status = refusal.code();
+    ending.refused = true;
+    if (hard.refusal != refusal.code() && hard.refusal != "?")
+      ending.faults.push_back(std::string("refused: ") + refusal.what());
+  } catch (const std::exception& other) {
+    ending.status = "exception";
+    ending.faults.push_back(other.what());
+  }
+  ending.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  if (ending.ms > kLongest) ending.faults.push_back("took too long");
+  return ending;
+}
+
+}  // namespace tensegric_fit::stability
