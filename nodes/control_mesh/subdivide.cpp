@@ -10,8 +10,12 @@ geometry::ControlMesh subdivide(const geometry::ControlMesh& control, const Skin
   geometry::ControlMesh fine = control;
   fine.triangles.clear();
   const auto normals = geometry::vertex_normals(control.outer, control.triangles);
+  const auto edges = geometry::edges_of({control.outer, control.triangles});
+  std::vector<char> on_rim(control.outer.size(), 0);
+  for (const geometry::Edge& edge : edges)
+    if (edge.right < 0) on_rim[edge.first] = on_rim[edge.second] = 1;
   std::map<std::pair<int, int>, int> middle_of;
-  for (const geometry::Edge& edge : geometry::edges_of({control.outer, control.triangles})) {
+  for (const geometry::Edge& edge : edges) {
     const int a = edge.first, b = edge.second;
     middle_of[{a, b}] = static_cast<int>(fine.outer.size());
     const Vector3d middle = 0.5 * (control.outer[a] + control.outer[b]);
@@ -19,9 +23,9 @@ geometry::ControlMesh subdivide(const geometry::ControlMesh& control, const Skin
     const auto above = skin.nearest_along(middle, normal, 0.5 * (control.outer[b] - control.outer[a]).norm());
     fine.outer.push_back(above ? *above : skin.nearest(middle));
     fine.inner.push_back(0.5 * (control.inner[a] + control.inner[b]));
-    const bool on_rim = edge.right < 0;
-    fine.outer_fixed.push_back(on_rim && control.outer_fixed[a] && control.outer_fixed[b]);
-    fine.inner_fixed.push_back(on_rim && control.inner_fixed[a] && control.inner_fixed[b]);
+    const bool across = edge.right >= 0 && on_rim[a] && on_rim[b];  // from rim to rim over free skin
+    fine.outer_fixed.push_back(!across && control.outer_fixed[a] && control.outer_fixed[b]);
+    fine.inner_fixed.push_back(!across && control.inner_fixed[a] && control.inner_fixed[b]);
     fine.names.emplace_back();
   }
 

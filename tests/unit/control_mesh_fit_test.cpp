@@ -196,7 +196,19 @@ TEST(FitTemplate, SubdivisionKeepsWhatTheTemplateSays) {
     const auto fine = fit(trunk, triangles - 1);  // "at least": the next size that is there
     ASSERT_EQ(static_cast<int>(fine.triangles.size()), triangles);
     const int steps = triangles == 480 ? 2 : 4;  // an edge of the template becomes so many
-    EXPECT_EQ(std::count(fine.outer_fixed.begin(), fine.outer_fixed.end(), 1), 32 * steps);
+    std::vector<char> on_rim(fine.outer.size(), 0);
+    for (const geometry::Edge& edge : geometry::edges_of({fine.outer, fine.triangles}))
+      if (edge.right < 0) on_rim[edge.first] = on_rim[edge.second] = 1;
+    EXPECT_EQ(std::count(on_rim.begin(), on_rim.end(), 1), 32 * steps);
+    int on_breastbone = 0;
+    for (std::size_t v = 0; v < fine.outer.size(); ++v) {
+      if (on_rim[v]) EXPECT_TRUE(fine.outer_fixed[v]);
+      if (!on_rim[v] && std::abs(fine.outer[v].y()) < 1e-9) {
+        EXPECT_TRUE(fine.outer_fixed[v]);
+        ++on_breastbone;
+      }
+    }
+    EXPECT_EQ(on_breastbone, 6 * steps - 1);
     EXPECT_EQ(fine.regions[0].triangles.size(), fine.triangles.size());
     EXPECT_EQ(fine.lines[0].nodes.size(), (coarse.lines[0].nodes.size() - 1) * steps + 1);
     for (std::size_t i = 0; i < coarse.lines[0].nodes.size(); ++i)

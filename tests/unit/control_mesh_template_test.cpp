@@ -41,20 +41,23 @@ TEST(BustTemplate, HasTheSizeOfThePapers) {
   const auto grid = control_mesh::grid_of(control_mesh::load_template(kBust));
   EXPECT_EQ(grid.outer.size(), 77u);
   EXPECT_EQ(grid.triangles.size(), 120u);
-  EXPECT_EQ(std::count(grid.outer_fixed.begin(), grid.outer_fixed.end(), 1), 32);
-  EXPECT_EQ(std::count(grid.outer_fixed.begin(), grid.outer_fixed.end(), 0), 45);
+  EXPECT_EQ(std::count(grid.outer_fixed.begin(), grid.outer_fixed.end(), 1), 37);
+  EXPECT_EQ(std::count(grid.outer_fixed.begin(), grid.outer_fixed.end(), 0), 40);
   EXPECT_EQ(grid.inner_fixed, grid.outer_fixed);
   ASSERT_EQ(grid.regions.size(), 1u);
   EXPECT_EQ(grid.regions[0].name, "bust");
   EXPECT_EQ(grid.regions[0].triangles.size(), 120u);
 }
 
-TEST(BustTemplate, FixesItsRimAndNothingElse) {
-  const auto grid = control_mesh::grid_of(control_mesh::load_template(kBust));
-  std::vector<char> on_rim(grid.outer.size(), 0);
+TEST(BustTemplate, FixesItsRimAndTheBreastbone) {
+  const auto pattern = control_mesh::load_template(kBust);
+  const auto grid = control_mesh::grid_of(pattern);
+  std::vector<char> bound(grid.outer.size(), 0);
   for (const geometry::Edge& edge : geometry::edges_of({grid.outer, grid.triangles}))
-    if (edge.right < 0) on_rim[edge.first] = on_rim[edge.second] = 1;
-  EXPECT_EQ(grid.outer_fixed, on_rim);
+    if (edge.right < 0) bound[edge.first] = bound[edge.second] = 1;
+  for (int row = 0; row < pattern.rows; ++row)
+    bound[control_mesh::node_at(pattern, row, pattern.middle(), control_mesh::Side::left)] = 1;
+  EXPECT_EQ(grid.outer_fixed, bound);
 }
 
 TEST(BustTemplate, NamesWhatGarmentsAskFor) {
