@@ -30,7 +30,7 @@ class ControlMeshNode {
     Parameters parameters(private_node);
     options_.control_triangles =
         parameters.integer("control_triangles", options_.control_triangles, 1, 100000);
-    std::istringstream names(parameters.text("template", "bust"));
+    std::istringstream names(parameters.text("template", "bust+hips"));
     const std::string folder = parameters.text("template_directory", geometry::shipped_folder("templates"));
     parameters.check_all_known();
     for (std::string name; std::getline(names, name, '+');)

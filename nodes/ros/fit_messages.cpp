@@ -155,6 +155,8 @@ FitState to_message(const FitName& name, const tensegric::Solution& solution, do
     result.final = line.final;
     result.request = line.request;
     result.ratio = line.final / line.initial;
+    result.straight = line.straight;
+    result.reachable = line.reachable;
     result.tension = line.tension;
     message.line_ratios.push_back(result.ratio);
     message.lines.push_back(std::move(result));

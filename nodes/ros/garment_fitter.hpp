@@ -2,21 +2,38 @@
 #pragma once
 
 #include <tensegric_fit/ControlMesh.h>
+#include <tensegric_fit/Landmarks.h>
+#include <tensegric_fit/TriangleMesh.h>
 
 #include <memory>
 #include <mutex>
 #include <optional>
 
+#include "geometry/posture.hpp"
 #include "ros/fit_messages.hpp"
 #include "tensegric/model.hpp"
 #include "tensegric/solver.hpp"
 
 namespace tensegric_fit::node {
 
+/// What garments are fitted to, all of one scan.
+struct FittingScene {
+  ControlMesh::ConstPtr control;
+  Landmarks::ConstPtr landmarks;  ///< needed for a posture, else null
+  TriangleMesh::ConstPtr body;    ///< needed where the body's volume is kept, else null
+};
+
+/// Field defaults are the parameters' defaults.
+struct FitterOptions {
+  tensegric::ModelOptions model;
+  tensegric::SolverOptions solver;
+  geometry::Posture posture;
+};
+
 /// Keeps the model of the newest control mesh, and the last solution on it for a warm start.
 class GarmentFitter {
  public:
-  GarmentFitter(const tensegric::ModelOptions& model, const tensegric::SolverOptions& solver);
+  explicit GarmentFitter(const FitterOptions& options) : options_(options) {}
 
   /// Whether the garment can be laid on the newest model; any garment can where there is none yet. For any
   /// thread. \throw Refusal unknown_line, bad_garment
@@ -27,18 +44,19 @@ class GarmentFitter {
 
   /// For one thread. `from_rest`: without a warm start. Nothing where `progress` stopped it. \throw Refusal
   /// as build_model and solve
-  std::optional<tensegric::Solution> fit(const ControlMesh::ConstPtr& control, const GarmentRequest& request,
+  std::optional<tensegric::Solution> fit(const FittingScene& scene, const GarmentRequest& request,
                                          bool from_rest, const tensegric::Progress& progress);
 
   /// The newest model; null where there is none.
   std::shared_ptr<const tensegric::Model> model() const;
 
  private:
-  void take(const ControlMesh::ConstPtr& control);
+  void take(const FittingScene& scene);
 
-  tensegric::ModelOptions model_options_;
-  tensegric::SolverOptions solver_options_;
-  ControlMesh::ConstPtr control_;
+  const FitterOptions options_;
+  FittingScene scene_;
+  geometry::BoneFrames bones_;
+  std::vector<tensegric::VolumeFunction> body_volumes_;
   std::optional<tensegric::Solution> last_;
 
   mutable std::mutex mutex_;

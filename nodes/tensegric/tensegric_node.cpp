@@ -23,8 +23,7 @@ double milliseconds_since(Clock::time_point start) {
 }
 
 struct Setup {
-  tensegric::ModelOptions model;
-  tensegric::SolverOptions solver;
+  FitterOptions fitter;
   double progress_period = 0.1;  ///< seconds between states that are published while solving
   std::string garment = "B1";    ///< worn until another is asked for, and after a reset
   std::string garment_directory = geometry::shipped_folder("garments");
@@ -33,16 +32,25 @@ struct Setup {
 Setup setup_from(const ros::NodeHandle& private_node) {
   Setup setup;
   Parameters parameters(private_node);
-  tensegric::ModelOptions& model = setup.model;
+  tensegric::ModelOptions& model = setup.fitter.model;
   model.strut_stiffness = parameters.number("strut_stiffness", model.strut_stiffness, 0.01, 1000);
   model.prestress = parameters.number("prestress", model.prestress, 0.001, 0.2);
-  tensegric::SolverOptions& solver = setup.solver;
+  tensegric::SolverOptions& solver = setup.fitter.solver;
   solver.solver = tensegric::solver_from(
       parameters.choice("solver", to_string(solver.solver), {"equilibrium", "adaptive", "relaxation"}));
   solver.max_iterations = parameters.integer("max_iterations", solver.max_iterations, 0, 10000000);
+  solver.time_budget = parameters.number("time_budget", solver.time_budget, 0, 3600);
+  solver.volume = parameters.choice("volume", "control", {"control", "body"}) == "body"
+                      ? tensegric::KeptVolume::body
+                      : tensegric::KeptVolume::control;
   solver.gravity = parameters.vector("gravity", solver.gravity);
   solver.line_force = parameters.number("line_force", solver.line_force, 0, 1e6);
   solver.volume_force = parameters.number("volume_force", solver.volume_force, 0, 1e6);
+  geometry::Posture& posture = setup.fitter.posture;
+  posture.twist =
+      parameters.number("twist", posture.twist, -geometry::kLargestTwist, geometry::kLargestTwist);
+  posture.side_lean =
+      parameters.number("side_lean", posture.side_lean, -geometry::kLargestLean, geometry::kLargestLean);
   setup.progress_period = parameters.number("progress_period", setup.progress_period, 0.001, 60);
   setup.garment = parameters.text("garment", setup.garment);
   setup.garment_directory = parameters.text("garment_directory", setup.garment_directory);
@@ -56,7 +64,7 @@ class TensegricNode {
       : setup_(setup_from(private_node)),
         wardrobe_(setup_.garment_directory),
         worn_(wardrobe_.take(setup_.garment)),
-        fitter_(setup_.model, setup_.solver),
+        fitter_(setup_.fitter),
         node_(node),
         fit_(node.advertise<FitState>("control/deformed", 4, true)),
         progress_(node.advertise<FitState>("control/deformed", 4)),
@@ -65,6 +73,9 @@ class TensegricNode {
     announce();
     const ros::TransportHints prompt = ros::TransportHints().tcpNoDelay();
     control_in_ = node.subscribe("control/mesh", 2, &TensegricNode::on_control, this, prompt);
+    if (posed())
+      landmarks_in_ = node.subscribe("body/landmarks", 2, &TensegricNode::on_landmarks, this, prompt);
+    if (keeps_body()) body_in_ = node.subscribe("body/mesh", 2, &TensegricNode::on_body, this, prompt);
     garment_in_ = node.subscribe("garment", 8, &TensegricNode::on_garment, this, prompt);
     set_garment_ = node.advertiseService("set_garment", &TensegricNode::on_set_garment, this);
     reset_ = node.advertiseService("reset", &TensegricNode::on_reset, this);
@@ -73,8 +84,29 @@ class TensegricNode {
  private:
   void on_control(const ControlMesh::ConstPtr& control) {
     stage_.begin(control->scan_id);
-    control_ = control;
+    scene_.control = control;
     fit(true);
+  }
+
+  void on_landmarks(const Landmarks::ConstPtr& landmarks) {
+    scene_.landmarks = landmarks;
+    fit(true);
+  }
+
+  void on_body(const TriangleMesh::ConstPtr& body) {
+    scene_.body = body;
+    fit(true);
+  }
+
+  bool posed() const { return setup_.fitter.posture.twist != 0 || setup_.fitter.posture.side_lean != 0; }
+  bool keeps_body() const { return setup_.fitter.solver.volume == tensegric::KeptVolume::body; }
+
+  /// All that a fit needs has come, and is of one scan.
+  bool complete() const {
+    const auto fits = [this](const auto& message) {
+      return message && message->scan_id == scene_.control->scan_id;
+    };
+    return scene_.control && (!posed() || fits(scene_.landmarks)) && (!keeps_body() || fits(scene_.body));
   }
 
   void on_garment(const ros::MessageEvent<Garment const>& event) {
@@ -83,7 +115,7 @@ class TensegricNode {
       put_on(request_in(*event.getMessage()), false);
       garment_.shutdown();  // late joiners get theirs, not ours
     } catch (const geometry::Refusal& refusal) {
-      stage_.refuse(control_ ? control_->scan_id : "", refusal);
+      stage_.refuse(scene_.control ? scene_.control->scan_id : "", refusal);
     }
   }
 
@@ -92,7 +124,8 @@ class TensegricNode {
       put_on(wardrobe_.take(request), false);
       announce();
       response.accepted = true;
-      response.message = control_ ? "fitting to scan " + control_->scan_id : "kept until a scan comes";
+      response.message =
+          scene_.control ? "fitting to scan " + scene_.control->scan_id : "kept until a scan comes";
     } catch (const geometry::Refusal& refusal) {
       response.accepted = false;
       response.code = refusal.code();
@@ -130,13 +163,14 @@ class TensegricNode {
   }
 
   void fit(bool from_rest) {
-    if (!control_) return;
-    stage_.post(control_->scan_id, [this, control = control_, request = worn_, from_rest] {
-      return fit(control, request, from_rest);
+    if (!complete()) return;
+    stage_.post(scene_.control->scan_id, [this, scene = scene_, request = worn_, from_rest] {
+      return fit(scene, request, from_rest);
     });
   }
 
-  Stage::Result fit(const ControlMesh::ConstPtr& control, const GarmentRequest& request, bool from_rest) {
+  Stage::Result fit(const FittingScene& scene, const GarmentRequest& request, bool from_rest) {
+    const ControlMesh::ConstPtr& control = scene.control;
     const FitName name{tag_in(*control), request.garment.name, fitter_.solver_of(request)};
     const auto start = Clock::now();
     double told = 0;
@@ -148,7 +182,7 @@ class TensegricNode {
       }
       return !stage_.outdated(control->scan_id);
     };
-    std::optional<tensegric::Solution> solution = fitter_.fit(control, request, from_rest, progress);
+    std::optional<tensegric::Solution> solution = fitter_.fit(scene, request, from_rest, progress);
     if (!solution) return {};
     auto worn = std::make_shared<WornGarment>();
     worn->solution = std::move(*solution);
@@ -156,6 +190,8 @@ class TensegricNode {
     worn->control = fitter_.model()->control;
     const auto message =
         boost::make_shared<FitState>(to_message(name, worn->solution, milliseconds_since(start)));
+    message->twist = setup_.fitter.posture.twist;
+    message->side_lean = setup_.fitter.posture.side_lean;
     return {[this, message, worn] {
               fit_.publish(message);
               show(worn);
@@ -191,13 +227,13 @@ class TensegricNode {
   const Setup setup_;
   const Wardrobe wardrobe_;
   GarmentRequest worn_;
-  ControlMesh::ConstPtr control_;
+  FittingScene scene_;  // newest of each
   GarmentFitter fitter_;
   ros::NodeHandle node_;
   ros::Publisher fit_, progress_;  // one topic: how a fit ended is kept for late joiners, how it went is not
   ros::Publisher garment_;
   Display display_;
-  ros::Subscriber control_in_, garment_in_;
+  ros::Subscriber control_in_, landmarks_in_, body_in_, garment_in_;
   ros::ServiceServer set_garment_, reset_;
   Stage stage_;  // last: its worker uses all of the above
 };

@@ -35,19 +35,19 @@ class GarmentFitterTest : public testing::Test {
 
   const ControlMesh::ConstPtr control_ =
       boost::make_shared<ControlMesh>(to_message(ScanTag(), tensegric::bust_mesh()));
-  GarmentFitter fitter_{tensegric::ModelOptions(), tensegric::SolverOptions()};
+  GarmentFitter fitter_{FitterOptions()};
 };
 
 TEST_F(GarmentFitterTest, AStoppedFitIsNoneAndTheNextIsAsIfItHadNotBeen) {
-  GarmentFitter undisturbed{tensegric::ModelOptions(), tensegric::SolverOptions()};
+  GarmentFitter undisturbed{FitterOptions()};
   for (GarmentFitter* fitter : {&fitter_, &undisturbed})
-    ASSERT_TRUE(fitter->fit(control_, chest_at(0.95), true, kGoOn));
+    ASSERT_TRUE(fitter->fit({control_, nullptr, nullptr}, chest_at(0.95), true, kGoOn));
   int steps = 0;
-  EXPECT_FALSE(fitter_.fit(control_, chest_at(0.8), false,
+  EXPECT_FALSE(fitter_.fit({control_, nullptr, nullptr}, chest_at(0.8), false,
                            [&steps](const auto&, const auto&) { return ++steps < 3; }));
   EXPECT_EQ(steps, 3);  // it stopped there and then
-  const auto after = fitter_.fit(control_, chest_at(0.94), false, kGoOn);
-  const auto expected = undisturbed.fit(control_, chest_at(0.94), false, kGoOn);
+  const auto after = fitter_.fit({control_, nullptr, nullptr}, chest_at(0.94), false, kGoOn);
+  const auto expected = undisturbed.fit({control_, nullptr, nullptr}, chest_at(0.94), false, kGoOn);
   ASSERT_TRUE(after && expected);
   EXPECT_EQ(after->iterations, expected->iterations);
   EXPECT_EQ(after->outer, expected->outer);  // to the bit
@@ -58,7 +58,7 @@ TEST_F(GarmentFitterTest, GarmentsAreCheckedAgainstTheNewestModel) {
   hat.garment.regions = {"hat"};
   belt.garment.lines[0].name = "belt";
   EXPECT_EQ(refusal_of(hat), "accepted");  // no model yet to say no
-  ASSERT_TRUE(fitter_.fit(control_, chest_at(0.95), true, kGoOn));
+  ASSERT_TRUE(fitter_.fit({control_, nullptr, nullptr}, chest_at(0.95), true, kGoOn));
   EXPECT_EQ(refusal_of(chest_at(0.9)), "accepted");
   EXPECT_EQ(refusal_of(hat), "bad_garment");
   EXPECT_EQ(refusal_of(belt), "unknown_line");
