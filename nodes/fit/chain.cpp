@@ -91,14 +91,18 @@ Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& gar
     fit.solution = tensegric::solve(fitting.model, garment, settings.solver, start);
   }
   const Stopwatch watch(times.tffd);
-  fit.deformed = fitting.binding.deform(fit.solution.outer, fit.solution.inner);
+  const geometry::BoneFrames& bones = settings.solver.bones;
+  const auto deform = [&](const tffd::Binding& binding) {
+    return binding.deform(fit.solution.outer, fit.solution.inner);
+  };
+  fit.deformed = bones.still() ? deform(fitting.binding) : deform(fitting.binding.posed(bones));
   fit.distortion =
       tffd::body_distortion(fitting.binding, tffd::control_distortion(fitting.control, fit.solution.outer));
   const auto triangles = reached_triangles(body, fitting.binding);
   for (const geometry::ControlRegion& region : fitting.control.regions) {
     const Eigen::Vector3d apex = geometry::region_apex(fitting.control, region);
     fit.body_volumes_before.push_back(geometry::cone_volume(body.mesh.mesh.vertices, triangles, apex));
-    fit.body_volumes_after.push_back(geometry::cone_volume(fit.deformed, triangles, apex));
+    fit.body_volumes_after.push_back(geometry::cone_volume(fit.deformed, triangles, bones.moved(apex)));
   }
   return fit;
 }

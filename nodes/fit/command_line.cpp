@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <tuple>
 
 namespace tensegric_fit::fit {
 namespace {
+
+constexpr int kShapeTriangles = 400;  // fins and limbs of a shape take more than a bust
 
 double number_from(const std::string& text, const std::string& option) {
   std::size_t used = 0;
@@ -76,8 +80,11 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
       ->capture_default_str()
       ->check(CLI::IsMember({"equilibrium", "adaptive", "relaxation"}));
   auto* control_triangles =
-      app.add_option("--control-triangles", line.settings.control_mesh.control_triangles,
-                     "Control triangles, at least")
+      app.add_option(
+             "--control-triangles", line.settings.control_mesh.control_triangles,
+             fmt::format("Control triangles, at least; of a shape that is simplified about as many, {} "
+                         "where not said",
+                         kShapeTriangles))
           ->capture_default_str()
           ->check(CLI::Range(1, 100000));
   app.add_option("--body-triangles", line.settings.reconstruction.body_triangles,
@@ -86,16 +93,23 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
       ->check(CLI::Range(2000, 1000000))
       ->excludes(mesh);
   app.add_option("--out", line.out, "Folder for the results")->capture_default_str();
-  auto* control = app.add_option("--control", line.control, "Control mesh CONTROL.ply for any shape")
+  auto* control = app.add_option("--control", line.control,
+                                 "Control mesh CONTROL.ply for any shape; none: the shape simplified")
                       ->needs(mesh)
                       ->excludes(control_triangles);
   auto* fixed = app.add_option("--fixed", line.fixed, "Fixed nodes of the shape's control mesh, NODES.yaml")
                     ->needs(mesh);
   app.add_option("--gravity", gravity, "Pseudo force x,y,z on every outer node");
+  double twist = 0, lean = 0;
+  for (const auto& [name, angle, limit, what] :
+       {std::tuple("--twist", &twist, std::round(geometry::kLargestTwist * 180 / M_PI),
+                   "Degrees that the chest turns to her left"),
+        std::tuple("--lean", &lean, std::round(geometry::kLargestLean * 180 / M_PI),
+                   "Degrees that the chest leans to her left")})
+    app.add_option(name, *angle, what)->needs(garment)->check(CLI::Range(-limit, limit));
   app.add_flag("--quiet", line.quiet, "No progress");
   scan->excludes(mesh);
   control->needs(fixed);
-  fixed->needs(control);
   fixed->excludes(garment);
 
   try {
@@ -107,11 +121,14 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
     for (const std::string& text : ratios) line.ratios.push_back(ratio_from(text));
     if (!band.empty()) line.band = band_from(band);
     if (!gravity.empty() && line.garment.empty() && !line.is_shape())
-      throw CLI::ValidationError("--gravity", "needs --garment or --control");
+      throw CLI::ValidationError("--gravity", "needs --garment or --fixed");
     if (!gravity.empty()) line.settings.solver.gravity = vector_from(gravity, "--gravity");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  if (line.is_shape() && control_triangles->count() == 0)
+    line.settings.control_mesh.control_triangles = kShapeTriangles;
+  line.posture = {twist * M_PI / 180, lean * M_PI / 180};
   line.settings.solver.solver = tensegric::solver_from(solver);
   return std::nullopt;
 }

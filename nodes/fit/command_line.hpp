@@ -21,6 +21,7 @@ struct CommandLine {
   std::string scan, mesh, garment, control, fixed, out = "fit_out";
   std::vector<RatioRequest> ratios;
   std::optional<tensegric::TensionLaw> band;
+  geometry::Posture posture;
   bool quiet = false;
   Settings settings;
 

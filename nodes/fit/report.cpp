@@ -64,6 +64,8 @@ void add_fit(const Body& body, const Fitting& fitting, const Fit& fit, const Set
                        {"struts", fitting.model.struts()},
                        {"tensile_parts", fitting.model.tensile_parts()},
                        {"free_nodes", fitting.model.free_nodes()}};
+  const geometry::Posture& posture = settings.solver.bones.posture();
+  report["posture"] = {{"twist", posture.twist * 180 / M_PI}, {"lean", posture.side_lean * 180 / M_PI}};
   report["solver"] = {{"name", to_string(settings.solver.solver)},
                       {"status", to_string(solution.status)},
                       {"iterations", solution.iterations},
@@ -78,6 +80,8 @@ void add_fit(const Body& body, const Fitting& fitting, const Fit& fit, const Set
                                {"final", line.final},
                                {"request", line.request},
                                {"ratio", line.final / line.initial},
+                               {"straight", line.straight},
+                               {"reachable", line.reachable},
                                {"tension", line.tension}});
   }
   report["regions"] = Json::array();

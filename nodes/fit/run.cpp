@@ -61,6 +61,8 @@ class Run {
       return;
     }
     const tensegric::Garment garment = load_garment();
+    if (line_.posture.twist != 0 || line_.posture.side_lean != 0)
+      settings_.solver.bones = geometry::BoneFrames(body_.measures, line_.posture);
     const Fitting fitting = prepare_fitting(garment);
     settings_.solver.track = tracked_nodes(fitting.control);
     say("tensegric deformation");
@@ -112,8 +114,12 @@ class Run {
     say("control mesh");
     if (line_.is_shape()) {
       const auto fixing = control_mesh::load_shape_fixing(line_.fixed);
-      const geometry::TriangleMesh control = geometry::read_ply_mesh(line_.control);
-      return prepare(body_, control_mesh::control_from_shape(control, fixing), settings_, times_);
+      return prepare(body_,
+                     line_.control.empty()
+                         ? control_mesh::simplified_control(body_.mesh.mesh, fixing,
+                                                            settings_.control_mesh.control_triangles)
+                         : control_mesh::control_from_shape(geometry::read_ply_mesh(line_.control), fixing),
+                     settings_, times_);
     }
     std::vector<control_mesh::Template> patterns;
     for (const std::string& region : garment.regions)
