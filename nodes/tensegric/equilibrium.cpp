@@ -10,6 +10,7 @@ namespace {
 
 constexpr Tolerance kExact{1e-10, 1e-12, 1e-11};  // what is aimed at
 constexpr Tolerance kOnTheWay{5e-2, 1e-4, 1e-4};  // at a load between rest and the request
+constexpr double kShareOfWeight = 0.01;           // residual on the way, of the change in gravity
 constexpr double kTightestHold = 20;              // where a band has no limit of its own; times k
 constexpr double kFirstRatioStep = 0.03;  // change of a neutral length in the first load step, relative
 constexpr double kShortestLoadStep = 1.0 / 1024;
@@ -91,6 +92,14 @@ class LoadPath {
 
   double posture_at(double share) const { return share + (1 - share) * first_posture_; }
 
+  // A light weight that bends a long shape far is less than what would do on the way to a line's length.
+  Tolerance on_the_way() const {
+    Tolerance tolerance = kOnTheWay;
+    const double weight = (problem_.options.gravity - first_.gravity).norm() / problem_.force_scale;
+    if (weight > 0) tolerance.residual = std::min(tolerance.residual, kShareOfWeight * weight);
+    return tolerance;
+  }
+
   double first_load_step() const {
     double change = problem_.options.gravity == first_.gravity ? 0 : 4 * kFirstRatioStep;
     for (std::size_t b = 0; b < bands_; ++b)
@@ -122,7 +131,7 @@ class LoadPath {
       const double next = std::min(1.0, share + load_step);
       const int before = newton_.iterations();
       carry(at.x, posture_at(share), posture_at(next));
-      if (newton_.settle(at, load_at(next), next < 1 ? kOnTheWay : kExact,
+      if (newton_.settle(at, load_at(next), next < 1 ? on_the_way() : kExact,
                          next < 1 ? kMostPerLoad : kMostAtEnd)) {
         share = next;
         settled = at;
