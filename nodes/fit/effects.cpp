@@ -28,7 +28,7 @@ std::vector<Effect> effects_of(const Body& body, const Fit& fit) {
     return std::find_if(landmarks.begin(), landmarks.end(), [&](const auto& l) { return l.name == name; });
   };
   std::vector<Effect> effects;
-  for (const std::string name : {"bust_point", "buttock_point"}) {
+  for (const std::string name : {"bust_point", "buttock"}) {
     const auto left = find(name + "_L"), right = find(name + "_R");
     if (left == landmarks.end() || right == landmarks.end()) continue;
     const Eigen::Vector3d left_before = body.measures.body_from_scan * left->position,
