@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/decimate.hpp"
+#include "geometry/status.hpp"
 #include "reconstruction/body_points.hpp"
 #include "reconstruction/floor.hpp"
 #include "reconstruction/handles.hpp"
@@ -25,7 +26,10 @@ using geometry::PointCloud;
 using geometry::TriangleMesh;
 
 constexpr double kUnseenEdge = 0.005;  // m; the edge of a foot rounds off below what the sensors see of it
-constexpr double kLongestLoop = 0.3;   // m round; a bridge that is thicker is the body's own
+constexpr double kDuplicate = 0.0005;  // m; closer points are one
+constexpr double kCoarsest = 0.005;    // m
+constexpr std::size_t kEnoughPoints = 400000;  // of a whole scan
+constexpr double kLongestLoop = 0.3;           // m round; a bridge that is thicker is the body's own
 constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher stands on something else
 
 const double kFlatOnFloor =
@@ -48,6 +52,17 @@ PointCloud pick(const PointCloud& cloud, const std::vector<int>& indices) {
 void append(PointCloud& cloud, const PointCloud& more) {
   cloud.points.insert(cloud.points.end(), more.points.begin(), more.points.end());
   cloud.normals.insert(cloud.normals.end(), more.normals.begin(), more.normals.end());
+}
+
+/// Without duplicates, and no denser than helps: time and memory stay bounded whatever the scanner delivers.
+/// \throw Refusal too_few_points
+PointCloud without_surplus(PointCloud scan, const Options& options) {
+  scan = merged(scan, kDuplicate);
+  if (scan.points.size() < static_cast<std::size_t>(options.min_points))
+    throw geometry::Refusal(geometry::refusal::kTooFewPoints, "most points of the scan are duplicates");
+  for (double cube = 1.5 * kDuplicate; scan.points.size() > kEnoughPoints && cube < kCoarsest; cube *= 1.5)
+    scan = merged(scan, cube);
+  return scan;
 }
 
 double lowest_of(const std::vector<Eigen::Vector3d>& points) {
@@ -84,9 +99,9 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
 
 BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   check_options(options);
-  // 1. The points that can be used; 2. of these the body's, standing on z = 0.
+  // 1. The points that can be used, as many as help; 2. of these the body's, standing on z = 0.
   Eigen::Isometry3d from_scan;
-  PointCloud body = standing_body(usable_points(scan, options), options, from_scan);
+  PointCloud body = standing_body(without_surplus(usable_points(scan, options), options), options, from_scan);
   const std::size_t seen = body.points.size();
   // 3. Normals, and points where no sensor sees but the shape is known.
   body.normals = outward_normals(body.points, body.normals);

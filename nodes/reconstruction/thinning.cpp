@@ -12,6 +12,7 @@ using geometry::PointCloud;
 
 constexpr double kSurroundings = 0.01;                           // m; cubes whose 27 show how the skin bends
 constexpr std::array<double, 3> kCube = {0.0025, 0.005, 0.010};  // m
+constexpr double kOneSide = 0.8;  // length of the mean normal of a cube; below, it holds two sides of a gap
 constexpr std::array<double, 2> kAgreement = {0.7, 0.9};  // length of the mean normal that parts the cubes
 
 /// Adds the mean point and normal of every cube.
@@ -24,13 +25,35 @@ void add_means(const PointCloud& cloud, double cube, PointCloud& means) {
       point += cloud.points[grid.order()[i]];
       normal += cloud.normals[grid.order()[i]];
     }
-    if (!(normal.norm() > 1e-6)) continue;  // two sides of something thin: no one point stands for them
+    if (normal.norm() < kOneSide * (grid.end(c) - grid.begin(c))) {
+      for (int i = grid.begin(c); i < grid.end(c); ++i) {
+        means.points.push_back(cloud.points[grid.order()[i]]);
+        means.normals.push_back(cloud.normals[grid.order()[i]]);
+      }
+      continue;
+    }
     means.points.push_back(point / (grid.end(c) - grid.begin(c)));
     means.normals.push_back(normal.normalized());
   }
 }
 
 }  // namespace
+
+PointCloud merged(const PointCloud& cloud, double cube) {
+  const bool oriented = !cloud.normals.empty();
+  const VoxelGrid grid(cloud.points, cube);
+  PointCloud means;
+  for (int c = 0; c < grid.cell_count(); ++c) {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
+    for (int i = grid.begin(c); i < grid.end(c); ++i) {
+      point += cloud.points[grid.order()[i]];
+      if (oriented) normal += cloud.normals[grid.order()[i]];
+    }
+    means.points.push_back(point / (grid.end(c) - grid.begin(c)));
+    if (oriented) means.normals.push_back(normal.squaredNorm() > 0 ? normal.normalized() : normal);
+  }
+  return means;
+}
 
 PointCloud thinned(const PointCloud& cloud) {
   const VoxelGrid grid(cloud.points, kSurroundings);

@@ -5,9 +5,14 @@
 
 namespace tensegric_fit::reconstruction {
 
+/// One point for all that lie in one cube, their mean; the mean of their normals where there are any (zero
+/// stays unknown). \pre finite points within a few metres
+geometry::PointCloud merged(const geometry::PointCloud& cloud, double cube);
+
 /// Means of the points in cubes of 2.5 mm where the skin bends strongly (fingers, ears, nose), 5 mm where it
-/// bends, 10 mm where it is smooth. An octree that follows the density of points then has small cells only
-/// where they are needed. \pre unit normals
+/// bends, 10 mm where it is smooth; points of two sides
+/// of a gap in one cube stay as they are. An octree that follows the density of points then has small cells
+/// only where they are needed. \pre unit normals
 geometry::PointCloud thinned(const geometry::PointCloud& cloud);
 
 }  // namespace tensegric_fit::reconstruction

@@ -174,6 +174,34 @@ TEST(Reconstruction, NoisyPointsGiveASurfaceFinerThanTheirNoise) {
   EXPECT_LT(percentile(error, 0.95), 0.0020);
 }
 
+TEST(Reconstruction, DuplicatesCountOnce) {
+  PointCloud scan = booth();
+  for (int copy = 1; copy < 8; ++copy)
+    scan.points.insert(scan.points.end(), booth().points.begin(), booth().points.end());
+  const BodyMesh body = reconstruct(scan, quick());
+  expect_sound(body, 12000);
+  EXPECT_NEAR(static_cast<double>(body.points_used), body_of_booth().points_used, 5);
+  EXPECT_LT(percentile(errors(body, Eigen::Isometry3d::Identity()), 0.95), 0.0015);
+}
+
+TEST(Reconstruction, AScanDenserThanHelpsIsThinned) {
+  const BodyMesh body = reconstruct(figure::scan_booth(700000, 0.001), quick());
+  expect_sound(body, 12000);
+  EXPECT_LT(body.points_used, 400000u);  // as many points as time and memory are meant for
+  EXPECT_LT(percentile(errors(body, Eigen::Isometry3d::Identity()), 0.5), 0.0005);
+}
+
+TEST(Reconstruction, ThirtyPercentOfStrayPointsDoNotMatter) {
+  PointCloud scan = figure::scan_booth(60000, kNoise);
+  std::mt19937 random(6);
+  for (int i = 0; i < 34000; ++i)  // of some 114,000
+    scan.points.emplace_back(1.6 * figure::uniform(random) - 0.8, 1.6 * figure::uniform(random) - 0.8,
+                             1.8 * figure::uniform(random));
+  const BodyMesh body = reconstruct(scan, quick());
+  expect_sound(body, 12000);
+  EXPECT_LT(percentile(errors(body, Eigen::Isometry3d::Identity()), 0.5), 0.0005);
+}
+
 TEST(Reconstruction, SameScanSameMeshEvenTwoAtOnce) {
   BodyMesh second, third;
   std::thread other([&] { second = reconstruct(booth(), quick()); });
@@ -192,6 +220,12 @@ TEST(Reconstruction, RefusesByName) {
   EXPECT_EQ(refusal_of(map(booth(), [&](const auto&) { return Eigen::Vector3d(nan, nan, nan); })),
             "non_finite");
   EXPECT_EQ(refusal_of(figure::scan_body(1000, 0, 1)), "too_few_points");
+  PointCloud repeated;
+  for (int i = 0; i < 20; ++i) {
+    const PointCloud once = figure::scan_body(1000, 0, 1);
+    repeated.points.insert(repeated.points.end(), once.points.begin(), once.points.end());
+  }
+  EXPECT_EQ(refusal_of(repeated), "too_few_points");
   EXPECT_EQ(refusal_of(map(booth(), [](const auto& p) { return Eigen::Vector3d(1000 * p); })), "wrong_unit");
   EXPECT_EQ(refusal_of(map(booth(), [](const auto& p) { return Eigen::Vector3d(39.37 * p); })), "wrong_unit");
   EXPECT_EQ(refusal_of(map(booth(), [](const auto&) { return Eigen::Vector3d(1, 2, 3); })), "not_a_body");
