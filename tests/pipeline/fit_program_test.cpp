@@ -165,6 +165,29 @@ TEST_F(FitProgram, ABandGivesWay) {
               1e-8);  // the law of the band, at the residual's tolerance
 }
 
+TEST_F(FitProgram, AGarmentIsWornInAnyPosture) {
+  ASSERT_EQ(fit("--mesh " + kScans + "/a/body.ply --garment B1 --ratio 0.95 --twist 15 --lean -10"), 0)
+      << read_file(file("log"));
+  const json r = report();
+  EXPECT_NEAR(r["posture"]["twist"].get<double>(), 15, 1e-12);
+  EXPECT_NEAR(r["posture"]["lean"].get<double>(), -10, 1e-12);
+  EXPECT_EQ(r["solver"]["status"], "converged");
+  EXPECT_NEAR(r["lines"].at(0)["ratio"].get<double>(), 0.95, 1e-6);  // DESIGN §7
+  const json& volume = r["regions"].at(0)["control_volume"];
+  EXPECT_NEAR(volume[1].get<double>() / volume[0].get<double>(), 1, 1e-9);  // DESIGN §7
+  const auto body = tensegric_fit::geometry::read_ply_mesh(file("out/body.ply"));
+  const auto moved = tensegric_fit::geometry::read_ply_mesh(file("out/deformed.ply"));
+  const double hip = r["heights"]["hip"], neck = r["heights"]["neck"];
+  for (std::size_t v = 0; v < body.vertices.size(); ++v) {
+    const double z = body.vertices[v].z(), way = (moved.vertices[v] - body.vertices[v]).norm();
+    if (z < hip - 0.02) {
+      ASSERT_EQ(way, 0);  // the scan is upright
+    } else if (z > neck) {
+      ASSERT_GT(way, 0.03);  // 10 degrees over half a metre and more is 80 mm
+    }
+  }
+}
+
 TEST_F(FitProgram, BendsAnyShapeUnderGravity) {
   // a bar along x, fixed at x = 0
   tensegric_fit::geometry::TriangleMesh bar;
@@ -206,6 +229,8 @@ TEST_F(FitProgram, UsageErrorsAreTwo) {
   EXPECT_EQ(fit("--scan a.ply --body-triangles 3"), 2);
   EXPECT_EQ(fit("--scan a.ply --garment ''"), 2);  // an unset variable of a script is not "measure only"
   EXPECT_EQ(fit("--mesh a.ply --gravity 0,0,-1"), 2);
+  EXPECT_EQ(fit("--scan a.ply --twist 15"), 2);  // nothing to show it with
+  EXPECT_EQ(fit("--scan a.ply --garment B1 --twist 61"), 2);
   EXPECT_EQ(fit("--help"), 0);
 }
 
