@@ -9,13 +9,13 @@ namespace tensegric_fit::tensegric {
 namespace {
 
 constexpr Tolerance kExact{1e-10, 1e-12, 1e-11};  // what is aimed at
-constexpr Tolerance kOnTheWay{5e-2, 1e-4, 1e-4};  // at a load between rest and the request
+constexpr Tolerance kOnTheWay{0.2, 1e-4, 1e-4};  // at a load between rest and the request
 constexpr double kShareOfWeight = 0.01;           // residual on the way, of the change in gravity
 constexpr double kTightestHold = 20;              // where a band has no limit of its own; times k
 constexpr double kFirstRatioStep = 0.03;  // change of a neutral length in the first load step, relative
 constexpr double kShortestLoadStep = 1.0 / 1024;
 constexpr double kSamePlace = 1e-9;  // m
-constexpr int kMostPerLoad = 30, kMostAtEnd = 80, kMostCorrections = 10;
+constexpr int kMostPerLoad = 60, kMostAtEnd = 80, kMostCorrections = 10;
 
 class LoadPath {
  public:

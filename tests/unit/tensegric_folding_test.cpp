@@ -203,7 +203,7 @@ TEST_F(Folding, StoppedEarlyItIsTheLastBalance) {
     const Solution s = solve(model, chest(0.80), options);
     EXPECT_EQ(s.status, Status::capped);
     for (const RegionResult& r : s.regions) EXPECT_NEAR(r.volume_after / r.volume_before, 1, 1e-9);
-    EXPECT_LE(s.residual, 0.06);  // the balance of a load on the way is found to 0.05
+    EXPECT_LE(s.residual, 0.21);  // the balance of a load on the way is found to 0.2
     EXPECT_NE(s.note.find("%"), std::string::npos) << s.note;
     const double ratio = s.lines[0].final / s.lines[0].initial;
     EXPECT_LE(ratio, last + 1e-9);  // the longer the nearer
