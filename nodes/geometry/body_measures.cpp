@@ -5,6 +5,15 @@
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::geometry {
+namespace {
+
+std::string why_missing(const std::vector<Missing>& missing, const std::string& name) {
+  for (const Missing& part : missing)
+    if (part.name == name) return ": " + part.reason;
+  return "";
+}
+
+}  // namespace
 
 const Landmark* BodyMeasures::find_landmark(const std::string& name) const {
   const auto found =
@@ -16,7 +25,7 @@ const Eigen::Vector3d& BodyMeasures::landmark(const std::string& name) const {
   const Landmark* found = find_landmark(name);
   if (found == nullptr)
     throw Refusal(std::string(refusal::kMissingPart) + ":" + name,
-                  "the landmark " + name + " was not found on the body");
+                  "the landmark " + name + " was not found on the body" + why_missing(missing, name));
   return found->position;
 }
 
@@ -25,7 +34,7 @@ double BodyMeasures::height(const std::string& name) const {
       std::find_if(heights.begin(), heights.end(), [&name](const Measure& m) { return m.name == name; });
   if (found == heights.end())
     throw Refusal(std::string(refusal::kMissingPart) + ":" + name,
-                  "the " + name + " level was not found on the body");
+                  "the " + name + " level was not found on the body" + why_missing(missing, name));
   return found->metres;
 }
 

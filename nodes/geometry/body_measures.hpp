@@ -33,6 +33,11 @@ struct GirthLoop {
   std::vector<Eigen::Vector3d> points;
 };
 
+/// A landmark, height or girth that was not found, and why.
+struct Missing {
+  std::string name, reason;
+};
+
 /// Names after ISO 8559-1; definitions in the README of the landmarks.
 struct BodyMeasures {
   /// Takes the scan's frame to the body's (REP 103: x forward, y to her left, z up, origin on the floor
@@ -42,6 +47,7 @@ struct BodyMeasures {
   std::vector<Measure> heights;
   std::vector<Measure> girths;
   std::vector<GirthLoop> loops;
+  std::vector<Missing> missing;
 
   /// Null where the landmark was not found.
   const Landmark* find_landmark(const std::string& name) const;

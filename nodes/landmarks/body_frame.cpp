@@ -193,6 +193,22 @@ Eigen::Isometry3d upright_for(const Vector3d& up) {
   return upright;
 }
 
+// The levels of a body that stands; one on its head is refused as such.
+BodyLevels standing_levels(const TriangleMesh& mesh, const Eigen::Isometry3d& upright) {
+  try {
+    return find_levels(SlicedMesh(moved(mesh, upright)));
+  } catch (const geometry::Refusal& refused) {
+    if (refused.code() == geometry::refusal::kWrongUnit) throw;
+    const Eigen::Isometry3d turned = Eigen::AngleAxisd(180 * kDegree, Vector3d::UnitX()) * upright;
+    try {
+      find_levels(SlicedMesh(moved(mesh, turned)));
+    } catch (const geometry::Refusal&) {
+      throw refused;
+    }
+    throw geometry::Refusal(geometry::refusal::kNotABody, "not a standing body: it is upside down");
+  }
+}
+
 }  // namespace
 
 BodyFrame find_body_frame(const TriangleMesh& body) {
@@ -202,7 +218,7 @@ BodyFrame find_body_frame(const TriangleMesh& body) {
     throw geometry::Refusal(geometry::refusal::kNotABody,
                             "not a standing body: its weight is not above its feet");
   const Eigen::Isometry3d roughly = upright_for(balanced);
-  const Front rough_front = find_front(find_levels(SlicedMesh(moved(body, roughly))));
+  const Front rough_front = find_front(standing_levels(body, roughly));
 
   // 2. Up from the soles, where they agree with balance; the scan's own vertical, where it agrees with that.
   const Vector3d forward =

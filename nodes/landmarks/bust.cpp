@@ -17,6 +17,7 @@ constexpr double kNeighbourhood = 0.015;  // a tip is the foremost skin within 2
 constexpr double kNippleSurroundings = 0.025;
 // A nipple stands 4 to 6 mm over the skin 10 to 15 mm from it, a smooth breast of the same size 1 to 2.
 constexpr double kSharp = 0.0016;
+constexpr double kCleavage = 0.005;  // 8 mm behind the tips
 constexpr double kProfileReach =
     0.045;  // about a breast's radius: skin above and below that it stands out from
 
@@ -41,9 +42,12 @@ BustPoint find_bust_point(const BodyShape& body, const Trunk& trunk, Side side) 
   const double near = middle.y() + sign * kMedial * s, far = middle.y() + sign * kLateral * s;
   const double margin = kProfileReach * s;
   const std::vector<int> chest = vertices_in_box(
-      body, {middle.x(), std::min(near, far) - kNeighbourhood * s, axilla + kLowest * s - margin},
-      {middle.x() + s, std::max(near, far) + kNeighbourhood * s, axilla + kHighest * s + margin});
+      body,
+      {middle.x(), std::min({near, far, middle.y()}) - kNeighbourhood * s, axilla + kLowest * s - margin},
+      {middle.x() + s, std::max({near, far, middle.y()}) + kNeighbourhood * s,
+       axilla + kHighest * s + margin});
 
+  // A belly stands out too, most of all in its middle, where between breasts the chest recedes.
   int best = -1;
   double most = 0.004 * s;  // 7 mm: less is the rib cage's own roundness
   for (int v : chest) {
@@ -54,7 +58,7 @@ BustPoint find_bust_point(const BodyShape& body, const Trunk& trunk, Side side) 
       const Vector3d& q = body.mesh.vertices[w];
       return q.x() > p.x() && (q - p).squaredNorm() < std::pow(kNeighbourhood * s, 2);
     });
-    if (!foremost) continue;
+    if (!foremost || front_at(body, chest, middle.y(), p.z(), p.x() - 1) > p.x() - kCleavage * s) continue;
     const double above = front_at(body, chest, p.y(), p.z() + margin, p.x());
     const double below = front_at(body, chest, p.y(), p.z() - margin, p.x());
     const double stands_out = p.x() - (above + below) / 2;

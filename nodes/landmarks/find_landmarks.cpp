@@ -6,6 +6,7 @@
 #include "landmarks/body_frame.hpp"
 #include "landmarks/bust.hpp"
 #include "landmarks/girth_levels.hpp"
+#include "landmarks/limb_girths.hpp"
 #include "landmarks/lower_trunk.hpp"
 #include "landmarks/neck.hpp"
 #include "landmarks/shoulders.hpp"
@@ -62,6 +63,10 @@ class Record {
     measures_.loops.push_back(std::move(loop));
   }
 
+  void missing(const std::string& name, const std::string& reason) {
+    measures_.missing.push_back({name, reason});
+  }
+
   BodyMeasures take() { return std::move(measures_); }
 
  private:
@@ -91,6 +96,14 @@ void sides(const Trunk& trunk, const std::string& name, double level, double con
                     confidence < 0.5 ? "its level is by proportion" : "");
 }
 
+void limb(const std::string& name, const LimbGirth& girth, Record& record) {
+  if (girth.tape.empty()) {
+    record.missing(name, girth.reason);
+  } else {
+    record.girth(name, girth.tape, girth.confidence, girth.reason);
+  }
+}
+
 double lower_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
   const double crotch = body.crotch.height;
   // Thighs that touch, or a gap that the scan did not see: 0.006 statures are 10 mm.
@@ -104,13 +117,19 @@ double lower_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
   int found = 0;
   for (Side side : {kLeft, kRight}) {
     Vector3d point;
-    if (!find_buttock(body, side, point)) continue;
+    if (!find_buttock(body, side, point)) {
+      for (const char* name : {"buttock", "gluteal_fold"})
+        record.missing(std::string(name) + kSuffix[side], "no buttock stands out");
+      continue;
+    }
     record.landmark(std::string("buttock") + kSuffix[side], point);
     const GlutealFold fold = find_gluteal_fold(body, point);
     record.landmark(std::string("gluteal_fold") + kSuffix[side], fold.point, fold.confidence, fold.reason);
     sum += point.z();
     ++found;
   }
+  for (Side side : {kLeft, kRight})
+    limb(std::string("thigh") + kSuffix[side], find_thigh_girth(body, side), record);
   const double hip = found > 0 ? sum / found : crotch + 0.05 * body.stature;
   record.height("hip", hip, found > 0 ? 0.9 : 0.3,
                 found > 0 ? "" : "no buttock stands out; a level by proportion");
@@ -166,25 +185,47 @@ void waist(const BodyShape& body, const Trunk& trunk, double hip, double underbu
   record.landmark("navel", front, 0.4, "its level is by proportion");
 }
 
-void upper_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
+void neck(const BodyShape& body, const Neck& found, Record& record) {
+  if (!found.found) {
+    for (const char* name : {"neck_front", "neck_back", "neck_side_L", "neck_side_R", "neck"})
+      record.missing(name, found.missing);
+    return;
+  }
+  record.landmark("neck_front", found.front, found.confidence, found.reason);
+  record.landmark("neck_back", find_neck_back(body, found), found.confidence, found.reason);
   for (Side side : {kLeft, kRight})
-    if (trunk.axilla(side).found)
-      record.landmark(std::string("axilla") + kSuffix[side], trunk.axilla(side).point);
-  const Neck neck = find_neck(body, trunk);
-  if (neck.found) {
-    record.landmark("neck_front", neck.front);
-    record.landmark("neck_back", find_neck_back(body, neck));
-    for (Side side : {kLeft, kRight})
-      record.landmark(std::string("neck_side") + kSuffix[side], find_neck_side(body, neck, side));
-    record.height("neck", neck.origin.z());
-    record.girth("neck", neck.tape);
+    record.landmark(std::string("neck_side") + kSuffix[side], find_neck_side(body, found, side),
+                    found.confidence, found.reason);
+  record.height("neck", found.origin.z(), found.confidence, found.reason);
+  record.girth("neck", found.tape, found.confidence, found.reason);
+}
+
+void arm(const BodyShape& body, const Trunk& trunk, const Neck& found_neck, Side side, Record& record) {
+  const Axilla& axilla = trunk.axilla(side);
+  const std::string suffix = kSuffix[side];
+  if (axilla.found) {
+    record.landmark("axilla" + suffix, axilla.point, axilla.filled ? 0.45 : 0.9,
+                    axilla.filled ? "the armpit is filled with skin that the scan did not see" : "");
+  } else {
+    record.missing("axilla" + suffix, "no arm parts from the trunk");
   }
-  for (Side side : {kLeft, kRight}) {
-    const Shoulder shoulder = find_shoulder(body, trunk, neck, side);
-    if (shoulder.found)
-      record.landmark(std::string("shoulder") + kSuffix[side], shoulder.point, shoulder.confidence,
-                      shoulder.reason);
+  const Shoulder shoulder = find_shoulder(body, trunk, found_neck, side);
+  if (shoulder.found) {
+    record.landmark("shoulder" + suffix, shoulder.point, shoulder.confidence, shoulder.reason);
+  } else {
+    record.missing("shoulder" + suffix, shoulder.reason);
   }
+  if (axilla.found && shoulder.found) {
+    limb("upper_arm" + suffix, find_upper_arm_girth(body, trunk, shoulder.point, side), record);
+  } else {
+    record.missing("upper_arm" + suffix, "no arm parts from the trunk");
+  }
+}
+
+void upper_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
+  const Neck found_neck = find_neck(body, trunk);
+  neck(body, found_neck, record);
+  for (Side side : {kLeft, kRight}) arm(body, trunk, found_neck, side, record);
   if (body.levels.has_head) {
     record.height("stature", body.stature);
   } else {

@@ -15,6 +15,7 @@ using Eigen::Vector3d;
 constexpr double kFromNeckOut = 0.080, kFromNeckBack = 0.027, kFromNeckDown = 0.043;
 constexpr double kRaisedFromNeckOut = 0.075;  // the collarbone goes up with a raised arm
 constexpr double kBeyondAxilla = 0.0225;      // over the middle of the arm
+constexpr double kBoneTells = 2.0 / 3;        // its share; the rest is what axilla and slope tell in the mean
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kApart = 0.005;           // m, between two places of the ridge
@@ -109,21 +110,18 @@ Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& ne
   if (neck.found) {
     const Vector3d base = find_neck_side(body, neck, side);
     const bool hanging = axilla.found && !axilla.raised;
-    double out = (hanging ? kFromNeckOut : kRaisedFromNeckOut) * s, weight = 1;
+    double out = (hanging ? kFromNeckOut : kRaisedFromNeckOut) * s;
     if (hanging) {
-      out += sign * (axilla.point.y() - base.y()) + kBeyondAxilla * s;
-      ++weight;
+      double beside = sign * (axilla.point.y() - base.y()) + kBeyondAxilla * s;
       const double turn = turning_down(body, base, side);
-      if (turn > 0) {
-        out += turn;
-        ++weight;
-      }
+      if (turn > 0) beside = (beside + turn) / 2;
+      out = kBoneTells * out + (1 - kBoneTells) * beside;
     }
     const double stoop = stoop_of(body, neck);
     up = {std::sin(stoop), 0, std::cos(stoop)};
     const Vector3d forwards(up.z(), 0, -up.x());
     place = base - kFromNeckBack * s * forwards - kFromNeckDown * s * up;
-    place.y() = base.y() + sign * out / weight;
+    place.y() = base.y() + sign * out;
   } else {
     const std::vector<Outline> chest = trunk.outline_at(axilla.point.z() - 0.02 * s);
     const double x = chest.empty() ? axilla.point.x() : chest.front().centroid.x();

@@ -34,6 +34,7 @@ inline double melt(double a, double b) {
 
 struct Parts {
   bool head = true, arms = true;
+  bool arms_out = false;         ///< level, to the sides
   double left_breast_lower = 0;  ///< metres
   double web_below_crotch = 0;   ///< metres of a thin skin between the thighs, as a scan's hole filling makes
 };
@@ -51,7 +52,8 @@ inline double person(const Eigen::Vector3d& p, const Parts& parts) {
     d = melt(d, ellipsoid(p, {-0.05, side * 0.07, 0.90}, {0.09, 0.08, 0.09}));
     d = melt(d, ellipsoid(p, {0.09, side * 0.085, 1.24 - lower}, {0.065, 0.06, 0.06}));
     d = melt(d, capsule(p, {0, side * 0.05, 1.40}, {0, side * 0.17, 1.36}, 0.05, 0.05));
-    if (parts.arms) d = melt(d, capsule(p, {0, side * 0.19, 1.34}, {0, side * 0.42, 0.80}, 0.045, 0.03));
+    const double hand_y = parts.arms_out ? 0.70 : 0.42, hand_z = parts.arms_out ? 1.26 : 0.80;
+    if (parts.arms) d = melt(d, capsule(p, {0, side * 0.19, 1.34}, {0, side * hand_y, hand_z}, 0.045, 0.03));
   }
   d = melt(d, capsule(p, {0, 0, 1.38}, {0.02, 0, 1.50}, 0.055, 0.05));
   if (parts.head) d = melt(d, ellipsoid(p, {0.03, 0, 1.58}, {0.10, 0.08, 0.12}));
@@ -130,8 +132,9 @@ inline geometry::TriangleMesh surface_of(const Distance& distance, const Eigen::
 }
 
 inline geometry::TriangleMesh person_mesh(const Parts& parts = {}) {
-  return surface_of([&](const Eigen::Vector3d& p) { return person(p, parts); }, {-0.2, -0.5, -0.02},
-                    {0.26, 0.5, 1.74}, 0.012);
+  const double reach = parts.arms_out ? 0.76 : 0.5;
+  return surface_of([&](const Eigen::Vector3d& p) { return person(p, parts); }, {-0.2, -reach, -0.02},
+                    {0.26, reach, 1.74}, 0.012);
 }
 
 }  // namespace tensegric_fit::test

@@ -1,0 +1,25 @@
+/// Girths square to arms and legs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "landmarks/trunk.hpp"
+
+namespace tensegric_fit::landmarks {
+
+struct LimbGirth {
+  std::vector<Eigen::Vector3d> tape;  ///< empty where there is none
+  double confidence = 0.8;
+  std::string reason;  ///< of a low confidence, or why there is none
+};
+
+/// Round the upper arm, square to it, 0.051 statures below the axilla along it. `shoulder` is the shoulder
+/// point. \pre the axilla of this side was found
+LimbGirth find_upper_arm_girth(const BodyShape& body, const Trunk& trunk, const Eigen::Vector3d& shoulder,
+                               Side side);
+
+/// Round the thigh, square to it, 0.039 statures below the crotch, or just below where thighs touch.
+LimbGirth find_thigh_girth(const BodyShape& body, Side side);
+
+}  // namespace tensegric_fit::landmarks
