@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/status.hpp"
+#include "tffd/moves.hpp"
 
 namespace tensegric_fit::tffd {
 namespace {
@@ -97,7 +98,10 @@ Binding::Binding(const geometry::TriangleMesh& body, const geometry::ControlMesh
     truncation_error_ = largest_row_sum(weights_.nodes - truncated.nodes);
     weights_ = std::move(truncated);
   }
-  if (precision_ == Precision::fast) float_rows_ = FloatRows(weights_.nodes, anchors_);
+  if (precision_ == Precision::fast) {
+    const double* const entries = weights_.nodes.valuePtr();
+    float_weights_.assign(entries, entries + weights_.nodes.nonZeros());
+  }
 }
 
 Binding Binding::posed(const geometry::BoneFrames& bones) const {
@@ -133,13 +137,10 @@ void Binding::move_by_weights(const std::vector<Eigen::Vector3d>& outer,
     motion[i] = outer[i] - outer_[i];
     motion[outer.size() + i] = inner[i] - inner_[i];
   }
-  if (precision_ == Precision::fast) return float_rows_.add(motion, anchors_, moved);
-  for (const Anchor& anchor : anchors_) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (SparseRows::InnerIterator m(weights_.nodes, anchor.vertex); m; ++m)
-      sum += m.value() * motion[m.col()];
-    moved[anchor.vertex] += sum;
-  }
+  if (precision_ == Precision::fast)
+    add_moves(weights_.nodes, float_weights_.data(), motion, anchors_, moved);
+  else
+    add_moves(weights_.nodes, weights_.nodes.valuePtr(), motion, anchors_, moved);
 }
 
 void Binding::move_by_normals(const std::vector<Eigen::Vector3d>& outer,

@@ -7,7 +7,6 @@
 #include "geometry/control_mesh.hpp"
 #include "geometry/posture.hpp"
 #include "geometry/triangle_mesh.hpp"
-#include "tffd/float_rows.hpp"
 #include "tffd/reach.hpp"
 #include "tffd/weights.hpp"
 
@@ -80,8 +79,8 @@ class Binding {
   std::vector<Eigen::Vector3i> triangles_;
   std::vector<Anchor> anchors_;
   Weights weights_;
-  FloatRows float_rows_;  // empty but in the fast precision
-  NormalTerms terms_;     // empty but in the paper's setting
+  std::vector<float> float_weights_;  // the entries of M in the fast precision, else empty
+  NormalTerms terms_;                 // empty but in the paper's setting
   double truncation_error_ = 0;
 };
 
