@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "tffd/body_volume.hpp"
 #include "tffd/distortion.hpp"
 
 namespace tensegric_fit::fit {
@@ -22,12 +23,14 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
-// Body triangles that the control mesh can move.
-std::vector<Eigen::Vector3i> reached_triangles(const Body& body, const tffd::Binding& binding) {
-  std::vector<Eigen::Vector3i> triangles;
-  for (const Eigen::Vector3i& t : body.mesh.mesh.triangles)
-    if (binding.reaches(t[0]) || binding.reaches(t[1]) || binding.reaches(t[2])) triangles.push_back(t);
-  return triangles;
+// One a region, where the body's volume is to be kept.
+std::vector<tensegric::VolumeFunction> body_volumes(const Fitting& fitting, const Settings& settings) {
+  std::vector<tensegric::VolumeFunction> volumes;
+  if (settings.solver.volume == tensegric::KeptVolume::control) return volumes;
+  for (std::size_t r = 0; r < fitting.carried.size(); ++r)
+    volumes.push_back(tffd::BodyVolume(fitting.binding, fitting.carried[r],
+                                       geometry::region_apex(fitting.control, fitting.control.regions[r])));
+  return volumes;
 }
 
 }  // namespace
@@ -79,8 +82,11 @@ Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings&
     return tensegric::build_model(control, settings.model);
   }();
   const Stopwatch watch(times.tffd);
-  tffd::Binding binding(body.mesh.mesh, control, settings.tffd);
-  return {std::move(control), std::move(model), std::move(binding)};
+  tffd::Binding binding = tffd::Binding(body.mesh.mesh, control, settings.tffd).posed(settings.solver.bones);
+  auto carried = tffd::carried_triangles(binding, body.mesh.mesh.triangles, control);
+  Fitting fitting{std::move(control), std::move(model), std::move(binding), std::move(carried), {}};
+  fitting.body_volumes = body_volumes(fitting, settings);
+  return fitting;
 }
 
 Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& garment,
@@ -88,21 +94,18 @@ Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& gar
   Fit fit;
   {
     const Stopwatch watch(times.tensegric);
-    fit.solution = tensegric::solve(fitting.model, garment, settings.solver, start);
+    fit.solution = tensegric::solve(fitting.model, garment, settings.solver, start, {}, fitting.body_volumes);
   }
   const Stopwatch watch(times.tffd);
-  const geometry::BoneFrames& bones = settings.solver.bones;
-  const auto deform = [&](const tffd::Binding& binding) {
-    return binding.deform(fit.solution.outer, fit.solution.inner);
-  };
-  fit.deformed = bones.still() ? deform(fitting.binding) : deform(fitting.binding.posed(bones));
+  fit.deformed = fitting.binding.deform(fit.solution.outer, fit.solution.inner);
   fit.distortion =
       tffd::body_distortion(fitting.binding, tffd::control_distortion(fitting.control, fit.solution.outer));
-  const auto triangles = reached_triangles(body, fitting.binding);
-  for (const geometry::ControlRegion& region : fitting.control.regions) {
-    const Eigen::Vector3d apex = geometry::region_apex(fitting.control, region);
-    fit.body_volumes_before.push_back(geometry::cone_volume(body.mesh.mesh.vertices, triangles, apex));
-    fit.body_volumes_after.push_back(geometry::cone_volume(fit.deformed, triangles, bones.moved(apex)));
+  for (std::size_t r = 0; r < fitting.carried.size(); ++r) {
+    const Eigen::Vector3d apex = geometry::region_apex(fitting.control, fitting.control.regions[r]);
+    fit.body_volumes_before.push_back(
+        geometry::cone_volume(body.mesh.mesh.vertices, fitting.carried[r], apex));
+    fit.body_volumes_after.push_back(
+        geometry::cone_volume(fit.deformed, fitting.carried[r], settings.solver.bones.moved(apex)));
   }
   return fit;
 }

@@ -41,7 +41,9 @@ struct Body {
 struct Fitting {
   geometry::ControlMesh control;
   tensegric::Model model;
-  tffd::Binding binding;
+  tffd::Binding binding;                                ///< in the posture of the settings
+  std::vector<std::vector<Eigen::Vector3i>> carried;    ///< body triangles, one list a region
+  std::vector<tensegric::VolumeFunction> body_volumes;  ///< one a region where the body's volume is kept
 };
 
 /// A garment worn.
@@ -49,7 +51,7 @@ struct Fit {
   tensegric::Solution solution;
   std::vector<Eigen::Vector3d> deformed;    ///< one a body vertex, scan frame
   std::vector<double> distortion;           ///< area after / before, one a body vertex (P1 Fig. 8)
-  std::vector<double> body_volumes_before;  ///< one a region, m^3, under the region's triangles
+  std::vector<double> body_volumes_before;  ///< one a region, m^3, under the skin that it carries
   std::vector<double> body_volumes_after;
 };
 
@@ -70,8 +72,8 @@ Fitting prepare(const Body& body, const std::vector<control_mesh::Template>& pat
 /// The same for a control mesh that is given (P1 §3.2).
 Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings& settings, StageTimes& times);
 
-/// 4 and 5: tensegric deformation -> t-FFD of the body -> distortion. `start`: an earlier fit on the same
-/// fitting, or null.
+/// 4 and 5: tensegric deformation -> t-FFD of the body -> distortion. `settings` as for the fitting; `start`:
+/// an earlier fit on it, or null.
 Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& garment,
          const Settings& settings, StageTimes& times, const tensegric::Solution* start = nullptr);
 

@@ -65,7 +65,7 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
       "From a booth scan to the body that a garment would make of it. Exit: 0 done, 2 usage, 3 input "
       "refused, 1 the results cannot be written.");
   std::vector<std::string> ratios;
-  std::string band, gravity, solver = to_string(line.settings.solver.solver);
+  std::string band, gravity, volume = "control", solver = to_string(line.settings.solver.solver);
 
   auto* scan = app.add_option("--scan", line.scan, "Scan: FILE.ply, .pcd or .bag, metres");
   auto* mesh = app.add_option("--mesh", line.mesh, "Body mesh BODY.ply, taken as it is instead of a scan");
@@ -79,6 +79,9 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
   app.add_option("--solver", solver, "Solver")
       ->capture_default_str()
       ->check(CLI::IsMember({"equilibrium", "adaptive", "relaxation"}));
+  app.add_option("--volume", volume, "Whose volume is kept: the control mesh's or the body's")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"control", "body"}));
   auto* control_triangles =
       app.add_option(
              "--control-triangles", line.settings.control_mesh.control_triangles,
@@ -129,6 +132,7 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
   if (line.is_shape() && control_triangles->count() == 0)
     line.settings.control_mesh.control_triangles = kShapeTriangles;
   line.posture = {twist * M_PI / 180, lean * M_PI / 180};
+  if (volume == "body") line.settings.solver.volume = tensegric::KeptVolume::body;
   line.settings.solver.solver = tensegric::solver_from(solver);
   return std::nullopt;
 }
