@@ -1,0 +1,176 @@
+// The hips template: its shape as data, and laid on bodies of the virtual booth.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "booth/virtual_body.hpp"
+#include "control_mesh/fit_template.hpp"
+#include "control_mesh/grid.hpp"
+#include "control_mesh/skin.hpp"
+#include "geometry/status.hpp"
+#include "landmarks/find_landmarks.hpp"
+
+namespace {
+
+using namespace tensegric_fit;
+using Eigen::Vector3d;
+
+const std::string kTemplates = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/templates/";
+const std::string kHips = kTemplates + "hips.yaml";
+
+struct Body {
+  geometry::TriangleMesh mesh;
+  geometry::BodyMeasures measures;
+};
+
+/// 0 is the booth's own symmetric body; the others are drawn, so that hips, waist, breasts and stance differ.
+Body body_of(unsigned seed) {
+  booth::BodyParameters parameters;
+  if (seed > 0) {
+    std::mt19937 random(seed);
+    const auto between = [&random](double low, double high) {
+      return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+    };
+    parameters.stature = between(1.50, 1.85);
+    parameters.waist = between(0.92, 1.30);
+    parameters.hip = between(0.92, 1.20);
+    parameters.asymmetry = between(-0.15, 0.15);
+    parameters.arm_angle = between(0.45, 0.75);
+    parameters.yaw = between(-3, 3);
+    parameters.tilt = between(-0.1, 0.1);
+  }
+  Body body;
+  body.mesh = booth::make_body(parameters).mesh;
+  body.measures = landmarks::find_landmarks(body.mesh, {}, {});
+  return body;
+}
+
+geometry::ControlMesh fit(const Body& body, int triangles = 120) {
+  control_mesh::Options options;
+  options.control_triangles = triangles;
+  return control_mesh::fit_template(control_mesh::load_template(kHips), body.mesh, body.measures, options);
+}
+
+Vector3d area_of(const std::vector<Vector3d>& nodes, const Eigen::Vector3i& t) {
+  return geometry::area_vector(nodes[t[0]], nodes[t[1]], nodes[t[2]]);
+}
+
+TEST(HipsTemplate, HasTwoLegsAndNoNodeBetweenThem) {
+  const auto pattern = control_mesh::load_template(kHips);
+  const auto grid = control_mesh::grid_of(pattern);
+  EXPECT_EQ(grid.outer.size(), 103u);
+  EXPECT_EQ(grid.triangles.size(), 160u);
+  EXPECT_EQ(grid.regions.at(0).name, "hips");
+  EXPECT_EQ(grid.regions.at(0).triangles.size(), 160u);
+  EXPECT_EQ(control_mesh::node_at(pattern, 5, pattern.middle(), control_mesh::Side::left), -1);
+  std::vector<char> used(grid.outer.size(), 0);
+  for (const auto& t : grid.triangles)
+    for (int k = 0; k < 3; ++k) used[t[k]] = 1;
+  EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0) << "a node without triangles";
+  // One piece with one rim: V - E + F of a disc.
+  const auto edges = geometry::edges_of({grid.outer, grid.triangles});
+  EXPECT_EQ(grid.outer.size() + grid.triangles.size() - edges.size(), 1u);
+  for (const geometry::Edge& edge : edges) {
+    if (edge.right >= 0) continue;
+    EXPECT_TRUE(grid.outer_fixed[edge.first]);
+    EXPECT_TRUE(grid.outer_fixed[edge.second]);
+  }
+}
+
+TEST(HipsTemplate, SharesNoNameWithTheBust) {
+  const auto hips = control_mesh::grid_of(control_mesh::load_template(kHips));
+  const auto bust = control_mesh::load_template(kTemplates + "bust.yaml");
+  const auto bust_grid = control_mesh::grid_of(bust);
+  for (const std::string& name : hips.names)
+    if (!name.empty()) EXPECT_EQ(bust_grid.node(name), -1) << name;
+  for (const std::string stem :
+       {"hip_side", "waist_side", "waist_back", "outer_buttock", "buttock_point", "gluteal_fold"})
+    for (const char* side : {"_L", "_R"}) EXPECT_GE(hips.node(stem + side), 0) << stem << side;
+  EXPECT_GE(hips.node("centre_back"), 0);
+}
+
+class OnBooth : public testing::TestWithParam<unsigned> {};
+INSTANTIATE_TEST_SUITE_P(Bodies, OnBooth, testing::Range(0u, 4u));
+
+TEST_P(OnBooth, LiesOnTheSkinWithoutFoldsAndHoldsWhatIsBelow) {
+  const Body body = body_of(GetParam());
+  const control_mesh::Skin skin(body.mesh);
+  const auto control = fit(body);
+  for (std::size_t v = 0; v < control.outer.size(); ++v)
+    EXPECT_LE((skin.nearest(control.outer[v]) - control.outer[v]).norm(), 0.003 + 1e-9) << "node " << v;
+  for (const auto& t : control.triangles)
+    EXPECT_GT(area_of(control.outer, t).dot(area_of(control.inner, t)), 0)
+        << "an inner triangle is turned over";
+  for (const geometry::Edge& edge : geometry::edges_of({control.outer, control.triangles}))
+    if (edge.right >= 0)  // the cleft and the fold bend by up to 95 degrees; folded over is 180
+      EXPECT_GT(area_of(control.outer, control.triangles[edge.left])
+                    .normalized()
+                    .dot(area_of(control.outer, control.triangles[edge.right]).normalized()),
+                -0.5);
+
+  const auto fine = fit(body, 2000);  // 10 mm wide triangles stand for the skin
+  const Vector3d apex = geometry::region_apex(control, control.regions[0]);
+  EXPECT_NEAR(geometry::cone_volume(control.outer, control.triangles, apex) /
+                  geometry::cone_volume(fine.outer, fine.triangles, apex),
+              1, 0.02);
+}
+
+TEST(HipsTemplate, SymmetricBodyGivesSymmetricControlMesh) {
+  const Body body = body_of(0);
+  const auto control = fit(body);
+  const Vector3d mirror(1, -1, 1);
+  for (std::size_t v = 0; v < control.outer.size(); ++v) {
+    const Vector3d outer = body.measures.body_from_scan * control.outer[v],
+                   inner = body.measures.body_from_scan * control.inner[v];
+    double outer_miss = 1, inner_miss = 1;
+    for (std::size_t w = 0; w < control.outer.size(); ++w) {
+      const double miss =
+          (body.measures.body_from_scan * control.outer[w] - outer.cwiseProduct(mirror)).norm();
+      if (miss >= outer_miss) continue;
+      outer_miss = miss;
+      inner_miss = (body.measures.body_from_scan * control.inner[w] - inner.cwiseProduct(mirror)).norm();
+    }
+    EXPECT_LE(outer_miss, 1e-9) << "node " << v;  // DESIGN §7
+    EXPECT_LE(inner_miss, 1e-9) << "node " << v;
+  }
+}
+
+/// The hips template with the first `what` replaced, read back; the refusal's message, or "" where it was
+/// accepted.
+std::string refusal_with(const std::string& what, const std::string& by) {
+  std::ifstream in(kHips);
+  std::stringstream text;
+  text << in.rdbuf();
+  std::string changed = text.str();
+  const std::size_t at = changed.find(what);
+  if (at == std::string::npos) return "the template does not contain " + what;
+  changed.replace(at, what.size(), by);
+  const std::string path = testing::TempDir() + "changed_hips.yaml";
+  std::ofstream(path) << changed;
+  try {
+    control_mesh::load_template(path);
+  } catch (const geometry::Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), "bad_template");
+    return refusal.what();
+  }
+  return "";
+}
+
+TEST(HipsTemplate, RefusesWhatDoesNotFit) {
+  EXPECT_EQ(refusal_with("rows: 7", "rows: 7"), "");
+  // A row in two pieces, a character that means nothing, a node where no cell is, ends of columns not placed.
+  EXPECT_NE(refusal_with("'/////\\/'\n  - '////// '", "'//  /\\/'\n  - '//  // '").find("'diagonals'"),
+            std::string::npos);
+  EXPECT_NE(refusal_with("'/////\\/'", "'/////\\x'").find("'diagonals'"), std::string::npos);
+  EXPECT_NE(refusal_with("{row: 4, column: 7,", "{row: 5, column: 7,").find("no cell"), std::string::npos);
+  EXPECT_NE(refusal_with("{row: 6, column: 6,", "{row: 6, column: 4,").find("row 6, column 1"),
+            std::string::npos);
+  EXPECT_NE(refusal_with("axis: [hip_side_L, crotch]", "axis: []").find("'axis'"), std::string::npos);
+  EXPECT_NE(refusal_with("landmark: buttock_L}\n", "landmark: buttock_L, axis: [crotch]}\n").find("'axis'"),
+            std::string::npos);
+}
+
+}  // namespace
