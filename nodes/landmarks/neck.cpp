@@ -31,6 +31,7 @@ double side_below_plane(double girth) {
 }
 constexpr double kBackBelowPlane = 0.0383, kSideForwards = 0.003;
 constexpr double kPlaneAboveNotch = 0.0236;
+constexpr double kNotchBelowCrown = 0.162, kHead = 0.19, kAgree = 0.005;
 constexpr double kUprightLean = 23 * kDegree;
 
 // The plane of a thin neck's base leans further than that of its least girth, a thick one's less.
@@ -126,14 +127,26 @@ int corner_under_chin(const Profile& front, const Plane& thinnest, double statur
   return corner;
 }
 
-// The notch at the throat where no corner tells: where the profile, running down, stops receding.
-int deepest_point(const Profile& front, const Vector3d& middle) {
+// Where the throat's profile, running down along the neck, stops receding, or -1.
+int deepest_point(const Profile& front, const Plane& thinnest) {
+  const Vector3d axis = NeckPlanes::normal_of(thinnest.lean - kUprightLean), forwards(axis.z(), 0, -axis.x());
   int deepest = -1;
-  for (int i = 0; i < static_cast<int>(front.points.size()); ++i)
-    if (front.points[i].z() < middle.z() &&
-        (deepest < 0 || front.points[i].x() < front.points[deepest].x() - 1e-9))
+  for (int i = 0; i < static_cast<int>(front.points.size()); ++i) {
+    const Vector3d& p = front.points[i];
+    if (axis.dot(p - thinnest.origin) < 0 && (deepest < 0 || forwards.dot(p - front.points[deepest]) < -1e-9))
       deepest = i;
+  }
   return deepest;
+}
+
+// How far a point lies below the crown, along the neck of an upright body.
+double below_crown(const BodyShape& body, const Plane& thinnest, const Vector3d& point) {
+  const Vector3d up = NeckPlanes::normal_of(thinnest.lean - kUprightLean);
+  double crown = 0;
+  for (const Vector3d& v : body.mesh.vertices)
+    if (v.z() > thinnest.origin.z() && (v - thinnest.origin).norm() < kHead * body.stature)
+      crown = std::max(crown, up.dot(v - point));
+  return crown;
 }
 
 const Vector3d& along(const Profile& front, int from, double length) {
@@ -160,15 +173,25 @@ Neck find_neck(const BodyShape& body, const Trunk& trunk) {
   // 1. The thinnest loop, and from its front the corner under the chin.
   const Plane thinnest = thinnest_plane(planes, {centre.x(), centre.y(), at.height}, s);
   const Profile front = front_of_neck(body, thinnest.origin);
-  const int corner = corner_under_chin(front, thinnest, s), deepest = deepest_point(front, thinnest.origin);
+  int corner = corner_under_chin(front, thinnest, s);
+  const int deepest = deepest_point(front, thinnest);
   if (corner < 0 && deepest < 0) return neck;
-  if (corner < 0) {
+  // Chin and throat tell of one notch; where they do not, the one that is a head's height below the crown.
+  double lean = thinnest.lean, girth = planes.girth(thinnest.origin, lean) / s;
+  if (corner >= 0 && deepest >= 0) {
+    const Vector3d& by_corner = along(front, corner, notch_below_corner(girth) * s);
+    const auto off = [&](const Vector3d& notch) {
+      return std::abs(below_crown(body, thinnest, notch) / s - kNotchBelowCrown);
+    };
+    if ((by_corner - front.points[deepest]).norm() > kAgree * s &&
+        off(front.points[deepest]) < off(by_corner))
+      corner = -1;
+  } else if (corner < 0) {
     neck.confidence = 0.45;
     neck.reason = "no corner between chin and neck; from the deepest point of the throat";
   }
 
   // 2. The girth is the least one round the middle of the neck's base, a given way below that corner.
-  double lean = thinnest.lean, girth = planes.girth(thinnest.origin, lean) / s;
   neck.origin = thinnest.origin;
   for (int pass = 0; pass < 3; ++pass) {
     const Vector3d anchor = corner >= 0
@@ -189,20 +212,22 @@ Neck find_neck(const BodyShape& body, const Trunk& trunk) {
   neck.axis = NeckPlanes::normal_of(base);
   neck.forwards = {std::cos(base), 0, -std::sin(base)};
   neck.turn = base - kUprightLean;
+  neck.base_up = corner >= 0 ? neck.axis : NeckPlanes::normal_of(neck.turn);
+  neck.base = corner >= 0 ? Vector3d(neck.origin - kBackBelowPlane * s * neck.axis) : neck.front;
   neck.found = true;
   return neck;
 }
 
 Vector3d find_neck_back(const BodyShape& body, const Neck& neck) {
   const double s = body.stature;
-  const Vector3d reach = Vector3d(0.12, 0.01, 0.12) * s,
-                 wanted = neck.origin - kBackBelowPlane * s * neck.axis;
+  const Vector3d reach = Vector3d(0.12, 0.01, 0.12) * s;
+  const Vector3d wanted = neck.origin + neck.base_up.dot(neck.base - neck.origin) * neck.base_up;
   Vector3d nape = wanted - 0.03 * s * neck.forwards;
   double nearest = 1e9;
   const std::vector<int> skin = triangles_in_box(body, wanted - reach, wanted + reach);
   for (const geometry::SectionLoop& loop : cut(body, skin, neck.origin, Vector3d::UnitY())) {
     for (const Vector3d& p : loop.points) {
-      const double off = std::abs(neck.axis.dot(p - wanted));
+      const double off = std::abs(neck.base_up.dot(p - wanted));
       if (neck.forwards.dot(p - wanted) > 0 || off >= nearest) continue;
       nearest = off;
       nape = p;

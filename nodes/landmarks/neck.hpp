@@ -12,6 +12,7 @@ struct Neck {
   std::string missing;             ///< why it was not found
   Eigen::Vector3d origin;          ///< of the plane of the neck girth: the middle of its loop
   Eigen::Vector3d axis, forwards;  ///< of the neck, in the sagittal plane: up along it, and across
+  Eigen::Vector3d base, base_up;   ///< plane through the neck's lowest vertebra, and its normal
   double turn = 0;                 ///< radians by which it leans further forward than on an upright body
   std::vector<Eigen::Vector3d> tape;
   double girth = 0;
