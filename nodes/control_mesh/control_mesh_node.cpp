@@ -30,6 +30,8 @@ class ControlMeshNode {
     Parameters parameters(private_node);
     options_.control_triangles =
         parameters.integer("control_triangles", options_.control_triangles, 1, 100000);
+    options_.thickness =
+        parameters.number("thickness", options_.thickness, control_mesh::kThinnest, control_mesh::kThickest);
     std::istringstream names(parameters.text("template", "bust+hips"));
     const std::string folder = parameters.text("template_directory", geometry::shipped_folder("templates"));
     parameters.check_all_known();

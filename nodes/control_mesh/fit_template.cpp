@@ -111,6 +111,10 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
   if (options.control_triangles < 1 || options.control_triangles > kMostTriangles)
     throw Refusal(refusal::kBadOption, "control_triangles is " + std::to_string(options.control_triangles) +
                                            ", outside [1, " + std::to_string(kMostTriangles) + "]");
+  if (!(options.thickness >= kThinnest && options.thickness <= kThickest))
+    throw Refusal(refusal::kBadOption, "thickness is " + std::to_string(options.thickness) + ", outside [" +
+                                           std::to_string(kThinnest) + ", " + std::to_string(kThickest) +
+                                           "]");
   geometry::check_mesh(body);
   if (body.triangles.empty()) throw Refusal(refusal::kNotABody, "the body mesh has no triangles");
 
@@ -122,7 +126,9 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
   relax_on_skin(control, spreadable(pattern, control), grid_neighbours(pattern), skin);
 
   // 2. Inner nodes below them, and constraining lines over them.
-  place_inner_nodes(control, thickness_of(pattern, control.outer.size()), skin);
+  std::vector<double> thickness = thickness_of(pattern, control.outer.size());
+  for (double& t : thickness) t *= options.thickness;
+  place_inner_nodes(control, thickness, skin);
   add_lines(pattern, control);
 
   // 3. Finer triangles where they are asked for; what is left between triangles and skin is evened out.

@@ -33,8 +33,10 @@ Setup setup_from(const ros::NodeHandle& private_node) {
   Setup setup;
   Parameters parameters(private_node);
   tensegric::ModelOptions& model = setup.fitter.model;
-  model.strut_stiffness = parameters.number("strut_stiffness", model.strut_stiffness, 0.01, 1000);
-  model.prestress = parameters.number("prestress", model.prestress, 0.001, 0.2);
+  model.strut_stiffness = parameters.number("strut_stiffness", model.strut_stiffness,
+                                            tensegric::kSoftestStrut, tensegric::kStiffestStrut);
+  model.prestress = parameters.number("prestress", model.prestress, tensegric::kLowestPrestress,
+                                      tensegric::kHighestPrestress);
   tensegric::SolverOptions& solver = setup.fitter.solver;
   solver.solver = tensegric::solver_from(
       parameters.choice("solver", to_string(solver.solver), {"equilibrium", "adaptive", "relaxation"}));

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <map>
 
+#include "booth/random_body.hpp"
 #include "booth/virtual_body.hpp"
 #include "control_mesh/fit_template.hpp"
 #include "landmarks/find_landmarks.hpp"
@@ -55,6 +56,15 @@ geometry::ControlMesh dressed(const geometry::TriangleMesh& body, const geometry
 }
 
 }  // namespace
+
+std::vector<geometry::ControlMesh> template_meshes(std::uint64_t seed) {
+  const geometry::TriangleMesh mesh = booth::make_body(booth::random_body(seed)).mesh;
+  const geometry::BodyMeasures measures = landmarks::find_landmarks(mesh, {}, {});
+  std::vector<geometry::ControlMesh> meshes;
+  for (const std::string& file : yaml_files(kLaunch + "templates"))
+    meshes.push_back(control_mesh::fit_template(control_mesh::load_template(file), mesh, measures, {}));
+  return meshes;
+}
 
 std::vector<Case> garment_cases(const std::string& body, const std::vector<double>& ratios) {
   const geometry::TriangleMesh mesh = booth::make_body(parameters_of(body)).mesh;

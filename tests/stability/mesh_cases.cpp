@@ -207,8 +207,10 @@ void add_closed(Cases& cases) {
     std::vector<int> nodes;
     for (int i = 0; i <= around; ++i) nodes.push_back((i % around) * across);
     const tensegric::Garment band = line_over(ring, nodes, 0.9);
-    cases.add("closed/torus of " + std::to_string(2 * around * across) + " triangles, a band around", ring,
-              band);
+    cases
+        .add("closed/torus of " + std::to_string(2 * around * across) + " triangles, a band around", ring,
+             band)
+        .slow = around > 12;
   }
 }
 

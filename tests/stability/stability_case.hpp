@@ -2,6 +2,7 @@
 /// and exactness where a balance is claimed.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,12 @@ std::vector<Case> line_cases();
 /// Every shipped garment on a virtual-booth body: each of its lines by itself, and all of them, asked for
 /// each of `ratios`. `body`: firm, average or full.
 std::vector<Case> garment_cases(const std::string& body, const std::vector<double>& ratios);
+
+/// Every shipped template on a body of the virtual booth that is drawn by lot. Same seed, same body.
+std::vector<geometry::ControlMesh> template_meshes(std::uint64_t seed);
+
+/// Largest net force at a free node of the undeformed model / mean tensile force: zero but for rounding.
+double prestress_residual(const geometry::ControlMesh& control);
 
 /// A small bust that starts from nodes thrown about at random. Same seed, same case.
 Case random_start_case(unsigned seed);

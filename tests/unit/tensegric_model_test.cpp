@@ -72,9 +72,19 @@ TEST(Model, RefusesWhatCannotStand) {
   geometry::ControlMesh flat = bust_mesh();
   flat.inner = flat.outer;
   EXPECT_EQ(code(flat, {}), "bad_mesh");
-  ModelOptions soft;
-  soft.strut_stiffness = 0;
-  EXPECT_EQ(code(bust_mesh(), soft), "bad_option");
+  geometry::ControlMesh second = bust_mesh();
+  for (std::string& name : second.names) name.clear();
+  second.regions[0].name = second.lines[0].name = "second";
+  geometry::ControlMesh both = geometry::joined({bust_mesh(), second});
+  EXPECT_EQ(code(both, {}), "built");
+  std::fill(both.outer_fixed.begin() + 77, both.outer_fixed.end(), 0);
+  std::fill(both.inner_fixed.begin() + 77, both.inner_fixed.end(), 0);
+  EXPECT_EQ(code(both, {}), "bad_mesh");  // one of the two would float
+  for (double stiffness : {0.0, 0.9 * kSoftestStrut, 1.1 * kStiffestStrut})
+    EXPECT_EQ(code(bust_mesh(), {stiffness, 0.05}), "bad_option");
+  for (double prestress : {0.0, 0.9 * kLowestPrestress, 1.1 * kHighestPrestress})
+    EXPECT_EQ(code(bust_mesh(), {0.3, prestress}), "bad_option");
+  EXPECT_EQ(code(bust_mesh(), {kStiffestStrut, kHighestPrestress}), "built");
 }
 
 // A deformed state and a direction for differences; the seed is printed where a test fails.
