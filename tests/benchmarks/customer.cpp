@@ -1,0 +1,85 @@
+#include "customer.hpp"
+
+#include <map>
+
+#include "booth/virtual_body.hpp"
+#include "control_mesh/fit_template.hpp"
+#include "geometry/decimate.hpp"
+#include "geometry/ply.hpp"
+#include "landmarks/find_landmarks.hpp"
+#include "tffd/binding.hpp"
+
+namespace tensegric_fit::benchmarks {
+namespace {
+
+const std::string kLaunch = TENSEGRIC_FIT_LAUNCH;
+std::string body_file;
+
+// The value for `key`, made where it is not there yet.
+template <typename Key, typename Make>
+const auto& kept(std::map<Key, std::decay_t<std::result_of_t<Make()>>>& all, const Key& key,
+                 const Make& make) {
+  auto found = all.find(key);
+  if (found == all.end()) found = all.emplace(key, make()).first;
+  return found->second;
+}
+
+const geometry::TriangleMesh& finest_body() {
+  static const geometry::TriangleMesh mesh =
+      body_file.empty() ? booth::make_body({}).mesh : geometry::read_ply_mesh(body_file);
+  return mesh;
+}
+
+}  // namespace
+
+void choose_body(const std::string& ply_file) {
+  body_file = ply_file;
+}
+
+const geometry::TriangleMesh& body(int triangles) {
+  static std::map<int, geometry::TriangleMesh> all;
+  return kept(all, triangles, [&] { return geometry::with_triangles(finest_body(), triangles); });
+}
+
+const geometry::TriangleMesh& chest_skin(int triangles) {
+  static std::map<int, geometry::TriangleMesh> all;
+  return kept(all, triangles, [&] {
+    const geometry::TriangleMesh& whole = body(62000);
+    const tffd::Binding binding(whole, bust_control(120), {});
+    std::vector<char> keep;
+    for (const Eigen::Vector3i& t : whole.triangles)
+      keep.push_back(binding.reaches(t[0]) && binding.reaches(t[1]) && binding.reaches(t[2]));
+    return geometry::with_triangles(geometry::submesh(whole, keep), triangles);
+  });
+}
+
+const geometry::ControlMesh& bust_control(int triangles) {
+  static std::map<int, geometry::ControlMesh> all;
+  static const geometry::BodyMeasures measures = landmarks::find_landmarks(body(62000), {}, {});
+  return kept(all, triangles, [&] {
+    control_mesh::Options options;
+    options.control_triangles = triangles;
+    const auto pattern = control_mesh::load_template(kLaunch + "/templates/bust.yaml");
+    return control_mesh::fit_template(pattern, body(62000), measures, options);
+  });
+}
+
+const tensegric::Model& bust_model(int control_triangles) {
+  static std::map<int, tensegric::Model> all;
+  return kept(all, control_triangles,
+              [&] { return tensegric::build_model(bust_control(control_triangles), {}); });
+}
+
+tensegric::Garment chest_line(double ratio) {
+  tensegric::Garment garment = tensegric::load_garment(kLaunch + "/garments/B1.yaml");
+  tensegric::set_ratio(garment, "", ratio);
+  return garment;
+}
+
+const tensegric::Solution& worn(int control_triangles, double ratio) {
+  static std::map<std::pair<int, double>, tensegric::Solution> all;
+  return kept(all, std::make_pair(control_triangles, ratio),
+              [&] { return tensegric::solve(bust_model(control_triangles), chest_line(ratio), {}); });
+}
+
+}  // namespace tensegric_fit::benchmarks

@@ -1,0 +1,32 @@
+/// Whom the benchmarks dress: a body of the virtual booth, or one from a file.
+#pragma once
+
+#include <string>
+
+#include "geometry/control_mesh.hpp"
+#include "geometry/triangle_mesh.hpp"
+#include "tensegric/solver.hpp"
+
+namespace tensegric_fit::benchmarks {
+
+/// A body mesh to use from now on; empty: the virtual booth's. To be called before everything else here.
+void choose_body(const std::string& ply_file);
+
+/// Each is made once and kept. The body with that many triangles, or one less.
+const geometry::TriangleMesh& body(int triangles);
+
+/// Of the body only the skin that the bust's control mesh carries, cut finer to that many triangles.
+const geometry::TriangleMesh& chest_skin(int triangles);
+
+/// The bust's, with at least that many triangles.
+const geometry::ControlMesh& bust_control(int triangles);
+
+const tensegric::Model& bust_model(int control_triangles);
+
+/// Garment B1 with its chest line at that ratio.
+tensegric::Garment chest_line(double ratio);
+
+/// From rest, by the equilibrium solver.
+const tensegric::Solution& worn(int control_triangles, double ratio);
+
+}  // namespace tensegric_fit::benchmarks
