@@ -141,11 +141,14 @@ std::string measure_girths(const BodyShape& shape, const geometry::TriangleMesh&
   for (const bool left : {true, false}) {
     const std::string suffix = left ? "_L" : "_R";
     const BodyShape::Axis arm = shape.upper_arm_axis(left);
+    const double axilla = (measures.landmark("axilla" + suffix) - arm.origin).dot(arm.direction);
     girth("upper_arm" + suffix,
-          tape.round_nearest(arm.origin + shape.scaled(0.14) * arm.direction, arm.direction, Part::arm));
-    girth("thigh" + suffix, tape.round_nearest({shape.scaled(0.05), shape.scaled(left ? 0.1 : -0.1),
-                                                crotch - shape.scaled(0.03)},
-                                               Vector3d::UnitZ(), Part::trunk));
+          tape.round_nearest(arm.origin + (axilla + shape.scaled(0.087)) * arm.direction, arm.direction,
+                             Part::arm));
+    // The thighbone runs forward as it goes down
+    const Vector3d thigh(shape.scaled(0.05), (left ? 1 : -1) * shape.posed({0, 0.096, 0.73}).y(),
+                         crotch - shape.scaled(0.066));
+    girth("thigh" + suffix, tape.round_nearest(thigh, Vector3d(-0.12, 0, 1).normalized(), Part::trunk));
   }
   return narrowest ? "interior minimum of the hull girth" : "no interior minimum: ruler level";
 }

@@ -164,7 +164,7 @@ std::vector<geometry::Landmark> find_body_landmarks(const BodyShape& shape) {
     add("buttock" + suffix, rearmost(shape, side));
   }
   add("neck_front", throat(shape));
-  add("neck_back", skin({0.02, 0, 1.430}, -Vector3d::UnitX()));
+  add("neck_back", skin({0.02, 0, 1.417}, -Vector3d::UnitX()));
   add("navel", skin({0.05, 0, 1.050}, Vector3d::UnitX()));
   add("crotch", shape.exit_point(shape.posed({0.014, 0, 0.90}), -Vector3d::UnitZ()));
   return landmarks;

@@ -17,7 +17,6 @@ constexpr double kElbowFlexion = 0.45;
 constexpr double kMiddle = 0.04;  // x of the axis about which the trunk is thick or thin
 const Vector3d kShoulderJoint(0.008, 0.165, 1.330);
 const Vector3d kChest(0.144, 0.088, 1.236);  // the chest wall under a breast
-constexpr double kBreastDepth = 0.044;       // of a breast's middle under it
 constexpr double kCrease = 0.014;            // over which the skin under the breast is rounded
 const Vector3d kBelly(0.060, 0, 1.010);
 
@@ -58,8 +57,8 @@ BodyShape::BodyShape(const BodyParameters& parameters)
       upper_arm_(upper_arm_sections(), 0.06),
       forearm_(forearm_sections(), 0.04) {
   for (const double side : {0.5, -0.5})
-    breasts_.emplace_back(thickened(kChest) - kBreastDepth * Vector3d::UnitX(),
-                          parameters.bust * (1 + side * parameters.asymmetry), 1 - parameters.firmness);
+    breasts_.emplace_back(thickened(kChest), parameters.bust * (1 + side * parameters.asymmetry),
+                          1 - parameters.firmness);
   // Arms hang from the shoulders and do not turn with the chest
   const Eigen::Isometry3d shoulder =
       Eigen::Translation3d(spine_.bent(thickened(kShoulderJoint))) *
@@ -98,9 +97,11 @@ double BodyShape::trunk_without_breasts(const Vector3d& p) const {
   double d = smooth_union(torso_(q), legs, 0.035);
   d = smooth_union(d, smooth_union(buttock(1), buttock(-1), 0.012), 0.040);
   if (belly_ > 0) d = smooth_union(d, ellipsoid(q - kBelly, {navel_.x() - kBelly.x(), 0.125, 0.125}), 0.060);
-  // The perineum: level from front to back, a bridge between the thighs
-  d = smooth_union(d, tapered_capsule(q, {-0.002, 0, 0.8165}, {0.058, 0, 0.8165}, 0.020, 0.020), 0.010);
-  d -= 0.003 * bell((q - Vector3d(-0.035, 0, 1.430)).norm() / 0.014);  // the spine's lowest neck vertebra
+  // The perineum, level from front to back between the thighs, and the pubis before it
+  const double perineum = tapered_capsule(q, {-0.002, 0, 0.8165}, {0.058, 0, 0.8165}, 0.020, 0.020),
+               pubis = tapered_capsule(q, {0.058, 0, 0.8200}, {0.080, 0, 0.870}, 0.020, 0.034);
+  d = smooth_union(d, smooth_union(perineum, pubis, 0.010), 0.020);
+  d -= 0.003 * bell((q - Vector3d(-0.040, 0, 1.417)).norm() / 0.014);  // the spine's lowest neck vertebra
   d += 0.006 * bell((q - navel_).norm() / 0.009);
   return d * girth;
 }
@@ -130,9 +131,10 @@ double BodyShape::arm(const Vector3d& p) const {
 
 double BodyShape::head(const Vector3d& p) const {
   const double cranium = ellipsoid(p - Vector3d(0.052, 0, 1.603), {0.098, 0.076, 0.097});
-  const double face = ellipsoid(p - Vector3d(0.086, 0, 1.555), {0.060, 0.058, 0.079});
+  const double face = ellipsoid(p - Vector3d(0.086, 0, 1.562), {0.060, 0.058, 0.074});
+  const double jaw = ellipsoid(p - Vector3d(0.100, 0, 1.520), {0.050, 0.044, 0.028});
   const double nose = tapered_capsule(p, {0.142, 0, 1.585}, {0.156, 0, 1.550}, 0.006, 0.010);
-  return smooth_union(smooth_union(cranium, face, 0.030), nose, 0.012);
+  return smooth_union(smooth_union(smooth_union(cranium, face, 0.030), jaw, 0.020), nose, 0.012);
 }
 
 double BodyShape::reference_value(const Vector3d& p) const {
@@ -140,7 +142,7 @@ double BodyShape::reference_value(const Vector3d& p) const {
   double d = trunk(upright);
   d = smooth_union(d, arm(left),
                    0.024 + 0.036 * smooth_step((upright.z() - 1.27) / 0.08));  // sharper in the armpit
-  d = smooth_union(d, head(upright), 0.030);
+  d = smooth_union(d, head(upright), 0.018);
   const double heel = ellipsoid(left - Vector3d(0.021, 0.104, 0.031), {0.040, 0.034, 0.046});
   const double sole = ellipsoid(left - Vector3d(0.095, 0.110, 0.018), {0.098, 0.043, 0.028});
   const double instep = tapered_capsule(left, {0.035, 0.104, 0.085}, {0.120, 0.108, 0.020}, 0.034, 0.020);
@@ -221,8 +223,8 @@ BodyShape::Axis BodyShape::upper_arm_axis(bool left) const {
 }
 
 BodyShape::Axis BodyShape::neck_axis() const {
-  const Vector3d origin(0.033, 0, 1.471);
-  return {posed(origin), posed_direction(origin, Vector3d(0.373, 0, 0.928))};
+  const Vector3d origin(0.030, 0, 1.4605);
+  return {posed(origin), posed_direction(origin, Vector3d(0.390, 0, 0.921))};
 }
 
 }  // namespace tensegric_fit::booth

@@ -8,8 +8,8 @@ namespace tensegric_fit::booth {
 /// A drop on the chest wall with a nipple at its tip; a left one. Metres, x forward, y left, z up.
 class Breast {
  public:
-  /// `centre` of a breast of size 1 on the chest; `sag` 0 is firm, 1 soft, more hangs over the fold.
-  Breast(const Eigen::Vector3d& centre, double size, double sag);
+  /// `chest`: on the chest wall under it; `sag`: 0 is firm, 1 soft, more hangs over the fold.
+  Breast(const Eigen::Vector3d& chest, double size, double sag);
 
   /// Negative inside, near the distance in metres.
   double value(const Eigen::Vector3d& p) const;
