@@ -207,8 +207,9 @@ TEST(FitTemplate, SubdivisionKeepsWhatTheTemplateSays) {
     EXPECT_EQ(std::count(rim.begin(), rim.end(), 1), 32 * steps);
     int on_breastbone = 0;
     for (std::size_t v = 0; v < fine.outer.size(); ++v) {
-      if (rim[v]) EXPECT_TRUE(fine.outer_fixed[v]);
-      if (!rim[v] && std::abs(fine.outer[v].y()) < 1e-9) {
+      if (rim[v]) {
+        EXPECT_TRUE(fine.outer_fixed[v]);
+      } else if (std::abs(fine.outer[v].y()) < 1e-9) {
         EXPECT_TRUE(fine.outer_fixed[v]);
         ++on_breastbone;
       }
@@ -284,6 +285,22 @@ TEST(FitTemplate, MissingLandmarkIsNamed) {
   }
 }
 
+TEST(FitTemplate, ThicknessIsScaled) {
+  const Trunk trunk = make_trunk();
+  const auto mean_thickness = [&trunk](double thickness) {
+    control_mesh::Options options;
+    options.thickness = thickness;
+    const auto control =
+        control_mesh::fit_template(control_mesh::load_template(kBust), trunk.mesh, trunk.measures, options);
+    double sum = 0;
+    for (std::size_t v = 0; v < control.outer.size(); ++v)
+      sum += (control.outer[v] - control.inner[v]).norm() / static_cast<double>(control.outer.size());
+    return sum;
+  };
+  // Not exactly half: outer nodes are lifted by up to 3 mm, and thick units are kept from folding.
+  EXPECT_NEAR(mean_thickness(0.5) / mean_thickness(1), 0.5, 0.05);
+}
+
 TEST(FitTemplate, RefusesBadInput) {
   const Trunk trunk = make_trunk();
   const auto code_of = [&trunk](const geometry::TriangleMesh& mesh, int triangles) -> std::string {
@@ -297,6 +314,11 @@ TEST(FitTemplate, RefusesBadInput) {
   EXPECT_EQ(code_of(trunk.mesh, 0), "bad_option");
   EXPECT_EQ(code_of(trunk.mesh, 1 << 30), "bad_option");
   EXPECT_EQ(code_of({}, 120), "not_a_body");
+  control_mesh::Options options;
+  options.thickness = 0;
+  EXPECT_THROW(
+      control_mesh::fit_template(control_mesh::load_template(kBust), trunk.mesh, trunk.measures, options),
+      geometry::Refusal);
   geometry::TriangleMesh elsewhere = trunk.mesh;
   for (Vector3d& p : elsewhere.vertices) p.z() += 5;
   EXPECT_EQ(code_of(elsewhere, 120), "not_a_body");
