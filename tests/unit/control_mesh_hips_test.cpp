@@ -84,8 +84,11 @@ TEST(HipsTemplate, SharesNoNameWithTheBust) {
   const auto hips = control_mesh::grid_of(control_mesh::load_template(kHips));
   const auto bust = control_mesh::load_template(kTemplates + "bust.yaml");
   const auto bust_grid = control_mesh::grid_of(bust);
-  for (const std::string& name : hips.names)
-    if (!name.empty()) EXPECT_EQ(bust_grid.node(name), -1) << name;
+  for (const std::string& name : hips.names) {
+    if (!name.empty()) {
+      EXPECT_EQ(bust_grid.node(name), -1) << name;
+    }
+  }
   for (const std::string stem :
        {"hip_side", "waist_side", "waist_back", "outer_buttock", "buttock_point", "gluteal_fold"})
     for (const char* side : {"_L", "_R"}) EXPECT_GE(hips.node(stem + side), 0) << stem << side;
@@ -104,12 +107,14 @@ TEST_P(OnBooth, LiesOnTheSkinWithoutFoldsAndHoldsWhatIsBelow) {
   for (const auto& t : control.triangles)
     EXPECT_GT(area_of(control.outer, t).dot(area_of(control.inner, t)), 0)
         << "an inner triangle is turned over";
-  for (const geometry::Edge& edge : geometry::edges_of({control.outer, control.triangles}))
-    if (edge.right >= 0)  // the cleft and the fold bend by up to 95 degrees; folded over is 180
-      EXPECT_GT(area_of(control.outer, control.triangles[edge.left])
-                    .normalized()
-                    .dot(area_of(control.outer, control.triangles[edge.right]).normalized()),
-                -0.5);
+  for (const geometry::Edge& edge : geometry::edges_of({control.outer, control.triangles})) {
+    if (edge.right < 0) continue;
+    // the cleft and the fold bend by up to 95 degrees; folded over is 180
+    EXPECT_GT(area_of(control.outer, control.triangles[edge.left])
+                  .normalized()
+                  .dot(area_of(control.outer, control.triangles[edge.right]).normalized()),
+              -0.5);
+  }
 
   const auto fine = fit(body, 2000);  // 10 mm wide triangles stand for the skin
   const Vector3d apex = geometry::region_apex(control, control.regions[0]);
