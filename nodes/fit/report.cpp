@@ -54,6 +54,8 @@ void add_measures(const geometry::BodyMeasures& measures, Json& report) {
   };
   add("heights", measures.heights);
   add("girths", measures.girths);
+  report["missing"] = Json::object();
+  for (const geometry::Missing& missing : measures.missing) report["missing"][missing.name] = missing.reason;
 }
 
 void add_fit(const Body& body, const Fitting& fitting, const Fit& fit, const Settings& settings,

@@ -107,6 +107,11 @@ Landmarks to_message(const ScanTag& tag, const geometry::BodyMeasures& measures)
     girth.points = flat<double>(loop.points);
     message.loops.push_back(std::move(girth));
   }
+  for (const geometry::Missing& missing : measures.missing) {
+    message.missing.emplace_back();
+    message.missing.back().name = missing.name;
+    message.missing.back().reason = missing.reason;
+  }
   return message;
 }
 
@@ -123,6 +128,7 @@ geometry::BodyMeasures measures_in(const Landmarks& message) {
   measures.girths = measures_from(message.girths);
   for (const GirthLoop& girth : message.loops)
     measures.loops.push_back({girth.name, points_in(girth.points)});
+  for (const Missing& missing : message.missing) measures.missing.push_back({missing.name, missing.reason});
   return measures;
 }
 

@@ -94,6 +94,7 @@ TEST(BodyMessages, MeasuresComeBackBitForBit) {
   measures.landmarks = {{"navel", {0.1, 0.2, 1.0 / 3}, 0.9, ""}, {"crotch", {0, 0, 0.8}, 0.2, "unseen"}};
   measures.heights = {{"bust", 1.2, 0.8, ""}};
   measures.girths = {{"waist", 0.7, 0.4, "no inner minimum"}};
+  measures.missing = {{"neck_front", "no head"}};
   measures.loops = {{"waist", {{0, 0, 1}, {0.1, 0, 1}, {0.1, 0.1, 1}}}};
 
   const geometry::BodyMeasures back = measures_in(to_message(some_tag(), measures));
@@ -106,6 +107,8 @@ TEST(BodyMessages, MeasuresComeBackBitForBit) {
   EXPECT_EQ(back.heights.at(0).metres, 1.2);
   EXPECT_EQ(back.girths.at(0).reason, "no inner minimum");
   EXPECT_EQ(back.loops.at(0).points, measures.loops[0].points);
+  EXPECT_EQ(back.missing.at(0).name, "neck_front");
+  EXPECT_EQ(back.missing.at(0).reason, "no head");
 }
 
 TEST(BodyMessages, ATransformThatIsNoneIsRefused) {
