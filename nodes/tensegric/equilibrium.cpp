@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "tensegric/newton.hpp"
 
@@ -9,32 +10,34 @@ namespace tensegric_fit::tensegric {
 namespace {
 
 constexpr Tolerance kExact{1e-10, 1e-12, 1e-11};  // what is aimed at
-constexpr Tolerance kOnTheWay{0.2, 1e-4, 1e-4};  // at a load between rest and the request
+constexpr Tolerance kOnTheWay{0.2, 1e-4, 1e-4};   // at a load between rest and the request
 constexpr double kShareOfWeight = 0.01;           // residual on the way, of the change in gravity
 constexpr double kTightestHold = 20;              // where a band has no limit of its own; times k
 constexpr double kFirstRatioStep = 0.03;  // change of a neutral length in the first load step, relative
 constexpr double kShortestLoadStep = 1.0 / 1024;
 constexpr double kSamePlace = 1e-9;  // m
+// What is handed back of an unfinished way: pulls that are left over are below the tissue's own.
+constexpr Tolerance kHandedBack{1, 1e-9, 1};
 constexpr int kMostPerLoad = 60, kMostAtEnd = 80, kMostCorrections = 10;
+
+std::string per_cent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
+  return text;
+}
 
 class LoadPath {
  public:
-  LoadPath(Problem& problem, Recorder& recorder)
-      : problem_(problem), newton_(problem, recorder), bands_(problem.bands.size()) {}
+  /// `spent`: iterations before it.
+  LoadPath(Problem& problem, Recorder& recorder, int spent = 0)
+      : problem_(problem), newton_(problem, recorder, spent), bands_(problem.bands.size()) {}
 
   Outcome from_rest() {
-    Balance at{
-        problem_.rest, Eigen::VectorXd::Zero(problem_.volumes.size()), Eigen::VectorXd::Zero(bands_), {}};
-    first_ = end_load();
+    Balance at = at_rest();
     for (std::size_t b = 0; b < bands_; ++b) {
       const Band& band = problem_.bands[b];
-      first_.neutral[b] = band.initial;
-      at.holds.push_back(!band.steep                                     ? Hold::elastic
-                         : band.neutral < band.initial && can_hold(band) ? Hold::length
-                                                                         : Hold::slack);
+      if (band.steep && band.neutral < band.initial && can_hold(band)) at.holds[b] = Hold::length;
     }
-    first_.gravity.setZero();
-    first_posture_ = 0;
     return follow(at);
   }
 
@@ -66,11 +69,31 @@ class LoadPath {
   }
 
   bool settled() const { return settled_; }
-  bool stopped() const { return newton_.stop() != Stop::none; }
+  int iterations() const { return newton_.iterations(); }
+  /// By the caller, or a bound that the caller set.
+  bool interrupted() const {
+    return stopped() && (newton_.stop() != Stop::iterations || problem_.options.max_iterations > 0);
+  }
 
  private:
+  bool stopped() const { return newton_.stop() != Stop::none; }
+
   // A rigid line over fixed nodes only has nothing to pull.
   static bool can_hold(const Band& band) { return band.movable || band.law.kind != TensionLaw::Kind::rigid; }
+
+  // Where the way from rest begins.
+  Balance at_rest() {
+    Balance at{
+        problem_.rest, Eigen::VectorXd::Zero(problem_.volumes.size()), Eigen::VectorXd::Zero(bands_), {}};
+    first_ = end_load();
+    for (std::size_t b = 0; b < bands_; ++b) {
+      first_.neutral[b] = problem_.bands[b].initial;
+      at.holds.push_back(problem_.bands[b].steep ? Hold::slack : Hold::elastic);
+    }
+    first_.gravity.setZero();
+    first_posture_ = 0;
+    return at;
+  }
 
   Load end_load() const {
     Load load;
@@ -149,6 +172,12 @@ class LoadPath {
       carry(at.x, posture_at(share), posture_at(share));
       if (stopped() || !newton_.settle(at, load, kExact, kMostAtEnd)) at = settled;
       newton_.mend(at, load);
+      if (!within(newton_.kkt().defect(at, load), kHandedBack)) {
+        at = at_rest();
+        pose_apexes(problem_, 0);
+        share = 0;
+        load = load_at(share);
+      }
     }
     return outcome(at, load, share);
   }
@@ -189,8 +218,8 @@ class LoadPath {
     }
     result.status = !settled_ ? Status::capped : at_limit ? Status::infeasible : Status::converged;
     if (!settled_)
-      result.note = why_stopped() + ": this is the last balance on the way, at " +
-                    std::to_string(std::lround(100 * share)) + " % of the request.";
+      result.note =
+          why_stopped() + ": this is the last balance on the way, at " + per_cent(share) + " of the request.";
     else if (newton_.branch_near())
       result.note = "Another balance was near: the tissue may settle to either side.";
     return result;
@@ -218,6 +247,13 @@ class LoadPath {
   bool settled_ = false;
 };
 
+// Without load and with lines as long as at rest, rest is the balance.
+bool is_rest_asked_for(const Problem& problem) {
+  return problem.options.gravity.isZero(0) && problem.options.bones.still() &&
+         std::all_of(problem.bands.begin(), problem.bands.end(),
+                     [](const Band& band) { return band.neutral >= band.initial; });
+}
+
 // A start in another posture is none.
 bool is_start(const Problem& problem, const Solution& start) {
   if (start.status != Status::converged && start.status != Status::infeasible) return false;
@@ -230,12 +266,14 @@ bool is_start(const Problem& problem, const Solution& start) {
 }  // namespace
 
 Outcome find_equilibrium(Problem& problem, const Solution* start, Recorder& recorder) {
-  if (start != nullptr && is_start(problem, *start)) {
+  int spent = 0;
+  if (start != nullptr && is_start(problem, *start) && !is_rest_asked_for(problem)) {
     LoadPath warm(problem, recorder);
     Outcome result = warm.from_solution(*start);
-    if (warm.settled() || warm.stopped()) return result;
+    if (warm.settled() || warm.interrupted()) return result;
+    spent = warm.iterations();
   }
-  return LoadPath(problem, recorder).from_rest();
+  return LoadPath(problem, recorder, spent).from_rest();
 }
 
 }  // namespace tensegric_fit::tensegric

@@ -11,6 +11,7 @@ namespace {
 // symmetric one stays symmetric.
 constexpr Tolerance kAtSaddle{1e-5, 1e-6, 1e-6};
 constexpr int kMostIterations = 300, kMostHoldChanges = 20, kMostHalvings = 14;
+constexpr double kContradicted = 1e-6;  // of a neutral length: far above rounding
 constexpr int kMostMends = 8;
 constexpr double kMended = 1e-12;         // relative, of volumes and lengths
 constexpr int kStepsBeyondLimit = 3;      // a tension may overshoot for a step or two
@@ -23,12 +24,13 @@ bool within(const Defect& d, const Tolerance& t) {
          d.tension_error <= t.residual;
 }
 
-Newton::Newton(const Problem& problem, Recorder& recorder)
+Newton::Newton(const Problem& problem, Recorder& recorder, int spent)
     : problem_(problem),
       recorder_(recorder),
       kkt_(problem),
+      iterations_(spent),
       most_iterations_(problem.options.max_iterations > 0 ? problem.options.max_iterations
-                                                          : kMostIterations) {
+                                                          : spent + kMostIterations) {
   double sum = 0;
   for (const Member& m : problem.model.members) sum += m.rest;
   longest_move_ = sum / static_cast<double>(problem.model.members.size()) / 2;
@@ -54,7 +56,7 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
     }
     if (within(defect, tolerance)) return true;
     stop_ = spent();
-    if (i == most || stop_ != Stop::none) return within(defect, kWanted);
+    if (i == most || stop_ != Stop::none) return is_balance(at, load, defect);
     const Step step = kkt_.step(at, load, defect, within(defect, kAtSaddle));
     branch_near_ = branch_near_ || !step.minimum;
     if (!step.move.allFinite() || !step.multipliers.allFinite()) return false;
@@ -62,13 +64,18 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
       if (++changes > kMostHoldChanges) return false;
       continue;
     }
-    if (!advance(at, load, defect, step)) return within(defect, kWanted);
+    if (!advance(at, load, defect, step)) return is_balance(at, load, defect);
     if (!recorder_.record(++iterations_, at.x, kkt_.defect(at, load).residual, merit_change_)) {
       stop_ = Stop::caller;
       return false;
     }
   }
   return false;
+}
+
+// Good enough, though not as good as aimed at.
+bool Newton::is_balance(Balance at, const Load& load, const Defect& defect) const {
+  return within(defect, kWanted) && !change_holds(at, load);
 }
 
 void Newton::mend(Balance& at, const Load& load) const {
@@ -141,17 +148,27 @@ void Newton::move(Positions& x, const Eigen::VectorXd& by) const {
 
 // Of lines that run over the same nodes one may be short enough without pulling. Kept at their lengths
 // together they contradict each other, and the step is a compromise: lets go of the line that it would
-// shorten most.
+// shorten most. A line that lies straight between its fixed nodes and is asked to be shorter yet has no way
+// to shorten: it pulls as far as it may.
 bool Newton::release_contradicted(Balance& at, const Load& load, const Step& step) const {
   const Eigen::Index regions = at.pressures.size();
   int shortened = -1;
-  double most = 1e-6;  // of the neutral length: far above rounding
+  double most = kContradicted;
+  bool hopeless = false;
   for (std::size_t b = 0; b < problem_.bands.size(); ++b) {
+    if (at.holds[b] != Hold::length) continue;
     const double share = -step.left_over[regions + static_cast<Eigen::Index>(b)] / load.neutral[b];
-    if (at.holds[b] != Hold::length || share <= most) continue;
+    if (share < -kContradicted && problem_.bands[b].law.kind == TensionLaw::Kind::rigid &&
+        load.neutral[b] < problem_.bands[b].straight) {
+      at.holds[b] = Hold::limit;
+      at.tensions[b] = load.limit[b];
+      hopeless = true;
+    }
+    if (share <= most) continue;
     most = share;
     shortened = static_cast<int>(b);
   }
+  if (hopeless) return true;
   if (shortened >= 0) at.holds[shortened] = Hold::slack;
   return shortened >= 0;
 }

@@ -19,7 +19,8 @@ enum class Stop { none, iterations, time, caller };
 
 class Newton {
  public:
-  Newton(const Problem& problem, Recorder& recorder);
+  /// `spent`: iterations of the same solve before it.
+  Newton(const Problem& problem, Recorder& recorder, int spent);
 
   /// Brings `at` to balance under `load`; false where `most` steps, or all that are left, do not.
   bool settle(Balance& at, const Load& load, const Tolerance& tolerance, int most);
@@ -39,13 +40,14 @@ class Newton {
   bool stop_at_limits(Balance& at, const Load& load) const;
   bool release_contradicted(Balance& at, const Load& load, const Step& step) const;
   bool change_holds(Balance& at, const Load& load) const;
+  bool is_balance(Balance at, const Load& load, const Defect& defect) const;
   void move(Positions& x, const Eigen::VectorXd& by) const;
 
   const Problem& problem_;
   Recorder& recorder_;
   Kkt kkt_;
   double longest_move_;  // m, of a node in a step
-  int iterations_ = 0, most_iterations_;
+  int iterations_, most_iterations_;
   Stop stop_ = Stop::none;
   bool branch_near_ = false;
   double merit_change_ = 0;    // of the last step, relative

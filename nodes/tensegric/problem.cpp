@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/status.hpp"
 
@@ -126,6 +127,7 @@ Positions positions_of(const Solution& solution) {
 }
 
 double relative_residual(const Problem& problem, const Eigen::VectorXd& gradient) {
+  if (!gradient.allFinite()) return std::numeric_limits<double>::infinity();
   double largest = 0;
   for (int i = 0; i < problem.free_nodes; ++i)
     largest = std::max(largest, gradient.segment<3>(3 * i).squaredNorm());

@@ -54,7 +54,7 @@ bool is_held(const Problem& problem, int node);
 Positions positions_of(const Solution& solution);
 
 /// Largest net force at a free node, relative to the mean tensile force at rest. `gradient` is the negative
-/// net force.
+/// net force; infinite where it is not finite.
 double relative_residual(const Problem& problem, const Eigen::VectorXd& gradient);
 
 /// Keeps the history and tells the caller of each iteration.

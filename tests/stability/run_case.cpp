@@ -38,12 +38,15 @@ bool fixed_nodes_stay(const Case& hard, const Solution& s) {
   return true;
 }
 
-// DESIGN §7, where a balance is claimed. The papers' solvers pull lines by pseudo forces only, and leave the
-// volume as it comes (relaxation) or bring it back to about 1e-6 % (adaptive, P2 §4).
+// DESIGN §7, where a balance is claimed; and the last one on the way, where the equilibrium solver gave up.
+// The papers' solvers pull lines by pseudo forces only, and leave the volume as it comes (relaxation) or
+// bring it back to about 1e-6 % (adaptive, P2 §4).
 void check_balance(const Ending& ending, const tensegric::SolverOptions& options, Status status,
                    std::vector<std::string>& faults) {
   const SolverName solver = options.solver;
   const bool exact = solver == SolverName::equilibrium;
+  if (exact && status == Status::capped && !(ending.residual <= 1 && ending.volume_error <= 1e-9))
+    faults.push_back("what is handed back is no balance");
   if (status != Status::converged && status != Status::infeasible) return;
   if (!(ending.residual <= 1e-8)) faults.push_back("residual above 1e-8");
   if (solver != SolverName::relaxation && (exact || options.volume_force > 0) &&
