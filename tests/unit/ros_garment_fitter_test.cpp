@@ -7,6 +7,7 @@
 #include "ros/body_messages.hpp"
 #include "ros/garment_fitter.hpp"
 #include "tensegric_bust.hpp"
+#include "tffd/binding.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -62,6 +63,41 @@ TEST_F(GarmentFitterTest, GarmentsAreCheckedAgainstTheNewestModel) {
   EXPECT_EQ(refusal_of(chest_at(0.9)), "accepted");
   EXPECT_EQ(refusal_of(hat), "bad_garment");
   EXPECT_EQ(refusal_of(belt), "unknown_line");
+}
+
+TEST_F(GarmentFitterTest, KeepsTheBodysVolumeWhereItIsAskedTo) {
+  const geometry::ControlMesh control = tensegric::bust_mesh();
+  const geometry::TriangleMesh skin{control.outer, control.triangles};
+  FitterOptions options;
+  options.solver.volume = tensegric::KeptVolume::body;
+  GarmentFitter fitter(options);
+  const auto body = boost::make_shared<TriangleMesh>(to_message(ScanTag(), skin, {}));
+  const auto solution = fitter.fit({control_, nullptr, body}, chest_at(0.93), true, kGoOn);
+  ASSERT_TRUE(solution);
+  EXPECT_EQ(solution->status, tensegric::Status::converged);
+  const geometry::TriangleMesh sent = mesh_in(*body);  // float32 on the way
+  const auto after = tffd::Binding(sent, control, {}).deform(solution->outer, solution->inner);
+  const Eigen::Vector3d apex = geometry::region_apex(control, control.regions[0]);
+  EXPECT_NEAR(geometry::cone_volume(after, skin.triangles, apex) /
+                  geometry::cone_volume(sent.vertices, skin.triangles, apex),
+              1, 1e-9);  // DESIGN 7
+}
+
+TEST_F(GarmentFitterTest, APostureTakesTheBoundNodesAlong) {
+  FitterOptions options;
+  options.posture.twist = 0.2;
+  GarmentFitter fitter(options);
+  geometry::BodyMeasures measures;
+  measures.heights = {{"hip", 0.9, 1, ""}, {"underbust", 1.12, 1, ""}};
+  measures.landmarks = {{"crotch", {0, 0, 0.8}, 1, ""}};
+  const auto landmarks = boost::make_shared<Landmarks>(to_message(ScanTag(), measures));
+  const auto solution = fitter.fit({control_, landmarks, nullptr}, chest_at(0.97), true, kGoOn);
+  ASSERT_TRUE(solution);
+  EXPECT_EQ(solution->status, tensegric::Status::converged);
+  const geometry::BoneFrames bones(measures, options.posture);
+  const geometry::ControlMesh control = tensegric::bust_mesh();
+  for (std::size_t v = 0; v < control.inner.size(); ++v)
+    EXPECT_LT((solution->inner[v] - bones.moved(control.inner[v])).norm(), 1e-12);
 }
 
 }  // namespace
