@@ -15,10 +15,12 @@ constexpr double kShareOfWeight = 0.01;           // residual on the way, of the
 constexpr double kTightestHold = 20;              // where a band has no limit of its own; times k
 constexpr double kFirstRatioStep = 0.03;  // change of a neutral length in the first load step, relative
 constexpr double kShortestLoadStep = 1.0 / 1024;
+constexpr double kTrue = 1e-6;       // of a length: what DESIGN §7 asks for
 constexpr double kSamePlace = 1e-9;  // m
 // What is handed back of an unfinished way: pulls that are left over are below the tissue's own.
 constexpr Tolerance kHandedBack{1, 1e-9, 1};
 constexpr int kMostPerLoad = 60, kMostAtEnd = 80, kMostCorrections = 10;
+constexpr int kMostFromRest = 300, kMostWarm = 100;  // a start that leads nowhere soon is none
 
 std::string per_cent(double share) {
   char text[32];
@@ -28,9 +30,9 @@ std::string per_cent(double share) {
 
 class LoadPath {
  public:
-  /// `spent`: iterations before it.
-  LoadPath(Problem& problem, Recorder& recorder, int spent = 0)
-      : problem_(problem), newton_(problem, recorder, spent), bands_(problem.bands.size()) {}
+  /// `spent`: iterations before it. `most`: of its own, where the caller sets no bound.
+  LoadPath(Problem& problem, Recorder& recorder, int spent, int most)
+      : problem_(problem), newton_(problem, recorder, spent, most), bands_(problem.bands.size()) {}
 
   Outcome from_rest() {
     Balance at = at_rest();
@@ -166,8 +168,9 @@ class LoadPath {
       }
     }
     Load load = load_at(share);
+    bool true_lengths = true;
     if (share == 1) {
-      make_true(at, load);
+      true_lengths = make_true(at, load);
     } else {
       carry(at.x, posture_at(share), posture_at(share));
       if (stopped() || !newton_.settle(at, load, kExact, kMostAtEnd)) at = settled;
@@ -179,13 +182,13 @@ class LoadPath {
         load = load_at(share);
       }
     }
-    return outcome(at, load, share);
+    return outcome(at, load, share, true_lengths);
   }
 
   // Where a segment is shorter than the smooth length can tell, the neutral lengths are moved by as much as
-  // it is off, so that the polyline's own length is what was asked for.
-  void make_true(Balance& at, Load& load) {
-    for (int i = 0; i < kMostCorrections && !stopped(); ++i) {
+  // it is off, so that the polyline's own length is what was asked for. False where it is not, in the end.
+  bool make_true(Balance& at, Load& load) {
+    for (int i = 0;; ++i) {
       double off = 0;
       Load wanted = load;
       for (std::size_t b = 0; b < bands_; ++b) {
@@ -194,17 +197,18 @@ class LoadPath {
             band.neutral * smooth_length(band, at.x) / geometry::line_length(band.nodes, at.x);
         off = std::max(off, std::abs(wanted.neutral[b] / load.neutral[b] - 1));
       }
-      if (off <= kWanted.length) return;
+      if (off <= kWanted.length) return true;
       Balance truer = at;
-      if (!newton_.settle(truer, wanted, kExact, kMostAtEnd)) return;
+      if (i == kMostCorrections || stopped() || !newton_.settle(truer, wanted, kExact, kMostAtEnd))
+        return off <= kTrue;
       at = truer;
       load = wanted;
     }
   }
 
-  Outcome outcome(const Balance& at, const Load& load, double share) {
+  Outcome outcome(const Balance& at, const Load& load, double share, bool true_lengths) {
     const Defect defect = newton_.kkt().defect(at, load);
-    settled_ = share == 1 && within(defect, kWanted);
+    settled_ = share == 1 && true_lengths && within(defect, kWanted);
     Outcome result;
     result.state.x = at.x;
     result.iterations = newton_.iterations();
@@ -268,12 +272,12 @@ bool is_start(const Problem& problem, const Solution& start) {
 Outcome find_equilibrium(Problem& problem, const Solution* start, Recorder& recorder) {
   int spent = 0;
   if (start != nullptr && is_start(problem, *start) && !is_rest_asked_for(problem)) {
-    LoadPath warm(problem, recorder);
+    LoadPath warm(problem, recorder, 0, kMostWarm);
     Outcome result = warm.from_solution(*start);
     if (warm.settled() || warm.interrupted()) return result;
     spent = warm.iterations();
   }
-  return LoadPath(problem, recorder, spent).from_rest();
+  return LoadPath(problem, recorder, spent, kMostFromRest).from_rest();
 }
 
 }  // namespace tensegric_fit::tensegric

@@ -10,7 +10,7 @@ namespace {
 // This near to a balance that is no minimum the model has nothing to tell one way down from the other: a
 // symmetric one stays symmetric.
 constexpr Tolerance kAtSaddle{1e-5, 1e-6, 1e-6};
-constexpr int kMostIterations = 300, kMostHoldChanges = 20, kMostHalvings = 14;
+constexpr int kMostHoldChanges = 20, kMostHalvings = 14;
 constexpr double kContradicted = 1e-6;  // of a neutral length: far above rounding
 constexpr int kMostMends = 8;
 constexpr double kMended = 1e-12;         // relative, of volumes and lengths
@@ -24,13 +24,12 @@ bool within(const Defect& d, const Tolerance& t) {
          d.tension_error <= t.residual;
 }
 
-Newton::Newton(const Problem& problem, Recorder& recorder, int spent)
+Newton::Newton(const Problem& problem, Recorder& recorder, int spent, int most)
     : problem_(problem),
       recorder_(recorder),
       kkt_(problem),
       iterations_(spent),
-      most_iterations_(problem.options.max_iterations > 0 ? problem.options.max_iterations
-                                                          : spent + kMostIterations) {
+      most_iterations_(problem.options.max_iterations > 0 ? problem.options.max_iterations : spent + most) {
   double sum = 0;
   for (const Member& m : problem.model.members) sum += m.rest;
   longest_move_ = sum / static_cast<double>(problem.model.members.size()) / 2;

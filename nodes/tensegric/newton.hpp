@@ -19,8 +19,8 @@ enum class Stop { none, iterations, time, caller };
 
 class Newton {
  public:
-  /// `spent`: iterations of the same solve before it.
-  Newton(const Problem& problem, Recorder& recorder, int spent);
+  /// `spent`: iterations of the same solve before it. `most`: of its own, where the caller sets no bound.
+  Newton(const Problem& problem, Recorder& recorder, int spent, int most);
 
   /// Brings `at` to balance under `load`; false where `most` steps, or all that are left, do not.
   bool settle(Balance& at, const Load& load, const Tolerance& tolerance, int most);
