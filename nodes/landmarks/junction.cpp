@@ -1,6 +1,7 @@
 #include "landmarks/junction.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tensegric_fit::landmarks {
 namespace {
@@ -11,6 +12,8 @@ constexpr double kShareOfLimb = 0.5;
 constexpr double kApart = 0.0025;  // between sections
 constexpr int kReach = 2;          // sections each way over which lengthening is taken: 5 mm
 constexpr int kGrown = 4;          // sections above, 10 mm, where the bridge must have that share
+// Shares of the length further up between which a root's growth is taken, and the one at which its gap ends.
+constexpr double kUpperShare = 0.75, kLowerShare = 0.65, kShareOfGap = 0.5;
 
 }  // namespace
 
@@ -55,6 +58,27 @@ Junction find_junction(const SlicedMesh& body, const JunctionSearch& search) {
     junction = {heights[crossing] + std::clamp(share, 0.0, 1.0) * kApart, bridges[i + kReach]};
   }
   return junction;
+}
+
+Root find_root(const SlicedMesh& body, const JunctionSearch& search, double further_up) {
+  std::vector<double> lengths;
+  for (double z = search.low; z <= search.high + further_up; z += kApart)
+    lengths.push_back(narrowest_bridge(body.outlines_at(z), search.low_y, search.high_y).length);
+  const int up = static_cast<int>(std::lround(further_up / kApart));
+  // The highest place below which the share is missing: lower down, fillings come and go.
+  const auto place_of = [&](double share) {
+    const auto missing = [&](int i) { return share * lengths[i + up] - lengths[i]; };
+    for (int i = static_cast<int>(lengths.size()) - up - 2; i >= 0; --i)
+      if (missing(i) > 0 && missing(i + 1) <= 0) return i + missing(i) / (missing(i) - missing(i + 1));
+    return -1.0;
+  };
+  const double upper = place_of(kUpperShare), lower = place_of(kLowerShare);
+  if (lower < 0 || upper < lower) return {};
+  return {true, search.low + upper * kApart, (upper - lower) * kApart};
+}
+
+double end_of_gap(const Root& root) {
+  return root.height - root.growth * (kUpperShare - kShareOfGap) / (kUpperShare - kLowerShare);
 }
 
 }  // namespace tensegric_fit::landmarks

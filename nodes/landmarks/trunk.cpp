@@ -15,9 +15,13 @@ constexpr double kWidestChest = 1.7;      // of the waist; what reaches further 
 constexpr double kBeyondShoulders = 0.2;  // of stature, from the middle
 constexpr double kWidestGap =
     0.02;  // statures, of arm and trunk a fraction of a millimetre under the place where they join
-constexpr double kFilling = 0.006;   // statures, 10 mm: as much of an armpit sensors may not see
-constexpr double kUnderArm = 0.025;  // statures under the axilla where the arm tells how far it is raised
-constexpr double kRaised = 1.5;      // times that, from the trunk to the arm: 56 degrees
+constexpr double kFilling = 0.006;       // statures, 10 mm: as much of an armpit sensors may not see
+constexpr double kRoundFilling = 0.015;  // skin round a filling, smoothed with it
+constexpr double kBesideGap = 0.02;      // the bridge from arm to trunk is as near as that to the gap
+constexpr double kFurtherUp = 0.015;     // there the arm is one with the trunk
+constexpr double kHollow = 0.45;         // of the bridge, from behind
+constexpr double kUnderArm = 0.025;      // statures under the axilla where the arm tells how far it is raised
+constexpr double kRaised = 1.5;          // times that, from the trunk to the arm: 56 degrees
 
 // The outline at a height that is the trunk of the nearest level, or -1.
 int trunk_among(const std::vector<Outline>& outlines, const BodyLevels& levels, double height) {
@@ -76,6 +80,8 @@ double reach(const Outline& outline, Side side) {
 
 Trunk::Trunk(const BodyShape& body) : body_(body) {
   for (Side side : {kLeft, kRight}) axillae_[side] = find_axilla(side);
+  for (Side side : {kLeft, kRight})
+    if (axillae_[side].filled) axillae_[side].point = under_filling(side);
 }
 
 std::vector<Outline> Trunk::outline_at(double height) const {
@@ -112,6 +118,21 @@ int Trunk::level_of_raised_arm(Side side) const {
         reach(levels[i].outlines[levels[i].trunk], side) > kBeyondShoulders * body_.stature)
       return i;
   return -1;
+}
+
+Eigen::Vector3d Trunk::under_filling(Side side) const {
+  // Arms are alike, and a filling or a torn place only draws the growth out: the quicker one is right.
+  Root root = axillae_[side].root;
+  for (const Axilla& axilla : axillae_)
+    if (axilla.root.found) root.growth = std::min(root.growth, axilla.root.growth);
+  const Eigen::Vector3d& filled = axillae_[side].point;
+  if (!root.found) return filled;
+  const double height = std::max(end_of_gap(root), filled.z()), beside = kBesideGap * body_.stature;
+  const Bridge above = narrowest_bridge(body_.sliced.outlines_at(height + 0.003 * body_.stature),
+                                        filled.y() - beside, filled.y() + beside);
+  if (above.length <= 0) return {filled.x(), filled.y(), height};
+  const double inner = kSign[side] * std::min(kSign[side] * above.y, kSign[side] * filled.y());
+  return {above.back + kHollow * (above.front - above.back), inner, height};
 }
 
 Axilla Trunk::find_axilla(Side side) const {
@@ -173,19 +194,16 @@ Axilla Trunk::find_axilla(Side side) const {
   axilla.raised =
       lower_arm == nullptr || inner_side(*lower_arm) - narrow > kRaised * kUnderArm * body_.stature;
   if (arm != nullptr && !axilla.raised) {
-    // Skin that fills the armpit joins the arm too low; the axilla is where arm and trunk are one over the
-    // arm's depth.
-    const double sign = kSign[side], inner = sign * (narrow - 0.02 * body_.stature),
-                 outer = sign * (narrow + 0.02 * body_.stature);
-    const Junction junction = find_junction(
-        body_.sliced, {low - 0.01 * body_.stature, low + 0.06 * body_.stature, std::min(inner, outer),
-                       std::max(inner, outer), arm->high.x() - arm->low.x()});
+    // Skin that fills the armpit, or that a movement has torn, joins the arm too low.
+    const double sign = kSign[side], inner = sign * (narrow - kBesideGap * body_.stature),
+                 outer = sign * (narrow + kBesideGap * body_.stature);
+    axilla.root = find_root(body_.sliced,
+                            {low - 0.01 * body_.stature, low + 0.06 * body_.stature, std::min(inner, outer),
+                             std::max(inner, outer), 0},
+                            kFurtherUp * body_.stature);
     if (gap_beside(trunk, outlines, side, kWidestGap * body_.stature, axilla.point)) {
-      axilla.filled = junction.height - low > kFilling * body_.stature ||
-                      body_.unseen(axilla.point, kFilling * body_.stature);
-      // How far to the side it is, skin that fills it tells well; how high and how far back, it does not.
-      if (axilla.filled)
-        axilla.point = {(junction.above.back + junction.above.front) / 2, axilla.point.y(), junction.height};
+      axilla.filled = (axilla.root.found && end_of_gap(axilla.root) - low > kFilling * body_.stature) ||
+                      body_.unseen(axilla.point, kRoundFilling * body_.stature);
       return axilla;
     }
   }

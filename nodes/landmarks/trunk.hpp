@@ -12,6 +12,7 @@ struct Axilla {
       false;  ///< arm and trunk are joined below it too: skin that touches, or a gap that was filled
   bool raised = false;  ///< the arm stands out from the trunk by some 55 degrees or more
   Eigen::Vector3d point;
+  Root root;  ///< of an arm that hangs
 };
 
 class Trunk {
@@ -33,6 +34,8 @@ class Trunk {
 
  private:
   Axilla find_axilla(Side side) const;
+  /// Where arm and trunk would part without the skin that fills the armpit.
+  Eigen::Vector3d under_filling(Side side) const;
   /// A level inside an arm that grows out of the trunk without a sudden step, or -1.
   int level_of_raised_arm(Side side) const;
 
