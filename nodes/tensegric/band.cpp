@@ -11,19 +11,20 @@ namespace {
 using geometry::Refusal;
 namespace refusal = geometry::refusal;
 
-constexpr double kSmooth = 1e-3;  // m
-constexpr double kSteep = 100;    // tension per stretch; the tissue's own is about 1
+constexpr double kSmooth = 1e-3;       // m
+constexpr double kSmoothShare = 0.03;  // of the mean segment at rest, where that is less
+constexpr double kSteep = 100;         // tension per stretch; the tissue's own is about 1
 
-// f(l) = l from kSmooth on, below it an even polynomial that meets it with two equal derivatives.
+// f(l) = l from `smooth` on, below it an even polynomial that meets it with two equal derivatives.
 struct SegmentLength {
   double value, slope_over_length, curvature;
 };
 
-SegmentLength segment_length(double l) {
-  if (l >= kSmooth) return {l, 1 / l, 0};
-  const double t = l / kSmooth;
-  return {kSmooth * (0.375 + 0.75 * t * t - 0.125 * t * t * t * t), (1.5 - 0.5 * t * t) / kSmooth,
-          (1.5 - 1.5 * t * t) / kSmooth};
+SegmentLength segment_length(double l, double smooth) {
+  if (l >= smooth) return {l, 1 / l, 0};
+  const double t = l / smooth;
+  return {smooth * (0.375 + 0.75 * t * t - 0.125 * t * t * t * t), (1.5 - 0.5 * t * t) / smooth,
+          (1.5 - 1.5 * t * t) / smooth};
 }
 
 std::vector<int> stops_of(const geometry::ControlMesh& control, const GarmentLine& line) {
@@ -98,6 +99,7 @@ std::vector<Band> lay_bands(const Model& model, const Garment& garment) {
     band.request = line.ratio;
     band.initial = geometry::line_length(band.nodes, model.control.outer);
     band.neutral = line.ratio * band.initial;
+    band.smooth = std::min(kSmooth, kSmoothShare * band.initial / static_cast<double>(band.nodes.size() - 1));
     band.movable =
         std::any_of(band.nodes.begin(), band.nodes.end(), [&](int node) { return !model.is_fixed(node); });
     band.steep = is_steep(band.law);
@@ -120,15 +122,25 @@ double straight_way(const Model& model, const Band& band, const Positions& x) {
 double smooth_length(const Band& band, const Positions& x) {
   double length = 0;
   for (std::size_t i = 1; i < band.nodes.size(); ++i)
-    length += segment_length((x[band.nodes[i]] - x[band.nodes[i - 1]]).norm()).value;
+    length += segment_length((x[band.nodes[i]] - x[band.nodes[i - 1]]).norm(), band.smooth).value;
   return length;
+}
+
+double smooth_slope(const Band& band, const Positions& x) {
+  double change = 0, length = 0;
+  for (std::size_t i = 1; i < band.nodes.size(); ++i) {
+    const double segment = (x[band.nodes[i]] - x[band.nodes[i - 1]]).norm();
+    change += segment_length(segment, band.smooth).slope_over_length * segment * segment;
+    length += segment;
+  }
+  return length > 0 ? change / length : 0;
 }
 
 void add_length_gradient(const Band& band, const Positions& x, const std::vector<int>& free_index,
                          double scale, Eigen::Ref<Eigen::VectorXd> gradient) {
   for (std::size_t i = 1; i < band.nodes.size(); ++i) {
     const Eigen::Vector3d span = x[band.nodes[i]] - x[band.nodes[i - 1]];
-    const Eigen::Vector3d pull = scale * segment_length(span.norm()).slope_over_length * span;
+    const Eigen::Vector3d pull = scale * segment_length(span.norm(), band.smooth).slope_over_length * span;
     const int a = free_index[band.nodes[i]], b = free_index[band.nodes[i - 1]];
     if (a >= 0) gradient.segment<3>(3 * a) += pull;
     if (b >= 0) gradient.segment<3>(3 * b) -= pull;
@@ -141,7 +153,7 @@ void add_length_hessian(const Band& band, const Positions& x, const std::vector<
     const int a = free_index[band.nodes[i]], b = free_index[band.nodes[i - 1]];
     const Eigen::Vector3d span = x[band.nodes[i]] - x[band.nodes[i - 1]];
     const double length = span.norm();
-    const SegmentLength f = segment_length(length);
+    const SegmentLength f = segment_length(length, band.smooth);
     const Eigen::Vector3d u = length > 0 ? Eigen::Vector3d(span / length) : Eigen::Vector3d::Zero();
     Eigen::Matrix3d block = scale * (f.curvature - f.slope_over_length) * u * u.transpose();
     block.diagonal().array() += scale * f.slope_over_length;

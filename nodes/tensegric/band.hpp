@@ -18,6 +18,7 @@ struct Band {
   TensionLaw law;
   double tension_limit;
   double initial, neutral, request;  ///< m, m, neutral / initial
+  double smooth;                     ///< m, of shorter segments the length is smoothed
   bool movable;                      ///< it touches a free node
   bool steep;  ///< rigid, or so stiff that its length is better had from its tension than the other way round
   double straight = 0;  ///< m, least length: straight between the fixed nodes that it runs over
@@ -31,9 +32,12 @@ std::vector<Band> lay_bands(const Model& model, const Garment& garment);
 /// Sum of the straight ways between one fixed node that the band runs over and the next, at `x`.
 double straight_way(const Model& model, const Band& band, const Positions& x);
 
-/// Length of the polyline. Smooth where a segment is shorter than 1 mm, so that it may pass through zero;
-/// exact elsewhere.
+/// Length of the polyline. Smooth where a segment is shorter than `band.smooth` (1 mm, less on tiny models),
+/// so that it may pass through zero; exact elsewhere.
 double smooth_length(const Band& band, const Positions& x);
+
+/// Change of the smooth length by the polyline's own, as its segments grow in proportion.
+double smooth_slope(const Band& band, const Positions& x);
 
 /// Adds `scale` times the smooth length's gradient by the free nodes.
 void add_length_gradient(const Band& band, const Positions& x, const std::vector<int>& free_index,

@@ -193,9 +193,12 @@ class LoadPath {
       Load wanted = load;
       for (std::size_t b = 0; b < bands_; ++b) {
         const Band& band = problem_.bands[b];
-        wanted.neutral[b] =
-            band.neutral * smooth_length(band, at.x) / geometry::line_length(band.nodes, at.x);
-        off = std::max(off, std::abs(wanted.neutral[b] / load.neutral[b] - 1));
+        const double length = geometry::line_length(band.nodes, at.x);
+        const bool kept = at.holds[b] == Hold::length && band.law.kind == TensionLaw::Kind::rigid;
+        wanted.neutral[b] = kept ? load.neutral[b] + (band.neutral - length) * smooth_slope(band, at.x)
+                                 : band.neutral * smooth_length(band, at.x) / length;
+        off = std::max(off,
+                       std::abs(kept ? length / band.neutral - 1 : wanted.neutral[b] / load.neutral[b] - 1));
       }
       if (off <= kWanted.length) return true;
       Balance truer = at;

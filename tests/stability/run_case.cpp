@@ -81,6 +81,11 @@ Ending run(const Case& hard, SolverName solver, int most_iterations) {
     for (std::size_t b = 0; b < s.lines.size(); ++b)
       if (hard.garment.lines[b].law.kind == tensegric::TensionLaw::Kind::rigid)
         ending.line_error = std::max(ending.line_error, s.lines[b].final / s.lines[b].neutral - 1);
+    for (std::size_t b = 0; b < s.lines.size(); ++b)
+      if (solver == SolverName::equilibrium && s.status == Status::converged &&
+          hard.garment.lines[b].law.kind == tensegric::TensionLaw::Kind::rigid && s.lines[b].tension > 1e-9 &&
+          s.lines[b].final < s.lines[b].neutral * (1 - 1e-6))
+        ending.faults.push_back("a line that pulls is shorter than asked for");
     for (const auto& region : hard.control.regions)
       ending.volume_error = std::max(
           ending.volume_error, std::abs(volume_error(region_volume_of(model, region), positions_of(s))));
