@@ -81,7 +81,7 @@ struct Solution {
 
 /// Called after each iteration with the state as it stands; return false to cancel (status capped: the
 /// equilibrium solver's result is then the last state on the way to the request that was in balance, with its
-/// volumes kept, as it is when the time budget or the iterations end).
+/// volumes kept, or rest where there was none; as it is when the time budget or the iterations end).
 using Progress = std::function<bool(const Iterate&, const std::vector<Eigen::Vector3d>& outer)>;
 
 /// Deforms the model under the garment's lines at constant region volumes. Pieces of the control mesh that no
