@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "landmarks/bust.hpp"
+#include "landmarks/nipple.hpp"
 #include "landmarks/surface_point.hpp"
 
 namespace tensegric_fit::landmarks {
@@ -14,10 +16,7 @@ using Eigen::Vector3d;
 constexpr double kLowest = -0.17, kHighest = 0.03;  // from the axilla
 constexpr double kMedial = 0.025, kLateral = 0.13;
 constexpr double kNeighbourhood = 0.015;  // a tip is the foremost skin within 25 mm
-constexpr double kNippleSurroundings = 0.025;
-// A nipple stands 4 to 6 mm over the skin 10 to 15 mm from it, a smooth breast of the same size 1 to 2.
-constexpr double kSharp = 0.0016;
-constexpr double kCleavage = 0.005;  // 8 mm behind the tips
+constexpr double kCleavage = 0.005;       // 8 mm behind the tips
 constexpr double kProfileReach =
     0.045;  // about a breast's radius: skin above and below that it stands out from
 
@@ -68,10 +67,7 @@ BustPoint find_bust_point(const BodyShape& body, const Trunk& trunk, Side side) 
   }
   if (best >= 0) {
     const Vector3d& foremost = body.mesh.vertices[best];
-    const Vector3d tip = tip_of_bump(body, foremost, kNippleSurroundings * s);
-    if ((tip - foremost).norm() < kNippleSurroundings * s &&
-        height_over_ring(body, tip, 0.006 * s, 0.009 * s) > kSharp * s)
-      return {tip, 0.9, ""};
+    if (const std::optional<Vector3d> nipple = find_nipple(body, foremost)) return {*nipple, 0.9, ""};
     return {apex_of_bulge(body, foremost, Vector3d::UnitX(), kNeighbourhood * s), 0.8, ""};
   }
 

@@ -13,9 +13,8 @@ struct BustPoint {
   std::string reason;
 };
 
-/// Tip of the breast: of the bulge of the half chest that stands out most in a vertical profile, the nipple
-/// (the point that reaches furthest along the mean normal of the skin around), or where that is smooth, the
-/// foremost point.
+/// Tip of the breast: on the bulge of the half chest that stands out most in a vertical profile, the nipple,
+/// or where none is found, the foremost point.
 BustPoint find_bust_point(const BodyShape& body, const Trunk& trunk, Side side);
 
 struct Fold {

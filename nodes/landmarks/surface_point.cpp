@@ -58,43 +58,6 @@ int furthest_vertex(const BodyShape& body, const std::vector<int>& among, const 
   });
 }
 
-Vector3d tip_of_bump(const BodyShape& body, const Vector3d& start, double radius) {
-  const double depth = 0.0008 * body.stature;  // 1.3 mm: above the noise, below a nipple's height
-  Vector3d tip = start;
-  for (int pass = 0; pass < 10; ++pass) {
-    const std::vector<int> near = vertices_near(body, tip, radius);
-    Vector3d normal = Vector3d::Zero();
-    for (int v : near) normal += body.normals[v];
-    if (near.empty() || normal.norm() < 1e-9) return tip;
-    normal.normalize();
-    const double top = normal.dot(body.mesh.vertices[furthest_vertex(body, near, normal)]);
-    Vector3d sum = Vector3d::Zero();
-    double weight = 0;
-    for (int v : near) {
-      const double w = std::max(0.0, 1 - (top - normal.dot(body.mesh.vertices[v])) / depth);
-      sum += w * body.mesh.vertices[v];
-      weight += w;
-    }
-    const Vector3d next = sum / weight;
-    const double moved = (next - tip).norm();
-    tip = next;
-    if (moved < 1e-5) break;
-  }
-  return tip;
-}
-
-double height_over_ring(const BodyShape& body, const Vector3d& tip, double inner, double outer) {
-  Vector3d ring = Vector3d::Zero(), normal = Vector3d::Zero();
-  int count = 0;
-  for (int v : vertices_near(body, tip, outer)) {
-    normal += body.normals[v];
-    if ((body.mesh.vertices[v] - tip).norm() < inner) continue;
-    ring += body.mesh.vertices[v];
-    ++count;
-  }
-  return count == 0 || normal.norm() < 1e-9 ? 0 : normal.normalized().dot(tip - ring / count);
-}
-
 Vector3d apex_of_bulge(const BodyShape& body, const Vector3d& start, const Vector3d& direction,
                        double radius) {
   Vector3d apex = start;

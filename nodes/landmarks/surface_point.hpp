@@ -14,13 +14,6 @@ std::vector<int> vertices_in_box(const BodyShape& body, const Eigen::Vector3d& l
 /// The point of `among` that reaches furthest along `direction`. \pre not empty
 int furthest_vertex(const BodyShape& body, const std::vector<int>& among, const Eigen::Vector3d& direction);
 
-/// Tip of a bump near `start`: the point that reaches furthest along the mean normal of the skin within
-/// `radius` of it, averaged over the last millimetre or so.
-Eigen::Vector3d tip_of_bump(const BodyShape& body, const Eigen::Vector3d& start, double radius);
-
-/// How high a tip stands over the skin between `inner` and `outer` from it, along the mean normal.
-double height_over_ring(const BodyShape& body, const Eigen::Vector3d& tip, double inner, double outer);
-
 /// Furthest point along `direction` of a smooth bulge near `start`: apex of the quadric fitted to the skin
 /// within `radius`. Where the fit has no apex there, `start`.
 Eigen::Vector3d apex_of_bulge(const BodyShape& body, const Eigen::Vector3d& start,
