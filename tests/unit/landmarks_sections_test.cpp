@@ -1,6 +1,7 @@
 // The pieces that the landmarks are found with, on shapes whose answer is known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "landmarks/arm_cut.hpp"
@@ -89,6 +90,27 @@ TEST(Junction, IsWhereTheLimbIsJoinedOverItsDepthNotWhereSkinFillsTheGap) {
   EXPECT_NEAR(bridge.front + bridge.back, 0, 0.002);
   const landmarks::Junction junction = landmarks::find_junction(sliced, {0.03, 0.30, 0.145, 0.155, 0.09});
   EXPECT_NEAR(junction.height, 0.2, 0.007);  // the grid's spacing
+}
+
+// Two posts 0.10 m deep; the bridge between them has no length at 0.15, half at 0.20 and all at 0.25, but
+// skin 30 mm broad fills the gap under it.
+double posts_with_filled_gap(const Eigen::Vector3d& p) {
+  const double share = std::clamp((p.z() - 0.15) * 10, 0.3, 1.0);
+  const double post = std::max(std::abs(p.x()) - 0.05, std::abs(std::abs(p.y()) - 0.08) - 0.05);
+  const double skin = std::max(std::abs(p.x()) - 0.05 * share, std::abs(p.y()) - 0.08);
+  return std::max({std::min(post, skin), -p.z(), p.z() - 0.4});
+}
+
+TEST(Junction, TheGapUnderAFillingEndsWhereTheSkinAboveItTells) {
+  const landmarks::SlicedMesh sliced(
+      test::surface_of(posts_with_filled_gap, {-0.1, -0.2, -0.02}, {0.1, 0.2, 0.42}, 0.0067));
+  const landmarks::Root root = landmarks::find_root(sliced, {0.05, 0.30, -0.01, 0.01, 0}, 0.04);
+  ASSERT_TRUE(root.found);
+  EXPECT_NEAR(root.height, 0.225, 0.003);  // half the grid's spacing
+  EXPECT_NEAR(root.growth, 0.010, 0.002);
+  EXPECT_NEAR(landmarks::end_of_gap(root), 0.2, 0.007);  // the growth counts two and a half times
+  EXPECT_FALSE(
+      landmarks::find_root(sliced, {0.26, 0.30, -0.01, 0.01, 0}, 0.04).found);  // nothing grows there
 }
 
 }  // namespace
