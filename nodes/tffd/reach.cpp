@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "geometry/status.hpp"
 
@@ -147,6 +149,40 @@ std::vector<Anchor> carried(const geometry::TriangleMesh& body, const geometry::
   return anchors;
 }
 
+// Where the skin turns away from the control mesh, as between the thighs, what is carried ends without a
+// border: there the share grows from 0 with the way over the skin.
+void ease_edges(std::vector<Anchor>& anchors, const geometry::TriangleMesh& body,
+                const std::vector<Frame>& frames) {
+  constexpr double kWay =
+      0.75;        // mean radii of the triangles: steeper, skin turns over at 15 % shorter lines
+  double way = 0;  // to a whole share
+  for (const Frame& frame : frames) way += kWay * frame.radius / static_cast<double>(frames.size());
+  std::vector<double> distance(body.vertices.size(), 0);
+  for (const Anchor& anchor : anchors) distance[anchor.vertex] = way;
+  std::vector<Eigen::Vector3i> touched;
+  for (const Eigen::Vector3i& t : body.triangles)
+    if (distance[t[0]] + distance[t[1]] + distance[t[2]] > 0) touched.push_back(t);
+  const auto neighbours = geometry::neighbours_of(body.vertices.size(), touched);
+  std::set<std::pair<double, int>> open;
+  const auto visit_from = [&](int vertex) {
+    for (const int next : neighbours[vertex]) {
+      const double through = distance[vertex] + (body.vertices[next] - body.vertices[vertex]).norm();
+      if (through >= distance[next]) continue;
+      open.erase({distance[next], next});
+      distance[next] = through;
+      open.insert({through, next});
+    }
+  };
+  for (std::size_t v = 0; v < distance.size(); ++v)
+    if (distance[v] == 0) visit_from(static_cast<int>(v));
+  while (!open.empty()) {
+    const int vertex = open.begin()->second;
+    open.erase(open.begin());
+    visit_from(vertex);
+  }
+  for (Anchor& anchor : anchors) anchor.share = std::min(anchor.share, distance[anchor.vertex] / way);
+}
+
 // What a closed control mesh with fixed nodes carries: all but the skin over the fixed ones.
 std::vector<Anchor> carried_by_closed(const std::vector<Eigen::Vector3d>& vertices,
                                       const geometry::ControlMesh& control, const Border& border,
@@ -176,7 +212,10 @@ std::vector<Anchor> reach_of(const geometry::TriangleMesh& body, const geometry:
     if (body.triangles.empty())
       throw geometry::Refusal(geometry::refusal::kBadMesh,
                               "a control mesh with a border needs the body's triangles, and it has none");
-    return joined_to_nodes(carried(body, control, border, frames, grid, reach), body, control, border);
+    std::vector<Anchor> anchors =
+        joined_to_nodes(carried(body, control, border, frames, grid, reach), body, control, border);
+    ease_edges(anchors, body, frames);
+    return anchors;
   }
   if (std::count(border.depth.begin(), border.depth.end(), 0) > 0)
     return carried_by_closed(body.vertices, control, border, frames, grid, reach);
