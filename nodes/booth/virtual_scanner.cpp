@@ -141,6 +141,14 @@ Eigen::Isometry3d column_error(Random& random, double deviation) {
   return Eigen::Translation3d(middle + shift) * rotation * Eigen::Translation3d(-middle);
 }
 
+// Sensors have their y up, optical frames have it down.
+Eigen::Isometry3d optical_frame(const Sensor& sensor) {
+  Eigen::Isometry3d booth_from_sensor = Eigen::Isometry3d::Identity();
+  booth_from_sensor.linear() = sensor.axes.transpose() * Vector3d(1, -1, 1).asDiagonal();
+  booth_from_sensor.translation() = sensor.position;
+  return booth_from_sensor;
+}
+
 }  // namespace
 
 VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& options) {
@@ -152,10 +160,13 @@ VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& 
   const double pixels_per_unit = resolution(all, body, options);
 
   Random random(options.seed);
+  VirtualScan scan;
   std::vector<std::pair<Vector3d, int>> points;
   Eigen::Isometry3d error = Eigen::Isometry3d::Identity();
   for (std::size_t s = 0; s < all.size(); ++s) {
+    const int column = static_cast<int>(s) / options.sensors_per_column;
     if (s % options.sensors_per_column == 0) error = column_error(random, options.misregistration);
+    scan.sensors.push_back({column, error * optical_frame(all[s]), error});
     for (const Hit& hit : look(all[s], body, options, pixels_per_unit)) {
       if (random.uniform() >=
           return_share(hit.incidence, options.grazing) * bright_share(hit.point, options.dark))
@@ -164,7 +175,6 @@ VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& 
       constexpr double kFarthestOutlier = 0.050;
       const double off = random.uniform() < options.outliers ? kFarthestOutlier * (2 * random.uniform() - 1)
                                                              : options.noise * random.normal();
-      const int column = static_cast<int>(s) / options.sensors_per_column;
       const Vector3d skin = fractured(hit.point, options.fracture, column);
       points.emplace_back(error * Vector3d(skin + off * ray), static_cast<int>(s));
     }
@@ -172,12 +182,19 @@ VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& 
   random.shuffle(points);
   points.resize(std::min(points.size(), static_cast<std::size_t>(options.points)));
 
-  VirtualScan scan;
   for (const auto& [point, sensor] : points) {
     scan.cloud.points.push_back(point);
     scan.sensor.push_back(sensor);
   }
   return scan;
+}
+
+std::vector<SensorScan> by_sensor(const VirtualScan& scan) {
+  std::vector<SensorScan> scans;
+  for (const SensorPose& pose : scan.sensors) scans.push_back({{}, pose});
+  for (std::size_t i = 0; i < scan.sensor.size(); ++i)
+    scans[scan.sensor[i]].cloud.points.push_back(scan.cloud.points[i]);
+  return scans;
 }
 
 }  // namespace tensegric_fit::booth

@@ -1,6 +1,7 @@
 /// Depth sensors on columns round a body: what a scan booth would see of it.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
@@ -43,13 +44,30 @@ struct ScannerOptions {
   std::uint64_t seed = 1;
 };
 
+/// One sensor of the booth.
+struct SensorPose {
+  int column;
+  Eigen::Isometry3d booth_from_sensor;  ///< as the booth believes; x right, y down, z the way it looks
+  Eigen::Isometry3d error;  ///< of its column's registration: a point of the scan is error * its true place
+};
+
 struct VirtualScan {
   geometry::PointCloud cloud;  ///< no normals, shuffled
   std::vector<int> sensor;     ///< of each point: column * sensors_per_column + sensor, the lowest first
+  std::vector<SensorPose> sensors;
+};
+
+/// What one sensor sends of a scan.
+struct SensorScan {
+  geometry::PointCloud cloud;  ///< in the booth's frame, as far off as its column; may be empty
+  SensorPose pose;             ///< its viewpoint is booth_from_sensor's translation
 };
 
 /// Every point is where a ray meets the first surface on its way, so occlusion is real. Same arguments, same
 /// bits. \throw Refusal bad_option naming the option and its range
 VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& options);
+
+/// The same points, one cloud a sensor, in the order of VirtualScan::sensors.
+std::vector<SensorScan> by_sensor(const VirtualScan& scan);
 
 }  // namespace tensegric_fit::booth

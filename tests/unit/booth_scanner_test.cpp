@@ -133,6 +133,30 @@ TEST(VirtualScannerTest, MisregistrationShiftsWholeColumns) {
   EXPECT_LT(spread, 0.0120);  // four deviations
 }
 
+TEST(VirtualScannerTest, EachSensorsPointsLieBeforeItAndItsErrorIsKnown) {
+  ScannerOptions options = perfect();
+  options.misregistration = 0.003;
+  const VirtualScan scan = booth::scan_body(ball(), options);
+  const std::vector<booth::SensorScan> parts = booth::by_sensor(scan);
+  ASSERT_EQ(parts.size(), 12u);  // 4 columns of 3
+  std::size_t points = 0;
+  for (std::size_t s = 0; s < parts.size(); ++s) {
+    const booth::SensorPose& pose = parts[s].pose;
+    EXPECT_EQ(pose.column, static_cast<int>(s) / 3);
+    EXPECT_NEAR(pose.booth_from_sensor.linear().determinant(), 1, 1e-12);  // no mirror image
+    // Without its error the sensor stands where the booth was built, upright
+    const Eigen::Isometry3d built = pose.error.inverse() * pose.booth_from_sensor;
+    EXPECT_NEAR(built.translation().head<2>().norm(), options.distance, 1e-12);
+    EXPECT_NEAR(built.linear()(2, 1), -1, 1e-12);
+    for (const Vector3d& p : parts[s].cloud.points) {
+      ASSERT_LT(std::abs(off_ball(pose.error.inverse() * p)), 0.00005);  // chords
+      ASSERT_GT((pose.booth_from_sensor.inverse() * p).z(), options.distance - kRadius - 0.02);
+    }
+    points += parts[s].cloud.points.size();
+  }
+  EXPECT_EQ(points, scan.cloud.points.size());
+}
+
 TEST(VirtualScannerTest, HiddenSkinHasNoPoints) {
   ScannerOptions options;
   options.outliers = 0;
