@@ -6,7 +6,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "reconstruction/neighbours.hpp"
+#include "geometry/point_tree.hpp"
 #include "reconstruction/visibility.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -23,7 +23,7 @@ struct Link {
 /// Unsigned normals, and links from each point to its nearest neighbours.
 std::vector<Eigen::Vector3d> plane_normals(const std::vector<Eigen::Vector3d>& points,
                                            std::vector<Link>& links) {
-  const PointTree tree(points);
+  const geometry::PointTree tree(points);
   std::vector<Eigen::Vector3d> normals(points.size());
   std::vector<int> near;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;

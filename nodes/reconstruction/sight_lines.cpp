@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/point_tree.hpp"
 #include "geometry/triangle_mesh.hpp"
-#include "reconstruction/neighbours.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -110,7 +110,7 @@ geometry::PointCloud sight_line_points(const geometry::PointCloud& body) {
     const double turn = M_PI * i / kEyes;
     look(body, {std::cos(turn), std::sin(turn), 0}, strips);
   }
-  const PointTree tree(body.points);
+  const geometry::PointTree tree(body.points);
   geometry::PointCloud result;
   for (std::size_t i = 0; i < strips.points.size(); ++i) {
     const Eigen::Vector3d& p = strips.points[i];

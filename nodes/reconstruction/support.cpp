@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "reconstruction/neighbours.hpp"
+#include "geometry/point_tree.hpp"
 
 namespace tensegric_fit::reconstruction {
 
 std::vector<char> filled_vertices(const geometry::TriangleMesh& mesh,
                                   const std::vector<Eigen::Vector3d>& points, double distance) {
-  const PointTree tree(points);
+  const geometry::PointTree tree(points);
   std::vector<char> filled(mesh.vertices.size());
   std::transform(mesh.vertices.begin(), mesh.vertices.end(), filled.begin(),
                  [&](const Eigen::Vector3d& v) { return tree.distance(v) > distance; });

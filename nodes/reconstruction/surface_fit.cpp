@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reconstruction/neighbours.hpp"
+#include "geometry/point_tree.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -39,7 +39,7 @@ double distance_from_points(const Eigen::Vector3d& p, const Eigen::Vector3d& nor
 }  // namespace
 
 void fit_to_points(geometry::TriangleMesh& mesh, const geometry::PointCloud& cloud) {
-  const PointTree tree(cloud.points);
+  const geometry::PointTree tree(cloud.points);
   std::vector<int> near;
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<Eigen::Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-namespace tensegric_fit::reconstruction {
+namespace tensegric_fit::geometry {
 
 /// A kd-tree over points, which must outlive it.
 class PointTree {
@@ -24,4 +24,4 @@ class PointTree {
   std::unique_ptr<Tree> tree_;
 };
 
-}  // namespace tensegric_fit::reconstruction
+}  // namespace tensegric_fit::geometry

@@ -1,9 +1,9 @@
-#include "reconstruction/neighbours.hpp"
+#include "geometry/point_tree.hpp"
 
 #include <cmath>
 #include <nanoflann.hpp>
 
-namespace tensegric_fit::reconstruction {
+namespace tensegric_fit::geometry {
 
 struct PointTree::Tree {
   using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Tree>, Tree, 3, int>;
@@ -43,4 +43,4 @@ void PointTree::nearest(const Eigen::Vector3d& query, int count, std::vector<int
   indices.resize(tree_->index.knnSearch(query.data(), count, indices.data(), squared.data()));
 }
 
-}  // namespace tensegric_fit::reconstruction
+}  // namespace tensegric_fit::geometry
