@@ -37,6 +37,13 @@ double PointTree::distance(const Eigen::Vector3d& query) const {
   return std::sqrt(squared);
 }
 
+int PointTree::nearest(const Eigen::Vector3d& query) const {
+  int index;
+  double squared;
+  tree_->index.knnSearch(query.data(), 1, &index, &squared);
+  return index;
+}
+
 void PointTree::nearest(const Eigen::Vector3d& query, int count, std::vector<int>& indices) const {
   indices.resize(count);
   std::vector<double> squared(count);

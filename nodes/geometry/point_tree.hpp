@@ -16,6 +16,8 @@ class PointTree {
 
   /// Distance from `query` to the nearest point.
   double distance(const Eigen::Vector3d& query) const;
+  /// Index of the nearest point.
+  int nearest(const Eigen::Vector3d& query) const;
   /// Indices of the `count` nearest points, nearest first; fewer where there are fewer points.
   void nearest(const Eigen::Vector3d& query, int count, std::vector<int>& indices) const;
 

@@ -1,0 +1,65 @@
+#include "booth/assembler.hpp"
+
+#include <fmt/format.h>
+
+#include "booth/viewpoint_normals.hpp"
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::booth {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using geometry::PointCloud;
+
+void check_columns(std::size_t sensors, int per_column) {
+  if (per_column >= 1 && sensors % static_cast<std::size_t>(per_column) == 0) return;
+  throw geometry::Refusal(
+      geometry::refusal::kBadOption,
+      fmt::format("assembler option 'sensors_per_column' is {}; {} sensors are no whole number of columns",
+                  per_column, sensors));
+}
+
+PointCloud in_booth(const PointCloud& seen, const Isometry3d& booth_from_sensor) {
+  PointCloud cloud;
+  for (const Vector3d& p : seen.points)
+    if (p.allFinite()) cloud.points.push_back(booth_from_sensor * p);
+  cloud.normals = viewpoint_normals(cloud.points, booth_from_sensor.translation());
+  return cloud;
+}
+
+void append(PointCloud& cloud, const PointCloud& more) {
+  cloud.points.insert(cloud.points.end(), more.points.begin(), more.points.end());
+  cloud.normals.insert(cloud.normals.end(), more.normals.begin(), more.normals.end());
+}
+
+void move(PointCloud& cloud, const Isometry3d& by) {
+  for (Vector3d& p : cloud.points) p = by * p;
+  for (Vector3d& n : cloud.normals) n = by.linear() * n;
+}
+
+}  // namespace
+
+Assembly assemble(const Capture& capture, const std::vector<Isometry3d>& booth_from_sensor,
+                  const AssemblerOptions& options) {
+  check_columns(capture.clouds.size(), options.sensors_per_column);
+  Assembly assembly;
+  // 1. Columns in the booth's frame, with normals.
+  std::vector<PointCloud> columns(capture.clouds.size() / options.sensors_per_column);
+  for (std::size_t sensor = 0; sensor < capture.clouds.size(); ++sensor) {
+    if (!capture.clouds[sensor]) continue;
+    const PointCloud cloud = in_booth(capture.clouds[sensor]->cloud, booth_from_sensor[sensor]);
+    append(columns[sensor / options.sensors_per_column], cloud);
+    assembly.sensor.insert(assembly.sensor.end(), cloud.points.size(), static_cast<std::uint8_t>(sensor));
+  }
+  // 2. Their corrections.
+  if (options.refine) {
+    assembly.registration = register_columns(columns, options.registration);
+    for (std::size_t c = 0; c < columns.size(); ++c) move(columns[c], assembly.registration->corrections[c]);
+  }
+  // 3. One cloud.
+  for (const PointCloud& column : columns) append(assembly.cloud, column);
+  return assembly;
+}
+
+}  // namespace tensegric_fit::booth
