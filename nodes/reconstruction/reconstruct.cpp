@@ -7,6 +7,7 @@
 #include "geometry/status.hpp"
 #include "reconstruction/body_points.hpp"
 #include "reconstruction/floor.hpp"
+#include "reconstruction/fractures.hpp"
 #include "reconstruction/handles.hpp"
 #include "reconstruction/normals.hpp"
 #include "reconstruction/poisson.hpp"
@@ -105,6 +106,8 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   const std::size_t seen = body.points.size();
   // 3. Normals, and points where no sensor sees but the shape is known.
   body.normals = outward_normals(body.points, body.normals);
+  BodyMesh result;
+  result.fractures = find_fractures(body);
   const PointCloud soles = sole_points(body.points);
   append(body, sight_line_points(body));
   append(body, soles);
@@ -116,7 +119,6 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   fit_to_points(mesh, body);
   for (Eigen::Vector3d& v : mesh.vertices) v.z() = std::max(v.z(), 0.0);
   // 5. As many triangles as asked for; what of the surface nobody saw.
-  BodyMesh result;
   result.mesh = geometry::with_triangles(mesh, options.body_triangles);
   result.points_used = seen;
   body.points.resize(seen);
@@ -126,6 +128,7 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   const Eigen::Isometry3d to_scan = from_scan.inverse();
   for (Eigen::Vector3d& v : result.mesh.vertices) v = to_scan * v;
   for (Hole& hole : result.holes) hole.centre = to_scan * hole.centre;
+  for (geometry::Fracture& fracture : result.fractures) fracture.centre = to_scan * fracture.centre;
   return result;
 }
 

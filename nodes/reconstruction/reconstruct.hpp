@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "geometry/fracture.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/triangle_mesh.hpp"
 
@@ -23,13 +24,15 @@ struct Options {
 struct Hole {
   Eigen::Vector3d centre;  ///< scan frame, metres
   double area;             ///< of the filling, m^2
+  double confidence;  ///< share of a filling of that area that lies within 4 mm of the skin, on known bodies
 };
 
 struct BodyMesh {
-  geometry::TriangleMesh mesh;  ///< closed, manifold, outward, scan frame
-  std::vector<char> filled;     ///< per vertex: 1 where no point of the scan supports it
-  std::vector<Hole> holes;      ///< largest first
-  std::size_t points_used = 0;  ///< points of the body, after floor, frame and outliers
+  geometry::TriangleMesh mesh;                ///< closed, manifold, outward, scan frame
+  std::vector<char> filled;                   ///< per vertex: 1 where no point of the scan supports it
+  std::vector<Hole> holes;                    ///< largest first
+  std::vector<geometry::Fracture> fractures;  ///< largest first
+  std::size_t points_used = 0;                ///< points of the body, after floor, frame and outliers
 };
 
 /// \throw Refusal empty_cloud, non_finite, too_few_points, wrong_unit, not_a_body, bad_option ...

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "geometry/status.hpp"
+#include "reconstruction/percentile.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -23,13 +24,6 @@ void check_range(const char* field, double value, double low, double high) {
   if (!(value >= low && value <= high))
     throw Refusal(refusal::kBadOption,
                   fmt::format("{} is {}; it must lie between {} and {}", field, value, low, high));
-}
-
-double percentile(std::vector<double> values, double fraction) {
-  const auto nth =
-      values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
 }
 
 /// Low, middle and high coordinates without the stray points, as rows.

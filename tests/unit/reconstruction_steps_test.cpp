@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "geometry/decimate.hpp"
 #include "reconstruction/floor.hpp"
+#include "reconstruction/fractures.hpp"
 #include "reconstruction/handles.hpp"
 #include "reconstruction/normals.hpp"
 #include "reconstruction/repair.hpp"
@@ -81,6 +84,36 @@ TEST(ReconstructionSteps, NormalsPointOutwardWithAndWithoutHints) {
     EXPECT_EQ(inward, 0) << "hinted: " << hinted;
     EXPECT_LT(in_creases, 150) << "hinted: " << hinted;  // 0.5 %: a plane there is neither side's
   }
+}
+
+/// The figure, of which every other point is moved by `shift` of its position and normal.
+geometry::PointCloud seen_twice(
+    const std::function<Eigen::Vector3d(const Eigen::Vector3d&, const Eigen::Vector3d&)>& shift) {
+  geometry::PointCloud scan = figure::scan_body(100000, 0.001, 7);
+  for (std::size_t i = 0; i < scan.points.size(); i += 2)
+    scan.points[i] += shift(scan.points[i], scan.normals[i]);
+  return scan;
+}
+
+TEST(ReconstructionSteps, AFractureIsFoundWhereItIsAndAsWideAsItIs) {
+  const Eigen::Vector3d navel(0, -0.15, 1.1);
+  const auto fractures = find_fractures(seen_twice([&](const auto& p, const auto& n) -> Eigen::Vector3d {
+    return ((p - navel).norm() < 0.08 ? 0.008 : 0.0) * n;
+  }));
+  ASSERT_EQ(fractures.size(), 1u);
+  EXPECT_LT((fractures[0].centre - navel).norm(), 0.02);
+  EXPECT_NEAR(fractures[0].offset, 0.008, 0.001);  // means of a dozen points of 1 mm noise
+  // 0.020 m^2 of skin; 9 mm inside the rim the smaller sheet is a fifth of the points, and cubes along an
+  // axis are fewer.
+  EXPECT_GT(fractures[0].area, 0.010);
+  EXPECT_LT(fractures[0].area, 0.020);
+  EXPECT_NEAR(fractures[0].radius, 0.08, 0.02);
+}
+
+TEST(ReconstructionSteps, NoiseAndMisregistrationAreNoFracture) {
+  EXPECT_TRUE(find_fractures(figure::scan_body(100000, 0.0015, 7)).empty());
+  const Eigen::Vector3d off(0.0015, 0.0015, 0.001);
+  EXPECT_TRUE(find_fractures(seen_twice([&](const auto&, const auto&) { return off; })).empty());
 }
 
 TEST(ReconstructionSteps, AGapThatOneCanLookThroughGetsItsWalls) {

@@ -150,6 +150,8 @@ TEST(Reconstruction, AHoleIsClosedAndReported) {
   ASSERT_NE(hole, body.holes.end());
   EXPECT_LT((hole->centre - navel).norm(), 0.01);
   EXPECT_NEAR(hole->area, expected, 0.5 * expected);
+  EXPECT_GT(hole->confidence, 0.5);   // of 50 cm^2
+  EXPECT_LT(hole->confidence, 0.85);  // of 4 cm^2
   double beside = 0, filled_beside = 0;
   for (std::size_t v = 0; v < body.filled.size(); ++v) {
     const Eigen::Vector3d& p = body.mesh.vertices[v];

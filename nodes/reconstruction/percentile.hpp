@@ -1,0 +1,17 @@
+/// Order statistics.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+namespace tensegric_fit::reconstruction {
+
+/// The value below which that fraction (0 to 1) of the values lies. \pre not empty
+inline double percentile(std::vector<double> values, double fraction) {
+  const auto nth =
+      values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+}  // namespace tensegric_fit::reconstruction
