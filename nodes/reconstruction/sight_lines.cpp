@@ -10,7 +10,9 @@ namespace tensegric_fit::reconstruction {
 namespace {
 
 constexpr int kEyes = 60;            // over half a turn
-constexpr double kRow = 0.006;       // m
+constexpr double kSlice = 0.006;     // m high
+constexpr int kMostSlices = 4;       // of a row
+constexpr double kDense = 120000;    // points of a body, of which one slice fills every column that it meets
 constexpr double kColumn = 0.002;    // m
 constexpr int kNarrowest = 2;        // columns of a gap
 constexpr int kWidest = 30;          // columns of a gap
@@ -72,7 +74,8 @@ void add_strips(const Outline& outline, const geometry::PointCloud& body, const 
 }
 
 /// What one eye at the level of the body sees.
-void look(const geometry::PointCloud& body, const Eigen::Vector3d& eye, geometry::PointCloud& strips) {
+void look(const geometry::PointCloud& body, const Eigen::Vector3d& eye, int slices_of_row,
+          geometry::PointCloud& strips) {
   const Eigen::Vector3d right(-eye.y(), eye.x(), 0);
   double left_end = 0, right_end = 0, bottom = 0, top = 0;
   for (const Eigen::Vector3d& p : body.points) {
@@ -83,21 +86,26 @@ void look(const geometry::PointCloud& body, const Eigen::Vector3d& eye, geometry
     top = std::max(top, p.z());
   }
   const int columns = static_cast<int>((right_end - left_end) / kColumn) + 1;
-  const int rows = static_cast<int>((top - bottom) / kRow) + 1;
+  const int slices = static_cast<int>((top - bottom) / kSlice) + 1;
   const auto across = [&](const Eigen::Vector3d& p) { return right.dot(p) - left_end; };
-  const auto row = [&](const Eigen::Vector3d& p) { return static_cast<int>((p.z() - bottom) / kRow); };
-  std::vector<char> occupied(static_cast<std::size_t>(columns) * rows);
+  const auto slice_of = [&](const Eigen::Vector3d& p) { return static_cast<int>((p.z() - bottom) / kSlice); };
+  // Row r is slice r and those above it that it takes to be opaque.
+  std::vector<char> occupied(static_cast<std::size_t>(columns) * slices);
+  std::vector<std::vector<Outline>> outlines(slices);
+  const auto first_row = [&](int slice) { return std::max(0, slice - slices_of_row + 1); };
   for (const Eigen::Vector3d& p : body.points)
-    occupied[static_cast<std::size_t>(row(p)) * columns + static_cast<int>(across(p) / kColumn)] = 1;
-
-  std::vector<std::vector<Outline>> outlines(rows);
-  for (int r = 0; r < rows; ++r)
+    for (int r = first_row(slice_of(p)); r <= slice_of(p); ++r)
+      occupied[static_cast<std::size_t>(r) * columns + static_cast<int>(across(p) / kColumn)] = 1;
+  for (int r = 0; r < slices; ++r)
     add_outlines(occupied.data() + static_cast<std::size_t>(r) * columns, columns, outlines[r]);
-  for (std::size_t i = 0; i < body.points.size(); ++i)
-    for (Outline& outline : outlines[row(body.points[i])])
-      if (std::abs(across(body.points[i]) - outline.across) < kEdge &&
-          outline.side * right.dot(body.normals[i]) > kFacing)
-        outline.points.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < body.points.size(); ++i) {
+    const Eigen::Vector3d& p = body.points[i];
+    for (int r = first_row(slice_of(p)); r <= slice_of(p); ++r)
+      for (Outline& outline : outlines[r])
+        if (std::abs(across(p) - outline.across) < kEdge &&
+            outline.side * right.dot(body.normals[i]) > kFacing)
+          outline.points.push_back(static_cast<int>(i));
+  }
   for (const auto& in_row : outlines)
     for (const Outline& outline : in_row) add_strips(outline, body, eye, strips);
 }
@@ -106,9 +114,11 @@ void look(const geometry::PointCloud& body, const Eigen::Vector3d& eye, geometry
 
 geometry::PointCloud sight_line_points(const geometry::PointCloud& body) {
   geometry::PointCloud strips;
+  const int slices_of_row = std::clamp(
+      static_cast<int>(std::ceil(kDense / static_cast<double>(body.points.size()))), 1, kMostSlices);
   for (int i = 0; i < kEyes; ++i) {
     const double turn = M_PI * i / kEyes;
-    look(body, {std::cos(turn), std::sin(turn), 0}, strips);
+    look(body, {std::cos(turn), std::sin(turn), 0}, slices_of_row, strips);
   }
   const geometry::PointTree tree(body.points);
   geometry::PointCloud result;
