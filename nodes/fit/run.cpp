@@ -13,6 +13,7 @@
 #include "fit/report.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/shipped_files.hpp"
+#include "inspect/composition.hpp"
 #include "inspect/fit_pictures.hpp"
 
 namespace tensegric_fit::fit {
@@ -23,6 +24,8 @@ namespace fs = std::filesystem;
 constexpr const char* kResults[] = {"report.json",  "body.ply",      "control.ply", "control_deformed.ply",
                                     "deformed.ply", "history.csv",   "front.png",   "side.png",
                                     "back.png",     "distortion.png"};
+
+constexpr int kPanel = 750;  // pixels; the height of the pictures of a fit
 
 // Names in files may hold any bytes; a report is UTF-8.
 void write_json(const fs::path& path, const nlohmann::ordered_json& json) {
@@ -139,11 +142,18 @@ class Run {
         after.push_back(fit.solution.outer[node]);
       }
     }
-    save_picture("front.png", inspect::front_picture(scene));
-    save_picture("side.png", inspect::side_picture(scene));
+    save_picture("front.png", beside_measured(inspect::front_picture(body_.mesh.mesh, body_.measures, kPanel),
+                                              inspect::front_picture(scene)));
+    save_picture("side.png", beside_measured(inspect::side_picture(body_.mesh.mesh, body_.measures, kPanel),
+                                             inspect::side_picture(scene)));
     if (std::any_of(scene.parts.begin(), scene.parts.end(), [](const auto& part) { return part.behind; }))
       save_picture("back.png", inspect::back_picture(scene));
     save_picture("distortion.png", inspect::distortion_picture(scene));
+  }
+
+  cv::Mat beside_measured(const cv::Mat& measured, const cv::Mat& pictures) const {
+    if (line_.is_shape()) return pictures;
+    return inspect::side_by_side(inspect::with_caption(measured, "measured"), pictures);
   }
 
   // One a region; from behind where most of its skin faces backwards.

@@ -7,6 +7,7 @@
 
 #include "geometry/body_measures.hpp"
 #include "geometry/triangle_mesh.hpp"
+#include "inspect/measured_picture.hpp"
 #include "inspect/picture.hpp"
 
 namespace tensegric_fit::inspect {
@@ -35,9 +36,5 @@ cv::Mat back_picture(const FitScene& scene);
 /// After, coloured by distortion, with the scale (P1 Fig. 8): BGR, 1512 wide. A row a part, of 750: from the
 /// front and from an angle, or from behind.
 cv::Mat distortion_picture(const FitScene& scene);
-
-/// The body alone with the tapes of its girths: BGR, 900 x 900.
-cv::Mat front_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures);
-cv::Mat side_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures);
 
 }  // namespace tensegric_fit::inspect

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "geometry/status.hpp"
@@ -103,6 +104,12 @@ void draw_line(const Polyline& line, const Camera& camera, const Raster& raster,
   }
 }
 
+void check(const geometry::TriangleMesh& mesh, const View& view, int width, int height) {
+  geometry::check_mesh(mesh);
+  if (width < 1 || height < 1 || !(view.height > 0))
+    throw geometry::Refusal(geometry::refusal::kBadOption, "picture: it has no size");
+}
+
 }  // namespace
 
 View front_view(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d& centre, double height) {
@@ -126,13 +133,29 @@ View oblique_back_view(const Eigen::Isometry3d& body_from_scan, const Eigen::Vec
   return view_along(body_from_scan, {1, -0.75, -0.3}, centre, height);
 }
 
+View framed(MakeView make, const Eigen::Isometry3d& body_from_scan,
+            const std::vector<Eigen::Vector3d>& points, double margin) {
+  View view = make(body_from_scan, Eigen::Vector3d::Zero(), 1);
+  const Eigen::Vector3d right = view.forward.cross(view.up);
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Eigen::Vector2d low(kFar, kFar), high(-kFar, -kFar);
+  for (const Eigen::Vector3d& p : points) {
+    const Eigen::Vector2d seen(p.dot(right), p.dot(view.up));
+    low = low.cwiseMin(seen);
+    high = high.cwiseMax(seen);
+  }
+  if (points.empty()) return view;
+  const Eigen::Vector2d middle = (low + high) / 2;
+  view.centre = middle.x() * right + middle.y() * view.up;
+  view.height = std::max(1e-3, margin * (high - low).maxCoeff());
+  return view;
+}
+
 cv::Mat draw(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours,
              const std::vector<Polyline>& lines, const View& view, int width, int height) {
-  geometry::check_mesh(mesh);
+  check(mesh, view, width, height);
   if (!colours.empty() && colours.size() != mesh.vertices.size())
     throw geometry::Refusal(geometry::refusal::kBadMesh, "picture: not one colour a vertex");
-  if (width < 1 || height < 1 || !(view.height > 0))
-    throw geometry::Refusal(geometry::refusal::kBadOption, "picture: it has no size");
 
   const Camera camera(view, kOversampling * width, kOversampling * height);
   std::vector<Eigen::Vector3d> points(mesh.vertices.size());
@@ -144,6 +167,24 @@ cv::Mat draw(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colo
   cv::Mat result;
   cv::resize(picture, result, cv::Size(width, height), 0, 0, cv::INTER_AREA);
   return result;
+}
+
+std::vector<SeenPoint> seen_points(const geometry::TriangleMesh& mesh,
+                                   const std::vector<Eigen::Vector3d>& points, const View& view, int width,
+                                   int height) {
+  check(mesh, view, width, height);
+  const Camera camera(view, width, height);
+  std::vector<Eigen::Vector3d> corners(mesh.vertices.size());
+  std::transform(mesh.vertices.begin(), mesh.vertices.end(), corners.begin(), camera);
+  const Raster raster = rasterise(corners, mesh.triangles, width, height);
+  std::vector<SeenPoint> seen;
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d p = camera(point);
+    const int x = static_cast<int>(std::floor(p.x())), y = static_cast<int>(std::floor(p.y()));
+    const bool inside = x >= 0 && y >= 0 && x < width && y < height && std::isfinite(raster.depth(y, x));
+    seen.push_back({p.head<2>(), inside ? p.z() - raster.depth(y, x) : 0});
+  }
+  return seen;
 }
 
 }  // namespace tensegric_fit::inspect

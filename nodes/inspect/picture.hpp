@@ -31,6 +31,12 @@ View back_view(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d& c
 /// From behind her, her left and a little above.
 View oblique_back_view(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d& centre, double height);
 
+using MakeView = View (*)(const Eigen::Isometry3d&, const Eigen::Vector3d&, double);
+
+/// The square that holds the points, `margin` times as large as they need.
+View framed(MakeView make, const Eigen::Isometry3d& body_from_scan,
+            const std::vector<Eigen::Vector3d>& points, double margin);
+
 /// A line in the scan's frame, drawn where it is visible.
 struct Polyline {
   std::vector<Eigen::Vector3d> points;
@@ -43,5 +49,16 @@ struct Polyline {
 /// empty: all neutral. \throw Refusal bad_mesh: colours do not fit; bad_option: a picture without size
 cv::Mat draw(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours,
              const std::vector<Polyline>& lines, const View& view, int width, int height);
+
+/// Where a point comes to lie in a picture.
+struct SeenPoint {
+  Eigen::Vector2d pixel;
+  double behind;  ///< metres of body in front of it; 0 or less where it can be seen, or lies outside
+};
+
+/// One a point; view, width and height as for the picture. \throw Refusal as draw()
+std::vector<SeenPoint> seen_points(const geometry::TriangleMesh& mesh,
+                                   const std::vector<Eigen::Vector3d>& points, const View& view, int width,
+                                   int height);
 
 }  // namespace tensegric_fit::inspect
