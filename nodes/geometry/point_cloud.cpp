@@ -50,6 +50,7 @@ std::vector<Eigen::Vector3d> triples(const pcl::PCLPointCloud2& cloud,
   const bool swap = (cloud.is_bigendian != 0) != host_is_big;
   std::vector<Eigen::Vector3d> result;
   result.reserve(static_cast<std::size_t>(cloud.width) * cloud.height);
+  if (cloud.width == 0) return result;
   for (std::size_t row = 0; row < cloud.height; ++row) {
     for (std::size_t column = 0; column < cloud.width; ++column) {
       const std::uint8_t* point = cloud.data.data() + row * cloud.row_step + column * cloud.point_step;
@@ -65,19 +66,25 @@ std::vector<Eigen::Vector3d> triples(const pcl::PCLPointCloud2& cloud,
   return result;
 }
 
+// The last row may lack its padding; a single row's step does not matter.
+void check_size(const pcl::PCLPointCloud2& cloud) {
+  const std::size_t rows = cloud.width == 0 ? 0 : cloud.height,
+                    row = static_cast<std::size_t>(cloud.width) * cloud.point_step,
+                    step = rows > 1 ? cloud.row_step : std::max<std::size_t>(row, cloud.row_step);
+  const std::size_t least = rows == 0 ? 0 : (rows - 1) * step + row;
+  if ((rows > 1 && step < row) || cloud.data.size() < least)
+    throw Refusal(refusal::kBrokenFile, "the cloud's data are shorter than its width, height and steps say");
+  if (cloud.data.size() > rows * step)
+    throw Refusal(refusal::kBrokenFile, "the cloud's data are longer than its width, height and steps say");
+}
+
 }  // namespace
 
 PointCloud points_of(const pcl::PCLPointCloud2& cloud) {
   const auto xyz = find_fields(cloud, {"x", "y", "z"});
   if (!xyz)
     throw Refusal(refusal::kWrongFields, "the cloud has no fields x, y, z of type float32 or float64");
-  if (cloud.width != 0 && cloud.height != 0) {
-    const std::size_t row = static_cast<std::size_t>(cloud.width) * cloud.point_step;
-    const std::size_t needed = static_cast<std::size_t>(cloud.height - 1) * cloud.row_step + row;
-    if ((cloud.height > 1 && cloud.row_step < row) || cloud.data.size() < needed)
-      throw Refusal(refusal::kBrokenFile,
-                    "the cloud's data are shorter than its width, height and steps say");
-  }
+  check_size(cloud);
   auto normals = find_fields(cloud, {"normal_x", "normal_y", "normal_z"});
   if (!normals) normals = find_fields(cloud, {"nx", "ny", "nz"});
   PointCloud result;

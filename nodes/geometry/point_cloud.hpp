@@ -17,7 +17,7 @@ struct PointCloud {
 /// The x, y, z (and normal_x, normal_y, normal_z or nx, ny, nz where all three are there) of a cloud, float32
 /// or float64, in either byte order, whatever other fields, padding or organisation it has. Nothing is
 /// dropped: NaN stay NaN. \throw Refusal wrong_fields: no x, y, z of a floating type; broken_file: the data
-/// are shorter than the layout says
+/// are shorter or longer than the layout says
 PointCloud points_of(const pcl::PCLPointCloud2& cloud);
 
 }  // namespace tensegric_fit::geometry
