@@ -15,10 +15,18 @@ using Eigen::Vector3d;
 // within the arms.
 constexpr double kLowest = -0.17, kHighest = 0.03;  // from the axilla
 constexpr double kMedial = 0.025, kLateral = 0.13;
-constexpr double kNeighbourhood = 0.015;  // a tip is the foremost skin within 25 mm
+constexpr double kNeighbourhood = 0.015;  // a tip is the skin furthest along its breast within 25 mm
+constexpr double kApex = 0.027;           // 45 mm of skin tell it where no nipple does
 constexpr double kCleavage = 0.005;       // 8 mm behind the tips
 constexpr double kProfileReach =
     0.045;  // about a breast's radius: skin above and below that it stands out from
+
+// Breasts do not point straight forward: on each side the skin round the tip looks outwards by 25 degrees,
+// and a little up, whether it is firm or soft.
+Vector3d pointing(Side side) {
+  const double out = 25 * 3.14159265358979323846 / 180, up = 7 * 3.14159265358979323846 / 180;
+  return {std::cos(up) * std::cos(out), kSign[side] * std::cos(up) * std::sin(out), std::sin(up)};
+}
 
 // Furthest forward that the chest's skin reaches near (y, z), or nothing_there.
 double front_at(const BodyShape& body, const std::vector<int>& chest, double y, double z,
@@ -38,6 +46,7 @@ BustPoint find_bust_point(const BodyShape& body, const Trunk& trunk, Side side) 
   const std::vector<Outline> section = trunk.outline_at(axilla - 0.05 * s);
   const Eigen::Vector2d middle = section.empty() ? Eigen::Vector2d(0, 0) : section.front().centroid;
   const double sign = kSign[side];
+  const Vector3d ahead = pointing(side);
   const double near = middle.y() + sign * kMedial * s, far = middle.y() + sign * kLateral * s;
   const double margin = kProfileReach * s;
   const std::vector<int> chest = vertices_in_box(
@@ -53,11 +62,11 @@ BustPoint find_bust_point(const BodyShape& body, const Trunk& trunk, Side side) 
     const Vector3d& p = body.mesh.vertices[v];
     if (p.z() < axilla + kLowest * s || p.z() > axilla + kHighest * s || (p.y() - near) * (p.y() - far) > 0)
       continue;
-    const bool foremost = std::none_of(chest.begin(), chest.end(), [&](int w) {
+    const bool furthest = std::none_of(chest.begin(), chest.end(), [&](int w) {
       const Vector3d& q = body.mesh.vertices[w];
-      return q.x() > p.x() && (q - p).squaredNorm() < std::pow(kNeighbourhood * s, 2);
+      return ahead.dot(q - p) > 0 && (q - p).squaredNorm() < std::pow(kNeighbourhood * s, 2);
     });
-    if (!foremost || front_at(body, chest, middle.y(), p.z(), p.x() - 1) > p.x() - kCleavage * s) continue;
+    if (!furthest || front_at(body, chest, middle.y(), p.z(), p.x() - 1) > p.x() - kCleavage * s) continue;
     const double above = front_at(body, chest, p.y(), p.z() + margin, p.x());
     const double below = front_at(body, chest, p.y(), p.z() - margin, p.x());
     const double stands_out = p.x() - (above + below) / 2;
@@ -66,9 +75,9 @@ BustPoint find_bust_point(const BodyShape& body, const Trunk& trunk, Side side) 
     best = v;
   }
   if (best >= 0) {
-    const Vector3d& foremost = body.mesh.vertices[best];
-    if (const std::optional<Vector3d> nipple = find_nipple(body, foremost)) return {*nipple, 0.9, ""};
-    return {apex_of_bulge(body, foremost, Vector3d::UnitX(), kNeighbourhood * s), 0.8, ""};
+    const Vector3d apex = apex_of_bulge(body, body.mesh.vertices[best], ahead, kApex * s);
+    if (const std::optional<Vector3d> nipple = find_nipple(body, apex)) return {*nipple, 0.9, ""};
+    return {apex, 0.7, ""};
   }
 
   // A flat chest: the foremost point of the half chest under the axilla.

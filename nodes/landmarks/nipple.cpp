@@ -12,8 +12,9 @@ using Eigen::Vector3d;
 // In statures.
 constexpr double kWidth = 0.0043;   // 7 mm: deviation of a Gaussian bump like a nipple in its areola
 constexpr double kPatch = 0.017;    // 28 mm: skin that the smooth surface is fitted to
-constexpr double kSearch = 0.0135;  // 22 mm: a breast that points outwards has its foremost point medial
-constexpr double kStep = 0.0012;
+constexpr double kSearch = 0.0185;  // 30 mm: how far nipples lie from where the breast points
+constexpr double kNear = 0.012;     // 20 mm: deviation of that
+constexpr double kStep = 0.0024, kFineStep = 0.001;
 constexpr double kExact = 0.0002;  // m; a mesh is not taken to be better than this
 constexpr double kClear = 5;       // deviations; over all places, noise alone reaches 4
 constexpr int kSmoothTerms = 10;
@@ -80,23 +81,31 @@ Bump bump_at(const Skin& skin, double u, double v, double stature) {
 
 }  // namespace
 
-std::optional<Vector3d> find_nipple(const BodyShape& body, const Vector3d& foremost) {
+std::optional<Vector3d> find_nipple(const BodyShape& body, const Vector3d& apex) {
   const double s = body.stature;
-  const Skin skin = skin_around(body, foremost, (kSearch + kPatch) * s);
-  const int reach = static_cast<int>(kSearch / kStep);
-  double clearest = kClear;
-  std::optional<Vector3d> tip;
-  for (int i = -reach; i <= reach; ++i) {
-    for (int j = -reach; j <= reach; ++j) {
-      if (i * i + j * j > reach * reach) continue;
-      const double u = i * kStep * s, v = j * kStep * s;
-      const Bump bump = bump_at(skin, u, v, s);
-      if (bump.clearness <= clearest) continue;
-      clearest = bump.clearness;
-      tip = skin.origin + skin.axes * Vector3d(u, v, bump.top);
+  const Skin skin = skin_around(body, apex, (kSearch + kStep + kPatch) * s);
+  Eigen::Vector2d best(0, 0);
+  Bump clearest;
+  double most = 0;
+  const auto look = [&](const Eigen::Vector2d& centre, double step, double reach) {
+    const int steps = static_cast<int>(reach / step);
+    for (int i = -steps; i <= steps; ++i) {
+      for (int j = -steps; j <= steps; ++j) {
+        if (i * i + j * j > steps * steps) continue;
+        const Eigen::Vector2d place = centre + step * s * Eigen::Vector2d(i, j);
+        const Bump bump = bump_at(skin, place.x(), place.y(), s);
+        const double weight = std::exp(-0.5 * place.squaredNorm() / std::pow(kNear * s, 2));
+        if (bump.clearness * weight <= most) continue;
+        most = bump.clearness * weight;
+        best = place;
+        clearest = bump;
+      }
     }
-  }
-  return tip;
+  };
+  look(Eigen::Vector2d::Zero(), kStep, kSearch);
+  look(Eigen::Vector2d(best), kFineStep, kStep);
+  if (clearest.clearness <= kClear) return std::nullopt;
+  return skin.origin + skin.axes * Vector3d(best.x(), best.y(), clearest.top);
 }
 
 }  // namespace tensegric_fit::landmarks

@@ -10,18 +10,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Statures. Bones do not grow with weight: from the neck's side to the acromion it is as far on thin and on
-// heavy bodies.
-constexpr double kFromNeckOut = 0.080, kFromNeckBack = 0.027, kFromNeckDown = 0.043;
-constexpr double kRaisedFromNeckOut = 0.075;  // the collarbone goes up with a raised arm
-constexpr double kBeyondAxilla = 0.0225;      // over the middle of the arm
-constexpr double kBoneTells = 2.0 / 3;        // its share; the rest is what axilla and slope tell in the mean
-
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr double kApart = 0.005;           // m, between two places of the ridge
-constexpr int kReach = 4;                  // places each way over which its slope is taken: 20 mm
-constexpr double kSlopeAtAcromion = 0.81;  // 39 degrees: where the shoulder's line turns down into the arm
-constexpr double kFlat = 0.3;
+
+// Statures. Bones do not grow with weight: out from the neck's side the acromion is a collarbone away, and it
+// lies behind the middle of the shoulder's depth, taken so far below the shoulder's ridge.
+constexpr double kCollarbone = 0.079, kBelowRidge = 0.030, kBehindMiddle = 0.0183;
+// Out from the axilla of an arm that hangs, to the middle of the arm.
+constexpr double kBeyondAxilla = 0.0222;
+constexpr double kHanging = 22 * kDegree;
+// A raised arm takes acromion and axilla along, towards the neck and outwards; statures a radian.
+constexpr double kCollarboneRises = 0.009, kAxillaOpens = 0.0226;
+// The share of the bones; the rest is what the axillae tell, if they were seen.
+constexpr double kBones = 0.25, kBonesIfFilled = 2.0 / 3;
 
 // The line from the neck's back down the upper back, over so much of it, leans forward by this on an upright
 // body: a heavier one, told by its neck, has more on its neck. A stoop bends the spine within that stretch
@@ -47,89 +47,87 @@ double stoop_of(const BodyShape& body, const Neck& neck) {
   return kBendWithin * (std::atan2(top.x() - back.x(), top.z() - back.z()) - upright_back(neck.girth / s));
 }
 
-// Height of the shoulder's top in the sagittal plane y, or a negative one where there is none.
-double ridge_at(const BodyShape& body, const std::vector<int>& skin, double y) {
-  double top = -1;
-  for (const geometry::SectionLoop& loop : cut(body, skin, {0, y, 0}, Vector3d::UnitY()))
-    for (const Vector3d& p : loop.points) top = std::max(top, p.z());
-  return top;
-}
-
-// How far out from the neck's side the shoulder's line turns down into a hanging arm; negative where it does
-// not within reach of a collarbone.
-double turning_down(const BodyShape& body, const Vector3d& neck_side, Side side) {
+// How far the acromion lies to the side of `middle`, metres: bones and, of arms that do not stand out, the
+// axillae. What one side lacks the other tells.
+double half_breadth(const BodyShape& body, const Trunk& trunk, const Neck& neck, double middle, Side side) {
   const double s = body.stature, sign = kSign[side];
-  const double near = neck_side.y(), far = near + sign * 0.14 * s;
-  const std::vector<int> skin =
-      triangles_in_box(body, {neck_side.x() - 0.09 * s, std::min(near, far), neck_side.z() - 0.12 * s},
-                       {neck_side.x() + 0.05 * s, std::max(near, far), neck_side.z() + 0.02 * s});
-  std::vector<double> heights;
-  for (double d = 0.02 * s; d < 0.13 * s; d += kApart)
-    heights.push_back(ridge_at(body, skin, neck_side.y() + sign * d));
-  double before = 1;
-  bool flat = false;
-  for (int i = kReach; i + kReach < static_cast<int>(heights.size()); ++i) {
-    if (heights[i + kReach] < 0) break;
-    const double slope = (heights[i - kReach] - heights[i + kReach]) / (2 * kReach * kApart);
-    flat = flat || slope < kFlat || slope < before;
-    if (flat && slope >= kSlopeAtAcromion && before < kSlopeAtAcromion)
-      return 0.02 * s + (i - 1 + (kSlopeAtAcromion - before) / (slope - before)) * kApart;
-    before = slope;
+  double sum = 0;
+  int told = 0;
+  bool filled = false;
+  for (Side other : {kLeft, kRight}) {
+    const Axilla& axilla = trunk.axilla(other);
+    if (!axilla.found || axilla.raised) continue;
+    sum += kSign[other] * (axilla.point.y() - middle) +
+           (kBeyondAxilla - kAxillaOpens * (axilla.abduction - kHanging)) * s;
+    filled = filled || axilla.filled;
+    ++told;
   }
-  return -1;
+  if (!neck.found) return told > 0 ? sum / told : -1;
+  const Axilla& own = trunk.axilla(side);
+  const double raised = own.found ? own.abduction - kHanging : 0;
+  const double bones =
+      sign * (find_neck_side(body, neck, side).y() - middle) + (kCollarbone - kCollarboneRises * raised) * s;
+  if (told == 0) return bones;
+  const double share = filled ? kBonesIfFilled : kBones;
+  return share * bones + (1 - share) * sum / told;
 }
 
-// The skin of the sagittal plane through `place` that is nearest to it, on top of the shoulder.
-bool skin_near(const BodyShape& body, const Vector3d& place, const Vector3d& up, Vector3d& point) {
+// The acromion on the sagittal section of a shoulder, whose ridge lies near `place`; false where there is no
+// shoulder.
+bool on_section(const BodyShape& body, const Vector3d& place, double stoop, Vector3d& point) {
   const double s = body.stature;
-  const Vector3d reach = Vector3d(0.06, 0.03, 0.07) * s;
-  double least = 1e9;
-  const std::vector<int> skin = triangles_in_box(body, place - reach, place + reach);
-  for (const geometry::SectionLoop& loop : cut(body, skin, place, Vector3d::UnitY())) {
+  const Vector3d reach = Vector3d(0.13, 0.03, 0.16) * s;
+  const std::vector<geometry::SectionLoop> section =
+      cut(body, triangles_in_box(body, place - reach, place + reach), place, Vector3d::UnitY());
+  double ridge = -1e9, front = -1e9, back = 1e9;
+  for (const geometry::SectionLoop& loop : section)
+    for (const Vector3d& p : loop.points)
+      if (std::abs(p.x() - place.x()) < 0.08 * s) ridge = std::max(ridge, p.z());
+  for (const geometry::SectionLoop& loop : section) {
     for (const Vector3d& p : loop.points) {
-      const double off = (p - place).norm();
-      if (off >= least || up.dot(p - place) < -0.03 * s) continue;
-      least = off;
-      point = p;
+      if (std::abs(p.z() - ridge + kBelowRidge * s) > 0.005 * s) continue;
+      front = std::max(front, p.x());
+      back = std::min(back, p.x());
     }
   }
-  return least < 1e8;
+  if (front <= back) return false;
+  const double x = (front + back) / 2 + (kBelowRidge * std::sin(stoop) - kBehindMiddle * std::cos(stoop)) * s;
+  double top = -1e9;
+  for (const geometry::SectionLoop& loop : section)
+    for (std::size_t i = 0; i + 1 < loop.points.size(); ++i) {
+      const Vector3d &a = loop.points[i], &b = loop.points[i + 1];
+      if ((a.x() > x) != (b.x() > x))
+        top = std::max(top, a.z() + (b.z() - a.z()) * (x - a.x()) / (b.x() - a.x()));
+    }
+  point = {x, place.y(), top};
+  return top > ridge - 2 * kBelowRidge * s;
 }
 
 }  // namespace
 
 Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& neck, Side side) {
-  const double s = body.stature, sign = kSign[side];
-  const Axilla& axilla = trunk.axilla(side);
+  const double s = body.stature;
+  const Axilla &left = trunk.axilla(kLeft), &right = trunk.axilla(kRight);
   Shoulder shoulder;
-  if (!neck.found && !axilla.found) {
-    shoulder.reason = "neither neck nor arm tells where it is";
+  if (!neck.found && !(left.found && right.found)) {
+    shoulder.reason = "neither neck nor arms tell where it is";
     return shoulder;
   }
-  Vector3d place, up = Vector3d::UnitZ();
+  Vector3d place;
+  double stoop = 0;
   if (neck.found) {
-    const Vector3d base = find_neck_side(body, neck, side);
-    const bool hanging = axilla.found && !axilla.raised;
-    double out = (hanging ? kFromNeckOut : kRaisedFromNeckOut) * s;
-    if (hanging) {
-      double beside = sign * (axilla.point.y() - base.y()) + kBeyondAxilla * s;
-      const double turn = turning_down(body, base, side);
-      if (turn > 0) beside = (beside + turn) / 2;
-      out = kBoneTells * out + (1 - kBoneTells) * beside;
-    }
-    const double stoop = stoop_of(body, neck);
-    up = {std::sin(stoop), 0, std::cos(stoop)};
-    const Vector3d forwards(up.z(), 0, -up.x());
-    place = base - kFromNeckBack * s * forwards - kFromNeckDown * s * up;
-    place.y() = base.y() + sign * out;
+    const Vector3d base[2] = {find_neck_side(body, neck, kLeft), find_neck_side(body, neck, kRight)};
+    place = base[side] - 0.04 * s * Vector3d::UnitZ();
+    place.y() = (base[0].y() + base[1].y()) / 2;
+    stoop = stoop_of(body, neck);
   } else {
-    const std::vector<Outline> chest = trunk.outline_at(axilla.point.z() - 0.02 * s);
-    const double x = chest.empty() ? axilla.point.x() : chest.front().centroid.x();
-    place = {x - 0.01 * s, axilla.point.y() + sign * kBeyondAxilla * s, axilla.point.z() + 0.055 * s};
+    place = (left.point + right.point) / 2 + 0.055 * s * Vector3d::UnitZ();
     shoulder.confidence = 0.4;
-    shoulder.reason = "no neck; judged by the axilla alone";
+    shoulder.reason = "no neck; judged by the axillae alone";
   }
-  shoulder.found = skin_near(body, place, up, shoulder.point);
+  const double breadth = half_breadth(body, trunk, neck, place.y(), side);
+  place.y() += kSign[side] * breadth;
+  shoulder.found = breadth > 0 && on_section(body, place, stoop, shoulder.point);
   if (!shoulder.found) shoulder.reason = "no skin over the end of the collarbone";
   return shoulder;
 }

@@ -16,8 +16,9 @@ struct Shoulder {
   std::string reason;  ///< of a low confidence, or why it was not found
 };
 
-/// Of one side alone: a collarbone's length out from the neck's side, and half an arm's breadth beyond the
-/// axilla, where these tell; behind the neck's side. Turns with the neck where the body stoops.
+/// Out from the middle of the neck by a collarbone's length beyond its side, and by what the axillae tell of
+/// the shoulders' breadth; behind the middle of the shoulder's own depth, further forward the more the upper
+/// back stoops.
 Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& neck, Side side);
 
 }  // namespace tensegric_fit::landmarks

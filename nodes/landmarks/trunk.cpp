@@ -22,6 +22,9 @@ constexpr double kFurtherUp = 0.015;     // there the arm is one with the trunk
 constexpr double kHollow = 0.45;         // of the bridge, from behind
 constexpr double kUnderArm = 0.025;      // statures under the axilla where the arm tells how far it is raised
 constexpr double kRaised = 1.5;          // times that, from the trunk to the arm: 56 degrees
+constexpr double kUpperArm = 0.02, kLowerArm = 0.05;  // statures under the axilla, between which the arm runs
+constexpr double kLevelArm = 1.4,
+                 kLeastRaised = 0.8;  // radians: of an arm without sections there; of a raised one
 
 // The outline at a height that is the trunk of the nearest level, or -1.
 int trunk_among(const std::vector<Outline>& outlines, const BodyLevels& levels, double height) {
@@ -193,6 +196,14 @@ Axilla Trunk::find_axilla(Side side) const {
   const Outline *arm = arm_among(outlines), *lower_arm = arm_among(lower);
   axilla.raised =
       lower_arm == nullptr || inner_side(*lower_arm) - narrow > kRaised * kUnderArm * body_.stature;
+  const std::vector<Outline> upper = body_.sliced.outlines_at(low - kUpperArm * body_.stature),
+                             bottom = body_.sliced.outlines_at(low - kLowerArm * body_.stature);
+  const Outline *upper_arm = arm_among(upper), *bottom_arm = arm_among(bottom);
+  axilla.abduction = kLevelArm;
+  if (upper_arm != nullptr && bottom_arm != nullptr)  // a forearm may hang from an elbow that is held out
+    axilla.abduction = std::atan2(kSign[side] * (bottom_arm->centroid.y() - upper_arm->centroid.y()),
+                                  (kLowerArm - kUpperArm) * body_.stature);
+  if (axilla.raised && axilla.abduction < kLeastRaised) axilla.abduction = kLevelArm;
   if (arm != nullptr && !axilla.raised) {
     // Skin that fills the armpit, or that a movement has torn, joins the arm too low.
     const double sign = kSign[side], inner = sign * (narrow - kBesideGap * body_.stature),

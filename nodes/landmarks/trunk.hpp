@@ -10,7 +10,8 @@ struct Axilla {
   bool found = false;
   bool filled =
       false;  ///< arm and trunk are joined below it too: skin that touches, or a gap that was filled
-  bool raised = false;  ///< the arm stands out from the trunk by some 55 degrees or more
+  bool raised = false;   ///< the arm stands out from the trunk by some 55 degrees or more
+  double abduction = 0;  ///< radians from straight down to the upper arm
   Eigen::Vector3d point;
   Root root;  ///< of an arm that hangs
 };

@@ -12,10 +12,11 @@ using Eigen::Vector3d;
 constexpr double kMedialReach = 0.055;  // metres, from the definition of the underbust level
 constexpr double kApart = 0.005;        // between two profiles
 constexpr int kReach = 8;               // millimetres each way over which a profile's hollowness is taken
-constexpr double kRim = 0.012;          // metres; the nipple's own rim is hollow too
+constexpr double kRim = 0.012;          // metres along the skin; the nipple's own rim is hollow too
 constexpr double kSteepest = 2;         // of a fold seen from the front
 constexpr double kBelow = 0.13;  // statures under the bust point: where the fold of a hanging breast still is
-constexpr double kHollow = 15;   // 1/m: a radius of 70 mm is a rib cage's roundness, not a fold
+constexpr double kAbove = 0.02;
+constexpr double kHollow = 15;  // 1/m: a radius of 70 mm is a rib cage's roundness, not a fold
 
 constexpr double kSharpest =
     120;  // 1/m: a fold is no sharper on a mesh; more is noise, or a cut along a flank
@@ -33,8 +34,10 @@ std::vector<Place> places_below(const BodyShape& body, const std::vector<int>& s
                                 const Vector3d& bust_point, double y) {
   const Profile profile = cut_profile(body, skin, {bust_point.x(), y, bust_point.z()}, Vector3d::UnitX());
   std::vector<Place> places;
-  for (int i = 0; i < static_cast<int>(profile.points.size()); ++i) {
-    if (profile.points[i].z() > bust_point.z() - kRim) continue;
+  const int count = static_cast<int>(profile.points.size());
+  int level = 0;  // of the bust point; the fold of a breast that hangs can be as high
+  while (level < count && profile.points[level].z() > bust_point.z()) ++level;
+  for (int i = level + static_cast<int>(kRim / profile.step); i < count; ++i) {
     const double hollowness = std::clamp(profile.hollowness(i, kReach), 0.0, kSharpest);
     places.push_back({profile.points[i], hollowness, hollowness, -1});
   }
@@ -65,7 +68,7 @@ Fold find_fold(const BodyShape& body, const Vector3d& bust_point, Side side) {
                lateral = bust_point.y() - inwards * 0.01;
   const std::vector<int> skin = triangles_in_box(
       body, {bust_point.x() - 0.12 * s, std::min(medial, lateral), bust_point.z() - kBelow * s},
-      {bust_point.x() + 0.03 * s, std::max(medial, lateral), bust_point.z() + 0.01 * s});
+      {bust_point.x() + 0.03 * s, std::max(medial, lateral), bust_point.z() + kAbove * s});
   // The fold runs on smoothly from profile to profile: of all such ways the one that is most hollow in sum.
   std::vector<std::vector<Place>> profiles;
   for (int k = 0; k * kApart <= kMedialReach + 1e-9; ++k) {
@@ -82,16 +85,18 @@ Fold find_fold(const BodyShape& body, const Vector3d& bust_point, Side side) {
     for (std::size_t k = profiles.size() - 1; k-- > 0;)
       way.insert(way.begin(), profiles[k][way.front().before]);
   }
-  if (way.empty() || way.front().hollowness < kHollow) {
+  // On the outside the breast can run out into the flank, at the sternum into the other one: the fold is
+  // where it is hollow.
+  const auto is_hollow = [](const Place& place) { return place.hollowness >= kHollow; };
+  const auto first = std::find_if(way.begin(), way.end(), is_hollow);
+  if (first == way.end()) {
     const Vector3d guess = bust_point - 0.035 * s * Vector3d::UnitZ();
     return {guess, guess, 0.2, "no fold under the breast"};
   }
   Fold fold;
-  fold.below_bust_point = fold.lowest = way.front().point;
-  for (const Place& place : way) {
-    if (place.hollowness < kHollow) break;  // the fold ends at the sternum
-    if (place.point.z() < fold.lowest.z()) fold.lowest = place.point;
-  }
+  fold.below_bust_point = fold.lowest = first->point;
+  for (auto place = first; place != way.end() && is_hollow(*place); ++place)
+    if (place->point.z() < fold.lowest.z()) fold.lowest = place->point;
   fold.confidence = 0.9;
   return fold;
 }

@@ -67,11 +67,11 @@ TEST(Landmarks, OfASymmetricPersonAreWhereTheShapesPutThem) {
     EXPECT_TRUE(l.position.allFinite()) << l.name;
     EXPECT_TRUE(l.confidence >= 0.5 || !l.reason.empty()) << l.name;
   }
-  // A grid of 12 mm cuts the tops off by half a millimetre; the tip of a smooth breast is found to a few
-  // millimetres.
-  EXPECT_LT((measures.landmark("bust_point_L") - Vector3d(0.155, 0.085, 1.24)).norm(), 0.008);
-  EXPECT_LT((measures.landmark("bust_point_R") - Vector3d(0.155, -0.085, 1.24)).norm(), 0.008);
-  EXPECT_NEAR(measures.height("bust"), 1.24, 0.006);
+  // A breast without a nipple: an ellipsoid's furthest point 25 degrees outwards and 7 up. A grid of 12 mm
+  // cuts the tops off by half a millimetre; the chest above melts into the breast.
+  EXPECT_LT((measures.landmark("bust_point_L") - Vector3d(0.149, 0.109, 1.247)).norm(), 0.010);
+  EXPECT_LT((measures.landmark("bust_point_R") - Vector3d(0.149, -0.109, 1.247)).norm(), 0.010);
+  EXPECT_NEAR(measures.height("bust"), 1.247, 0.008);
   EXPECT_NEAR(measures.height("hip"), 0.90, 0.01);       // buttocks' centres
   EXPECT_NEAR(measures.height("stature"), 1.70, 0.003);  // top of the head
   EXPECT_LT(measures.height("underbust"), 1.21);         // under the breasts' middle, above their lowest skin
@@ -178,7 +178,7 @@ TEST(Landmarks, AMannequinWithoutHeadAndArmsIsMeasuredAsFarAsItGoes) {
     const auto same = [&name](const geometry::Missing& m) { return m.name == name && !m.reason.empty(); };
     EXPECT_TRUE(std::any_of(measures.missing.begin(), measures.missing.end(), same)) << name;
   }
-  EXPECT_NEAR(measures.height("bust"), 1.24, 0.01);
+  EXPECT_NEAR(measures.height("bust"), 1.247, 0.01);
   EXPECT_GT(girth(measures, "waist"), 0.5);
 }
 
@@ -186,7 +186,8 @@ TEST(Landmarks, AMannequinWithoutHeadAndArmsIsMeasuredAsFarAsItGoes) {
 Vector3d stooped(const Vector3d& p, double angle) {
   const double low = 1.00, high = 1.28;
   double x = 0, z = low, bent = 0;
-  const double spine = std::abs(p.y()) > 0.17 ? high : std::clamp(p.z(), low, high);  // arms hang from above
+  const double arm = std::clamp((std::abs(p.y()) - 0.14) / 0.06, 0.0, 1.0);  // arms hang from above
+  const double spine = (1 - arm) * std::clamp(p.z(), low, high) + arm * high;
   if (spine > low) {
     const int steps = 100;
     for (int i = 0; i < steps; ++i) {
@@ -209,10 +210,13 @@ TEST(Landmarks, OfTheUpperTrunkGoAlongWithAStoop) {
     TriangleMesh mesh = plain_person();
     for (Vector3d& v : mesh.vertices) v = stooped(v, angle * kDegree);
     const BodyMeasures bent = measure(mesh);
-    // Skin marks are where the bend took them. ISO 20685 gives points 10 mm; this figure's shoulders are
-    // round, of 50 mm radius, without a bone that tells.
-    for (const char* name : {"neck_back", "neck_side_L", "neck_side_R", "shoulder_L", "shoulder_R"})
-      EXPECT_LT((bent.landmark(name) - stooped(upright.landmark(name), angle * kDegree)).norm(), 0.016)
+    // Skin marks are where the bend took them. ISO 20685 gives points 10 mm; this round figure's arms melt
+    // into the trunk, so that its axillae, which tell half of the shoulders' breadth, are less sharp.
+    for (const char* name : {"neck_back", "neck_side_L", "neck_side_R"})
+      EXPECT_LT((bent.landmark(name) - stooped(upright.landmark(name), angle * kDegree)).norm(), 0.012)
+          << name << " at " << angle;
+    for (const char* name : {"shoulder_L", "shoulder_R"})
+      EXPECT_LT((bent.landmark(name) - stooped(upright.landmark(name), angle * kDegree)).norm(), 0.028)
           << name << " at " << angle;
     EXPECT_NEAR(girth(bent, "neck"), girth(upright, "neck"), 0.004) << angle;
   }
@@ -224,10 +228,12 @@ TEST(Landmarks, ArmsMayBeHeldOut) {
   const BodyMeasures hanging = measure(plain_person()), out = measure(test::person_mesh(parts));
   for (const char* name : {"bust_point_L", "bust_point_R", "neck_back", "crotch"})
     EXPECT_LT((out.landmark(name) - hanging.landmark(name)).norm(), 0.005) << name;
-  for (const char* name : {"bust", "underbust", "waist", "hip", "neck"})
-    EXPECT_NEAR(girth(out, name), girth(hanging, name), 0.004) << name;
+  for (const char* name :
+       {"bust", "underbust", "waist", "hip", "neck"})  // the arms' roots melt into the neck
+    EXPECT_NEAR(girth(out, name), girth(hanging, name), 0.006) << name;
   for (const char* name : {"shoulder_L", "shoulder_R"})
-    EXPECT_LT((out.landmark(name) - hanging.landmark(name)).norm(), 0.025) << name;  // the arm's root moves
+    EXPECT_LT((out.landmark(name) - hanging.landmark(name)).norm(), 0.030)
+        << name;  // a real collarbone rises with the arm, by 16 mm towards the neck; this figure has none
 }
 
 TEST(Landmarks, GirthsOfLimbsAreSquareToThem) {

@@ -39,12 +39,12 @@ struct Parts {
   double web_below_crotch = 0;   ///< metres of a thin skin between the thighs, as a scan's hole filling makes
 };
 
-/// x forward, y left, z up, soles at 0. Bust points at (0.155, +-0.085, 1.24), least girth of the trunk
+/// x forward, y left, z up, soles at 0. The breasts' foremost points are (0.155, +-0.085, 1.24), least girth of the trunk
 /// near 1.08.
 inline double person(const Eigen::Vector3d& p, const Parts& parts) {
   double d = ellipsoid(p, {0, 0, 0.93}, {0.11, 0.16, 0.14});
   d = melt(d, ellipsoid(p, {0, 0, 1.08}, {0.095, 0.12, 0.20}));
-  d = melt(d, ellipsoid(p, {0, 0, 1.27}, {0.11, 0.15, 0.16}));
+  d = melt(d, ellipsoid(p, {0, 0, 1.26}, {0.11, 0.15, 0.17}));
   for (double side : {1.0, -1.0}) {
     const double lower = side > 0 ? parts.left_breast_lower : 0;
     d = melt(d, capsule(p, {0, side * 0.10, 0.05}, {0, side * 0.09, 0.80}, 0.045, 0.08));
