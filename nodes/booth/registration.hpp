@@ -11,7 +11,7 @@ namespace tensegric_fit::booth {
 
 /// Field defaults are the parameters' defaults. Metres, radians.
 struct RegistrationOptions {
-  double max_shift = 0.006;  ///< 0 to 0.05; columns that seem farther off are left as they are
+  double max_shift = 0.010;  ///< 0 to 0.05; columns that seem farther off are left as they are
   double max_turn = 0.010;   ///< 0 to 0.1
 };
 

@@ -1,11 +1,9 @@
 #include "booth/scan_bag.hpp"
 
 #include <pcl_conversions/pcl_conversions.h>
-#include <rosbag/bag.h>
 #include <rosbag/view.h>
-#include <sensor_msgs/PointCloud2.h>
-#include <sensor_msgs/point_cloud2_iterator.h>
 
+#include "booth/cloud_message.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::booth {
@@ -53,27 +51,8 @@ pcl::PCLPointCloud2 read_bag_scan(const std::string& path) {
 
 void write_bag_scan(const std::string& path, const geometry::PointCloud& cloud, const std::string& frame_id,
                     const ros::Time& stamp) {
-  sensor_msgs::PointCloud2 message;
-  message.header.frame_id = frame_id;
-  message.header.stamp = stamp;
-  sensor_msgs::PointCloud2Modifier modifier(message);
-  modifier.setPointCloud2FieldsByString(1, "xyz");
-  modifier.resize(cloud.points.size());
-  message.is_dense = true;
-  sensor_msgs::PointCloud2Iterator<float> at(message, "x");
-  for (const Eigen::Vector3d& p : cloud.points) {
-    for (int i = 0; i < 3; ++i) at[i] = static_cast<float>(p[i]);
-    ++at;
-  }
-  // as recorded from a latched topic, so that `rosbag play` latches it
-  const auto connection = boost::make_shared<ros::M_string>(
-      ros::M_string{{"topic", kTopic},
-                    {"type", ros::message_traits::datatype(message)},
-                    {"md5sum", ros::message_traits::md5sum(message)},
-                    {"message_definition", ros::message_traits::definition(message)},
-                    {"latching", "1"}});
   rosbag::Bag bag(path, rosbag::bagmode::Write);
-  bag.write(kTopic, stamp, message, connection);
+  write_latched(bag, kTopic, stamp, cloud_message(cloud, frame_id, stamp));
 }
 
 }  // namespace tensegric_fit::booth

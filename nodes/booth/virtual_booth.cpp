@@ -1,5 +1,5 @@
-/// virtual_booth: makes a body and scans it. Writes scan.ply, scan.bag, body.ply and truth.json; or shape.ply
-/// and fixed.yaml of an example shape. Same arguments, same bytes.
+/// virtual_booth: makes a body and scans it. Writes scan.ply, scan.bag, body.ply and truth.json, on request
+/// sensors.bag; or shape.ply and fixed.yaml of an example shape. Same arguments, same bytes.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 #include "booth/example_shape.hpp"
 #include "booth/random_body.hpp"
 #include "booth/scan_bag.hpp"
+#include "booth/sensor_bag.hpp"
 #include "booth/truth_file.hpp"
 #include "booth/virtual_body.hpp"
 #include "booth/virtual_scanner.hpp"
@@ -23,7 +24,7 @@ using namespace tensegric_fit;
 constexpr int kUsage = 2, kRefused = 3;
 
 void run(const booth::VirtualBody& subject, const booth::BodyParameters& body,
-         const booth::ScannerOptions& scanner, const std::filesystem::path& out) {
+         const booth::ScannerOptions& scanner, bool each_sensor, const std::filesystem::path& out) {
   const booth::VirtualScan scan = booth::scan_body(subject.mesh, scanner);
   std::filesystem::create_directories(out);
   geometry::write_ply_mesh(out / "body.ply", subject.mesh);
@@ -31,6 +32,7 @@ void run(const booth::VirtualBody& subject, const booth::BodyParameters& body,
   // Any fixed time will do, as long as no two seeds share one.
   const ros::Time stamp(static_cast<std::uint32_t>(1000000000 + scanner.seed % 1000000000), 0);
   booth::write_bag_scan(out / "scan.bag", scan.cloud, "booth", stamp);
+  if (each_sensor) booth::write_sensor_bag(out / "sensors.bag", booth::by_sensor(scan), "booth", stamp);
   booth::write_truth(out / "truth.json", subject, body, scanner);
   std::cout << fmt::format("{}: {} points of a body of {} triangles\n", out.string(),
                            scan.cloud.points.size(), subject.mesh.triangles.size());
@@ -57,13 +59,16 @@ int main(int argc, char** argv) {
   booth::ScannerOptions scanner;
   std::string out = "virtual_booth", shape;
   std::uint64_t customer = 0;
+  bool each_sensor = false;
   CLI::App app("Scans a parametric body with virtual depth sensors. Metres, radians.");
   app.option_defaults()->always_capture_default();
   app.add_option("--out", out, "directory for the files");
   app.add_option("--shape", shape, "write this shape and which part of it to hold, in place of a scan")
       ->check(CLI::IsMember(booth::example_shapes()));
-  CLI::Option* by_lot = app.add_option("--customer", customer,
-                                       "draw body and booth by lot; all other options but --out are drawn");
+  CLI::Option* by_sensor =
+      app.add_flag("--sensors", each_sensor, "write sensors.bag, too: each sensor's cloud and tf");
+  CLI::Option* by_lot = app.add_option(
+      "--customer", customer, "draw body and booth by lot; all options but --out and --sensors are drawn");
   app.add_option("--stature", body.stature, "height of the body");
   app.add_option("--bust", body.bust, "size of the breasts, as a length relative to the default");
   app.add_option("--firmness", body.firmness,
@@ -85,7 +90,8 @@ int main(int argc, char** argv) {
   app.add_flag("--floor", scanner.floor, "let the sensors see the floor");
   app.add_flag("--frame", scanner.frame, "let the sensors see the booth's frame");
   for (CLI::Option* option : app.get_options())
-    if (option != by_lot && option->get_name() != "--help" && option->get_name() != "--out")
+    if (option != by_lot && option != by_sensor && option->get_name() != "--help" &&
+        option->get_name() != "--out")
       by_lot->excludes(option);
   try {
     app.parse(argc, argv);
@@ -98,9 +104,9 @@ int main(int argc, char** argv) {
     } else if (by_lot->count() > 0) {
       body = booth::random_body(customer);
       const booth::VirtualBody subject = booth::make_body(body);
-      run(subject, body, booth::random_scanner(customer, subject), out);
+      run(subject, body, booth::random_scanner(customer, subject), each_sensor, out);
     } else {
-      run(booth::make_body(body), body, scanner, out);
+      run(booth::make_body(body), body, scanner, each_sensor, out);
     }
   } catch (const geometry::Refusal& refusal) {
     std::cerr << "virtual_booth: " << refusal.code() << ": " << refusal.what() << '\n';

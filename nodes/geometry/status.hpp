@@ -21,8 +21,12 @@ inline constexpr char kBadMesh[] = "bad_mesh";          ///< indices out of rang
 inline constexpr char kBadGarment[] = "bad_garment";    ///< garment YAML: unknown key, value out of range
 inline constexpr char kUnknownLine[] =
     "unknown_line";  ///< a line or node that the control mesh does not have
-inline constexpr char kBadTemplate[] = "bad_template";  ///< control mesh template YAML
-inline constexpr char kBadOption[] = "bad_option";      ///< an option or parameter out of range
+inline constexpr char kBadTemplate[] = "bad_template";      ///< control mesh template YAML
+inline constexpr char kBadOption[] = "bad_option";          ///< an option or parameter out of range
+inline constexpr char kMissingSensor[] = "missing_sensor";  ///< a sensor of the booth sent nothing in time
+inline constexpr char kLateCloud[] = "late_cloud";      ///< a sensor's cloud came after its capture had left
+inline constexpr char kNoStamp[] = "no_stamp";          ///< a sensor's cloud without a time
+inline constexpr char kNoTransform[] = "no_transform";  ///< tf does not know where a sensor stands
 inline constexpr char kNothingYet[] = "nothing_yet";    ///< asked for a result before there is one
 }  // namespace refusal
 

@@ -67,6 +67,10 @@ Eigen::Vector3d Parameters::vector(const std::string& name, const Eigen::Vector3
   return {value[0], value[1], value[2]};
 }
 
+std::vector<std::string> Parameters::texts(const std::string& name) {
+  return read(name, std::vector<std::string>(), "a list of texts");
+}
+
 void Parameters::check_all_known() const {
   std::vector<std::string> names;
   ros::param::getParamNames(names);

@@ -25,6 +25,8 @@ class Parameters {
   std::string choice(const std::string& name, const std::string& fallback,
                      const std::vector<std::string>& words);
   Eigen::Vector3d vector(const std::string& name, const Eigen::Vector3d& fallback);
+  /// A list; empty where it is not set.
+  std::vector<std::string> texts(const std::string& name);
 
   /// Call when all are read. \throw Refusal bad_option naming a parameter that the node does not know
   void check_all_known() const;

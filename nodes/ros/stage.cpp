@@ -70,6 +70,15 @@ void Stage::refuse(const std::string& scan_id, const geometry::Refusal& refusal)
   fail(scan_id, "refused", refusal.code(), refusal.what());
 }
 
+void Stage::drop(const std::string& scan_id, const geometry::Refusal& refusal) {
+  std::lock_guard<std::mutex> lock(report_mutex_);
+  state_.last_error = refusal.code();
+  state_.last_error_message = refusal.what();
+  state_.last_error_scan_id = scan_id;
+  report();
+  ROS_WARN("%s: dropped: %s: %s", name_.c_str(), refusal.code().c_str(), refusal.what());
+}
+
 void Stage::serve() {
   while (true) {
     Job job;
@@ -111,6 +120,11 @@ void Stage::finish(const Job& job, const Result& result, double milliseconds) {
   std::lock_guard<std::mutex> lock(report_mutex_);
   state_.word = dropped ? "superseded" : "done";
   state_.message = dropped ? "dropped work on scan " + job.scan_id + ": something newer came" : "done";
+  if (!dropped && !result.warning.empty()) {
+    state_.level = DiagnosticStatus::WARN;
+    state_.message = result.warning;
+    ROS_WARN("%s: scan %s: %s", name_.c_str(), job.scan_id.c_str(), result.warning.c_str());
+  }
   state_.milliseconds = milliseconds;
   state_.facts = result.facts;
   report();

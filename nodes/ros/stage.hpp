@@ -25,10 +25,11 @@ class Stage {
   using Facts = std::vector<std::pair<std::string, std::string>>;
 
   /// What work ends with: how to publish it (empty where it stopped half way), and what to say of it on
-  /// /diagnostics.
+  /// /diagnostics. A warning is for what came out, but not as it should.
   struct Result {
     std::function<void()> publish;
     Facts facts;
+    std::string warning = {};
   };
   using Work = std::function<Result()>;
 
@@ -49,6 +50,9 @@ class Stage {
 
   /// Says that an input was refused before any work began.
   void refuse(const std::string& scan_id, const geometry::Refusal& refusal);
+
+  /// Says that an input was dropped that no work waits for: named like a refusal, but the state stays.
+  void drop(const std::string& scan_id, const geometry::Refusal& refusal);
 
  private:
   struct Job {

@@ -1,0 +1,253 @@
+/// The assembler as a booth's sensors meet it: clouds and tf in, scans out.
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "chain_client.hpp"
+
+namespace tensegric_fit::tests {
+namespace {
+
+constexpr int kSensors = 12;
+
+/// A virtual body as all sensors saw it. Its frames are named after it: the booth stands otherwise for each.
+struct Recording {
+  std::vector<sensor_msgs::PointCloud2> clouds;
+  tf2_msgs::TFMessage poses;
+};
+
+Recording recording_of(const std::string& body) {
+  rosbag::Bag bag(std::string(TENSEGRIC_FIT_SCANS) + "/" + body + "/sensors.bag");
+  Recording recording;
+  recording.clouds.resize(kSensors);
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+    if (const auto poses = message.instantiate<tf2_msgs::TFMessage>()) recording.poses = *poses;
+    if (const auto cloud = message.instantiate<sensor_msgs::PointCloud2>())
+      recording.clouds.at(std::stoul(message.getTopic().substr(std::string("/sensors/").size()))) = *cloud;
+  }
+  for (auto& pose : recording.poses.transforms) pose.child_frame_id += body;
+  for (auto& cloud : recording.clouds) cloud.header.frame_id += body;
+  return recording;
+}
+
+const Recording& recorded(const std::string& body) {
+  static const std::map<std::string, Recording> recordings = {{"a", recording_of("a")},
+                                                              {"b", recording_of("b")}};
+  return recordings.at(body);
+}
+
+Eigen::Isometry3d pose_of(const Recording& recording, int sensor) {
+  const auto& transform = recording.poses.transforms[sensor].transform;
+  return Eigen::Translation3d(transform.translation.x, transform.translation.y, transform.translation.z) *
+         Eigen::Quaterniond(transform.rotation.w, transform.rotation.x, transform.rotation.y,
+                            transform.rotation.z);
+}
+
+/// What a sensor saw of a body, in the booth's frame.
+std::vector<Eigen::Vector3d> seen_by(const std::string& body, int sensor) {
+  const Recording& recording = recorded(body);
+  const Eigen::Isometry3d pose = pose_of(recording, sensor);
+  std::vector<Eigen::Vector3d> points;
+  for (sensor_msgs::PointCloud2ConstIterator<float> at(recording.clouds[sensor], "x"); at != at.end(); ++at)
+    points.push_back(pose * Eigen::Vector3d(at[0], at[1], at[2]));
+  return points;
+}
+
+/// A booth in a namespace, with an assembler.
+class Booth {
+ public:
+  explicit Booth(const std::string& name) : node_(name), stage_(name + "/assembler: assembler") {
+    for (int sensor = 0; sensor < kSensors; ++sensor)
+      sensors_.push_back(
+          node_.advertise<sensor_msgs::PointCloud2>("sensors/" + std::to_string(sensor) + "/points", 8));
+    tf_ = node_.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+    scan_ = node_.subscribe<sensor_msgs::PointCloud2>("scan/points", 8,
+                                                      [this](const sensor_msgs::PointCloud2::ConstPtr& scan) {
+                                                        if (scan->header.stamp >= since_)
+                                                          scans.push_back(scan);
+                                                      });
+    said_ = node_.subscribe("/diagnostics", 1000, &Booth::on_diagnostics, this);
+    tf2_msgs::TFMessage poses;
+    for (const char* body : {"a", "b"})
+      for (const auto& pose : recorded(body).poses.transforms) poses.transforms.push_back(pose);
+    tf_.publish(poses);
+  }
+
+  bool ready() {
+    return wait_for([this] {
+      return scan_.getNumPublishers() == 1 && !facts.empty() && tf_.getNumSubscribers() != 0 &&
+             std::all_of(sensors_.begin(), sensors_.end(),
+                         [](const ros::Publisher& sensor) { return sensor.getNumSubscribers() != 0; });
+    });
+  }
+
+  void send(const std::string& body, int sensor, double stamp) {
+    sensor_msgs::PointCloud2 cloud = recorded(body).clouds[sensor];
+    cloud.header.stamp = ros::Time(stamp);
+    send(cloud, sensor);
+  }
+  void send(const sensor_msgs::PointCloud2& cloud, int sensor) {
+    since_ = std::min(since_, cloud.header.stamp);
+    sensors_[sensor].publish(cloud);
+  }
+
+  void send_all(const std::string& body, double stamp, int but = -1) {
+    for (int sensor = 0; sensor < kSensors; ++sensor)
+      if (sensor != but) send(body, sensor, stamp + 0.005 * sensor);
+  }
+
+  bool scanned(std::size_t count) {
+    return wait_for([&] { return scans.size() == count; });
+  }
+
+  /// Waits until that was the last thing that went wrong.
+  bool says(const std::string& code, const std::string& words) {
+    return wait_for([&] {
+      return facts["last_error"] == code && facts["last_error_message"].find(words) != std::string::npos;
+    });
+  }
+
+  std::vector<sensor_msgs::PointCloud2::ConstPtr> scans;
+  std::map<std::string, std::string> facts;  ///< newest, with level and message
+
+ private:
+  void on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
+    for (const diagnostic_msgs::DiagnosticStatus& status : message->status) {
+      if (status.name != stage_) continue;
+      facts["level"] = std::to_string(status.level);
+      facts["message"] = status.message;
+      for (const diagnostic_msgs::KeyValue& fact : status.values) facts[fact.key] = fact.value;
+    }
+  }
+
+  ros::NodeHandle node_;
+  std::string stage_;
+  ros::Time since_ = ros::TIME_MAX;  // of the first cloud sent: latched scans of earlier ones do not count
+  std::vector<ros::Publisher> sensors_;
+  ros::Publisher tf_;
+  ros::Subscriber scan_, said_;
+};
+
+/// All points of the body's sensors but one, each where its sensor saw it, with a normal that looks back.
+void expect_scan(const sensor_msgs::PointCloud2& scan, const std::string& body, int but = -1) {
+  EXPECT_EQ(scan.header.frame_id, "booth");
+  sensor_msgs::PointCloud2ConstIterator<float> at(scan, "x"), normal(scan, "normal_x");
+  sensor_msgs::PointCloud2ConstIterator<std::uint8_t> sensor_at(scan, "sensor");
+  std::size_t count = 0;
+  for (int sensor = 0; sensor < kSensors; ++sensor) {
+    if (sensor == but) continue;
+    const Eigen::Vector3d viewpoint = pose_of(recorded(body), sensor).translation();
+    for (const Eigen::Vector3d& seen : seen_by(body, sensor)) {
+      ASSERT_LT(count++, scan.width);
+      ASSERT_EQ(*sensor_at, sensor);
+      const Eigen::Vector3d p(at[0], at[1], at[2]), n(normal[0], normal[1], normal[2]);
+      ASSERT_LT((p - seen).norm(), 0.005);  // columns are 0.5 mm off (deviation), and moved to fit
+      ASSERT_NEAR(n.norm(), 1, 1e-5);
+      ASSERT_GT(n.dot(viewpoint - p), -0.02);  // the correction turns it by a few milliradians
+      ++at, ++normal, ++sensor_at;
+    }
+  }
+  EXPECT_EQ(count, scan.width * scan.height);
+}
+
+class AssemblerTest : public testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(booth_.ready()) << "the assembler did not come up"; }
+  Booth booth_{"strict"};
+};
+
+TEST_F(AssemblerTest, TwoCapturesInARow) {
+  booth_.send_all("a", 100);
+  ASSERT_TRUE(booth_.scanned(1));
+  booth_.send_all("b", 103);
+  ASSERT_TRUE(booth_.scanned(2));
+  expect_scan(*booth_.scans[0], "a");
+  expect_scan(*booth_.scans[1], "b");
+  EXPECT_EQ(booth_.scans[0]->header.stamp, ros::Time(100));
+  EXPECT_EQ(booth_.scans[1]->header.stamp, ros::Time(103));
+  EXPECT_TRUE(wait_for([&] { return booth_.facts["state"] == "done"; }));
+  EXPECT_EQ(booth_.facts["registration"], "refined");
+  EXPECT_LT(std::stod(booth_.facts["overlap_mm_after"]), std::stod(booth_.facts["overlap_mm_before"]));
+}
+
+TEST_F(AssemblerTest, CapturesThatCrossEachOtherAreNotMixed) {
+  booth_.send_all("a", 200, 11);
+  booth_.send_all("b", 201);
+  ASSERT_TRUE(booth_.scanned(1));
+  booth_.send("a", 11, 200.055);
+  EXPECT_TRUE(booth_.says("late_cloud", "sensors/11/points"));
+  listen(1.5);  // for what should not come: longer than the timeout
+  ASSERT_EQ(booth_.scans.size(), 1u);
+  expect_scan(*booth_.scans[0], "b");
+  EXPECT_EQ(booth_.facts["state"], "done");  // as before the late cloud
+}
+
+TEST_F(AssemblerTest, AMissingSensorIsNamedInTimeAndTheNextCaptureWorks) {
+  const ros::WallTime start = ros::WallTime::now();
+  booth_.send_all("a", 300, 4);
+  EXPECT_TRUE(booth_.says("missing_sensor", "missing: sensors/4/points"));
+  EXPECT_LT((ros::WallTime::now() - start).toSec(), 1 + 4);  // the timeout, and a busy machine
+  booth_.send("a", 4, 300.02);
+  EXPECT_TRUE(booth_.says("late_cloud", "sensors/4/points"));
+  EXPECT_TRUE(booth_.scans.empty());
+  booth_.send_all("b", 303);
+  ASSERT_TRUE(booth_.scanned(1));
+  expect_scan(*booth_.scans[0], "b");
+}
+
+TEST_F(AssemblerTest, CloudsThatCannotBeUsedAreNamedWithTheirSensor) {
+  sensor_msgs::PointCloud2 cloud = recorded("a").clouds[2];
+  cloud.header.stamp = ros::Time(400);
+  cloud.data.resize(100);
+  booth_.send(cloud, 2);
+  EXPECT_TRUE(booth_.says("broken_file", "sensors/2/points"));
+  cloud = recorded("a").clouds[3];
+  cloud.header.stamp = ros::Time();
+  booth_.send(cloud, 3);
+  EXPECT_TRUE(booth_.says("no_stamp", "sensors/3/points"));
+  cloud.header.stamp = ros::Time(401);
+  cloud.header.frame_id = "nowhere";
+  booth_.send_all("a", 401, 3);
+  booth_.send(cloud, 3);
+  EXPECT_TRUE(booth_.says("no_transform", "sensors/3/points"));
+  EXPECT_TRUE(booth_.scans.empty());
+}
+
+TEST(LenientAssemblerTest, WithEnoughSensorsWhatIsThereComesWithAWarning) {
+  Booth booth("lenient");
+  ASSERT_TRUE(booth.ready());
+  booth.send_all("a", 500, 7);
+  ASSERT_TRUE(booth.scanned(1));
+  expect_scan(*booth.scans[0], "a", 7);
+  EXPECT_TRUE(wait_for([&] {
+    return booth.facts["level"] == std::to_string(diagnostic_msgs::DiagnosticStatus::WARN) &&
+           booth.facts["message"].find("missing: sensors/7/points") != std::string::npos;
+  }));
+}
+
+TEST(PlayedBagTest, ABagOfAllSensorsBecomesOneScan) {
+  sensor_msgs::PointCloud2::ConstPtr scan;
+  const boost::function<void(const sensor_msgs::PointCloud2::ConstPtr&)> take =
+      [&scan](const sensor_msgs::PointCloud2::ConstPtr& message) { scan = message; };
+  ros::NodeHandle node;
+  const ros::Subscriber subscriber = node.subscribe<sensor_msgs::PointCloud2>("scan/points", 1, take);
+  ASSERT_TRUE(wait_for([&] { return scan != nullptr; }));
+  EXPECT_EQ(scan->header.stamp, recorded("a").clouds[0].header.stamp);
+  expect_scan(*scan, "a");
+}
+
+}  // namespace
+}  // namespace tensegric_fit::tests
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "assembler_test");
+  ros::NodeHandle node;  // keeps ROS up between clients
+  return RUN_ALL_TESTS();
+}
