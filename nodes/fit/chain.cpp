@@ -4,6 +4,7 @@
 
 #include "tffd/body_volume.hpp"
 #include "tffd/distortion.hpp"
+#include "tffd/lay_line.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -31,6 +32,17 @@ std::vector<tensegric::VolumeFunction> body_volumes(const Fitting& fitting, cons
     volumes.push_back(tffd::BodyVolume(fitting.binding, fitting.carried[r],
                                        geometry::region_apex(fitting.control, fitting.control.regions[r])));
   return volumes;
+}
+
+// The garment's lines that are given by points on the body.
+std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitting,
+                                           const tensegric::Garment& garment) {
+  std::vector<geometry::LaidLine> laid;
+  for (const tensegric::GarmentLine& line : garment.lines)
+    if (!line.points.empty())
+      laid.push_back({line.name, tffd::lay_line({line.points, line.width, line.smooth, line.taut},
+                                                body.mesh.mesh, fitting.binding)});
+  return laid;
 }
 
 }  // namespace
@@ -92,9 +104,15 @@ Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings&
 Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& garment,
          const Settings& settings, StageTimes& times, const tensegric::Solution* start) {
   Fit fit;
+  std::vector<geometry::LaidLine> laid;
+  {
+    const Stopwatch watch(times.tffd);
+    laid = laid_lines(body, fitting, garment);
+  }
   {
     const Stopwatch watch(times.tensegric);
-    fit.solution = tensegric::solve(fitting.model, garment, settings.solver, start, {}, fitting.body_volumes);
+    fit.solution =
+        tensegric::solve(fitting.model, garment, settings.solver, start, {}, fitting.body_volumes, laid);
   }
   const Stopwatch watch(times.tffd);
   fit.deformed = fitting.binding.deform(fit.solution.outer, fit.solution.inner);

@@ -135,12 +135,8 @@ class Run {
     inspect::FitScene scene{
         body_.mesh.mesh, fit.deformed, fit.distortion, body_.measures, parts_of(fitting.control), {}, {}};
     for (const auto& line : fit.solution.lines) {
-      auto& before = scene.lines_before.emplace_back();
-      auto& after = scene.lines_after.emplace_back();
-      for (int node : line.nodes) {
-        before.push_back(fitting.control.outer[node]);
-        after.push_back(fit.solution.outer[node]);
-      }
+      scene.lines_before.push_back(line.course_at_rest);
+      scene.lines_after.push_back(line.course);
     }
     save_picture("front.png", beside_measured(inspect::front_picture(body_.mesh.mesh, body_.measures, kPanel),
                                               inspect::front_picture(scene)));

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "geometry/section.hpp"
 #include "geometry/status.hpp"
+#include "tensegric/tension_law.hpp"
 
 namespace tensegric_fit::tensegric {
 namespace {
@@ -13,7 +16,6 @@ namespace refusal = geometry::refusal;
 
 constexpr double kSmooth = 1e-3;       // m
 constexpr double kSmoothShare = 0.03;  // of the mean segment at rest, where that is less
-constexpr double kSteep = 100;         // tension per stretch; the tissue's own is about 1
 
 // f(l) = l from `smooth` on, below it an even polynomial that meets it with two equal derivatives.
 struct SegmentLength {
@@ -52,162 +54,168 @@ std::vector<int> nodes_of(const geometry::ControlMesh& control, const GarmentLin
   throw Refusal(refusal::kUnknownLine, "the control mesh has no line '" + line.name + "'");
 }
 
-std::size_t table_segment(const TensionLaw& law, double stretch) {
-  std::size_t i = 0;
-  while (i + 2 < law.table.size() && stretch > law.table[i + 1].first) ++i;
-  return i;
+// A line over the control mesh's own nodes.
+geometry::Fibre over_nodes(const std::vector<int>& nodes, const Positions& rest) {
+  geometry::Fibre fibre{1, {}};
+  for (const int node : nodes) fibre.points.push_back({rest[node], {{node, 1.0}}});
+  return fibre;
 }
 
-std::size_t segment_by_tension(const TensionLaw& law, double tension) {
-  std::size_t i = 0;
-  while (i + 2 < law.table.size() && std::max(0.0, tension) >= law.table[i + 1].second) ++i;
-  return i;
-}
-
-double slope_of_segment(const TensionLaw& law, std::size_t i) {
-  return (law.table[i + 1].second - law.table[i].second) / (law.table[i + 1].first - law.table[i].first);
-}
-
-// A table with a level part beyond its first tension has no stretch by tension.
-bool is_steep(const TensionLaw& law) {
-  if (law.kind == TensionLaw::Kind::rigid) return true;
-  if (law.kind == TensionLaw::Kind::stiffness) return law.stiffness >= kSteep;
-  double steepest = 0;
-  for (std::size_t i = 0; i + 1 < law.table.size(); ++i) {
-    const double slope = slope_of_segment(law, i);
-    if (slope == 0 && (law.table[i].second > 0 || i + 2 == law.table.size())) return false;
-    steepest = std::max(steepest, slope);
+Thread thread_of(const geometry::Fibre& fibre, const Positions& rest) {
+  Thread thread{fibre.share, fibre.points, {}, {}};
+  for (const geometry::CarriedPoint& point : fibre.points) {
+    Eigen::Vector3d offset = point.rest;
+    for (const auto& [node, weight] : point.weights) offset -= weight * rest[node];
+    thread.offsets.push_back(offset);
   }
-  return steepest >= kSteep;
+  for (std::size_t i = 1; i < fibre.points.size(); ++i) {
+    std::map<int, double> span;
+    for (const auto& [node, weight] : fibre.points[i].weights) span[node] += weight;
+    for (const auto& [node, weight] : fibre.points[i - 1].weights) span[node] -= weight;
+    thread.spans.emplace_back();
+    for (const auto& [node, weight] : span)
+      if (weight != 0) thread.spans.back().emplace_back(node, weight);
+  }
+  return thread;
+}
+
+const geometry::LaidLine& laid_line(const std::vector<geometry::LaidLine>& laid, const std::string& name) {
+  for (const geometry::LaidLine& line : laid)
+    if (line.name == name) return line;
+  throw Refusal(refusal::kBadGarment,
+                "line '" + name + "' is given by points on a body, and was not laid on one");
+}
+
+// Calls do_with(thread, number of the segment, its span) for each segment.
+template <class Do>
+void each_span(const Band& band, const Positions& x, const Do& do_with) {
+  for (const Thread& thread : band.threads) {
+    const std::vector<Eigen::Vector3d> at = points_of(thread, x);
+    for (std::size_t i = 1; i < at.size(); ++i) do_with(thread, i - 1, Eigen::Vector3d(at[i] - at[i - 1]));
+  }
 }
 
 }  // namespace
 
-std::vector<Band> lay_bands(const Model& model, const Garment& garment) {
+std::vector<Eigen::Vector3d> points_of(const Thread& thread, const Positions& x) {
+  std::vector<Eigen::Vector3d> at = thread.offsets;
+  for (std::size_t i = 0; i < at.size(); ++i)
+    for (const auto& [node, weight] : thread.points[i].weights) at[i] += weight * x[node];
+  return at;
+}
+
+std::vector<Band> lay_bands(const Model& model, const Garment& garment,
+                            const std::vector<geometry::LaidLine>& laid) {
+  const Positions rest = model.rest_positions();
   std::vector<Band> bands;
   for (const GarmentLine& line : garment.lines) {
     Band band;
     band.name = line.name;
-    band.nodes = nodes_of(model.control, line);
-    if (band.nodes.size() < 2)
-      throw Refusal(refusal::kBadGarment, "line '" + line.name + "' has fewer than two nodes");
+    if (line.points.empty()) {
+      band.nodes = nodes_of(model.control, line);
+      if (band.nodes.size() < 2)
+        throw Refusal(refusal::kBadGarment, "line '" + line.name + "' has fewer than two nodes");
+      band.threads.push_back(thread_of(over_nodes(band.nodes, rest), rest));
+    } else {
+      for (const geometry::Fibre& fibre : laid_line(laid, line.name).fibres)
+        band.threads.push_back(thread_of(fibre, rest));
+    }
     if (!(line.ratio > 0) || !std::isfinite(line.ratio) || !(line.tension_limit >= 0))
       throw Refusal(refusal::kBadGarment,
                     "line '" + line.name + "' has a ratio or tension limit that is not positive");
     band.law = line.law;
     band.tension_limit = line.tension_limit;
     band.request = line.ratio;
-    band.initial = geometry::line_length(band.nodes, model.control.outer);
+    band.initial = length_of(band, rest);
     band.neutral = line.ratio * band.initial;
-    band.smooth = std::min(kSmooth, kSmoothShare * band.initial / static_cast<double>(band.nodes.size() - 1));
-    band.movable =
-        std::any_of(band.nodes.begin(), band.nodes.end(), [&](int node) { return !model.is_fixed(node); });
+    band.smooth = std::min(
+        kSmooth, kSmoothShare * band.initial / static_cast<double>(band.threads.front().spans.size()));
+    band.movable = false;
+    for (const Thread& thread : band.threads)
+      for (const geometry::CarriedPoint& point : thread.points)
+        for (const auto& [node, weight] : point.weights) band.movable = band.movable || !model.is_fixed(node);
     band.steep = is_steep(band.law);
     bands.push_back(band);
   }
   return bands;
 }
 
+void pose_band(Band& band, const Positions& rest, const geometry::BoneFrames& bones, double share) {
+  if (!band.nodes.empty()) return;
+  for (Thread& thread : band.threads)
+    for (std::size_t i = 0; i < thread.points.size(); ++i) {
+      thread.offsets[i] = bones.moved(thread.points[i].rest, share);
+      for (const auto& [node, weight] : thread.points[i].weights)
+        thread.offsets[i] -= weight * bones.moved(rest[node], share);
+    }
+}
+
 double straight_way(const Model& model, const Band& band, const Positions& x) {
   double way = 0;
-  int last = -1;
-  for (int node : band.nodes) {
-    if (!model.is_fixed(node)) continue;
-    if (last >= 0) way += (x[node] - x[last]).norm();
-    last = node;
+  for (const Thread& thread : band.threads) {
+    const std::vector<Eigen::Vector3d> at = points_of(thread, x);
+    int last = -1;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const auto& weights = thread.points[i].weights;
+      if (!std::all_of(weights.begin(), weights.end(),
+                       [&](const auto& part) { return model.is_fixed(part.first); }))
+        continue;
+      if (last >= 0) way += thread.share * (at[i] - at[last]).norm();
+      last = static_cast<int>(i);
+    }
   }
   return way;
 }
 
+double length_of(const Band& band, const Positions& x) {
+  double length = 0;
+  for (const Thread& thread : band.threads)
+    length += thread.share * geometry::length_of(points_of(thread, x), false);
+  return length;
+}
+
 double smooth_length(const Band& band, const Positions& x) {
   double length = 0;
-  for (std::size_t i = 1; i < band.nodes.size(); ++i)
-    length += segment_length((x[band.nodes[i]] - x[band.nodes[i - 1]]).norm(), band.smooth).value;
+  each_span(band, x, [&](const Thread& thread, std::size_t, const Eigen::Vector3d& span) {
+    length += thread.share * segment_length(span.norm(), band.smooth).value;
+  });
   return length;
 }
 
 double smooth_slope(const Band& band, const Positions& x) {
   double change = 0, length = 0;
-  for (std::size_t i = 1; i < band.nodes.size(); ++i) {
-    const double segment = (x[band.nodes[i]] - x[band.nodes[i - 1]]).norm();
-    change += segment_length(segment, band.smooth).slope_over_length * segment * segment;
-    length += segment;
-  }
+  each_span(band, x, [&](const Thread& thread, std::size_t, const Eigen::Vector3d& span) {
+    const double segment = span.norm();
+    change += thread.share * segment_length(segment, band.smooth).slope_over_length * segment * segment;
+    length += thread.share * segment;
+  });
   return length > 0 ? change / length : 0;
 }
 
 void add_length_gradient(const Band& band, const Positions& x, const std::vector<int>& free_index,
                          double scale, Eigen::Ref<Eigen::VectorXd> gradient) {
-  for (std::size_t i = 1; i < band.nodes.size(); ++i) {
-    const Eigen::Vector3d span = x[band.nodes[i]] - x[band.nodes[i - 1]];
-    const Eigen::Vector3d pull = scale * segment_length(span.norm(), band.smooth).slope_over_length * span;
-    const int a = free_index[band.nodes[i]], b = free_index[band.nodes[i - 1]];
-    if (a >= 0) gradient.segment<3>(3 * a) += pull;
-    if (b >= 0) gradient.segment<3>(3 * b) -= pull;
-  }
+  each_span(band, x, [&](const Thread& thread, std::size_t i, const Eigen::Vector3d& span) {
+    const double slope = segment_length(span.norm(), band.smooth).slope_over_length;
+    const Eigen::Vector3d pull = scale * thread.share * slope * span;
+    for (const auto& [node, weight] : thread.spans[i])
+      if (free_index[node] >= 0) gradient.segment<3>(3 * free_index[node]) += weight * pull;
+  });
 }
 
 void add_length_hessian(const Band& band, const Positions& x, const std::vector<int>& free_index,
                         double scale, NodeMatrix& hessian) {
-  for (std::size_t i = 1; i < band.nodes.size(); ++i) {
-    const int a = free_index[band.nodes[i]], b = free_index[band.nodes[i - 1]];
-    const Eigen::Vector3d span = x[band.nodes[i]] - x[band.nodes[i - 1]];
-    const double length = span.norm();
+  each_span(band, x, [&](const Thread& thread, std::size_t i, const Eigen::Vector3d& span) {
+    const double length = span.norm(), whole = scale * thread.share;
     const SegmentLength f = segment_length(length, band.smooth);
     const Eigen::Vector3d u = length > 0 ? Eigen::Vector3d(span / length) : Eigen::Vector3d::Zero();
-    Eigen::Matrix3d block = scale * (f.curvature - f.slope_over_length) * u * u.transpose();
-    block.diagonal().array() += scale * f.slope_over_length;
-    hessian.add(a, a, block);
-    hessian.add(b, b, block);
-    hessian.add(a, b, -block);
-  }
-}
-
-double law_tension(const TensionLaw& law, double stretch) {
-  if (law.kind == TensionLaw::Kind::stiffness) return law.stiffness * std::max(0.0, stretch - 1);
-  if (stretch <= law.table.front().first) return 0;
-  const std::size_t i = table_segment(law, stretch);
-  return law.table[i].second + law_slope(law, stretch) * (stretch - law.table[i].first);
-}
-
-double law_slope(const TensionLaw& law, double stretch) {
-  if (law.kind == TensionLaw::Kind::stiffness) return stretch > 1 ? law.stiffness : 0;
-  if (stretch <= law.table.front().first) return 0;
-  return slope_of_segment(law, table_segment(law, stretch));
-}
-
-double law_work(const TensionLaw& law, double stretch) {
-  if (law.kind == TensionLaw::Kind::stiffness) {
-    const double beyond = std::max(0.0, stretch - 1);
-    return law.stiffness * beyond * beyond / 2;
-  }
-  double work = 0;
-  for (std::size_t i = 0; i + 1 < law.table.size() && stretch > law.table[i].first; ++i) {
-    const bool last = i + 2 == law.table.size();
-    const double end = last ? stretch : std::min(stretch, law.table[i + 1].first);
-    work += (law.table[i].second + law_tension(law, end)) / 2 * (end - law.table[i].first);
-  }
-  return work;
-}
-
-double law_stretch(const TensionLaw& law, double tension) {
-  if (law.kind == TensionLaw::Kind::rigid) return 1;
-  if (law.kind == TensionLaw::Kind::stiffness) return 1 + tension / law.stiffness;
-  const std::size_t i = segment_by_tension(law, tension);
-  return law.table[i].first + law_compliance(law, tension) * (tension - law.table[i].second);
-}
-
-double law_compliance(const TensionLaw& law, double tension) {
-  if (law.kind == TensionLaw::Kind::rigid) return 0;
-  if (law.kind == TensionLaw::Kind::stiffness) return 1 / law.stiffness;
-  return 1 / slope_of_segment(law, segment_by_tension(law, tension));
-}
-
-double law_work_by_tension(const TensionLaw& law, double tension) {
-  if (law.kind == TensionLaw::Kind::rigid) return 0;
-  if (law.kind == TensionLaw::Kind::stiffness || tension <= 0)
-    return law_compliance(law, tension) * tension * tension / 2;
-  return law_work(law, law_stretch(law, tension));
+    Eigen::Matrix3d block = whole * (f.curvature - f.slope_over_length) * u * u.transpose();
+    block.diagonal().array() += whole * f.slope_over_length;
+    const auto& parts = thread.spans[i];
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      for (std::size_t q = 0; q <= p; ++q)
+        hessian.add(free_index[parts[p].first], free_index[parts[q].first],
+                    parts[p].second * parts[q].second * block);
+  });
 }
 
 }  // namespace tensegric_fit::tensegric

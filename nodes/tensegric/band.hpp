@@ -1,20 +1,32 @@
-/// A garment line laid on the model: one tension along a polyline of outer nodes (P1 §3.5; DESIGN §4 "Lines
-/// are bands").
+/// A garment line laid on the model: one tension along a polyline of outer nodes, or along the fibres of a
+/// band on the body (P1 §3.5; DESIGN §4 "Lines are bands").
 #pragma once
 
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
+#include "geometry/fibre.hpp"
+#include "geometry/posture.hpp"
 #include "tensegric/garment.hpp"
 #include "tensegric/model.hpp"
 #include "tensegric/node_matrix.hpp"
 
 namespace tensegric_fit::tensegric {
 
+/// A polyline whose points nodes carry: each point is `offset` and the weighted sum of their positions.
+struct Thread {
+  double share;  ///< of its length in the band's
+  std::vector<geometry::CarriedPoint> points;
+  std::vector<Eigen::Vector3d> offsets;                    ///< one a point; zero where a point is a node
+  std::vector<std::vector<std::pair<int, double>>> spans;  ///< of each segment: node, and weight in its span
+};
+
+/// Its length is the threads' mean by their shares.
 struct Band {
   std::string name;
-  std::vector<int> nodes;  ///< outer nodes, in order
+  std::vector<int> nodes;  ///< outer nodes, in order; none where it lies on the body
+  std::vector<Thread> threads;
   TensionLaw law;
   double tension_limit;
   double initial, neutral, request;  ///< m, m, neutral / initial
@@ -25,14 +37,26 @@ struct Band {
 };
 
 /// Bands of the garment's lines. A skin line runs over the mesh's edges from stop to stop, a taut one
-/// straight. \throw Refusal unknown_line: a name that the control mesh does not have; bad_garment: region or
-/// ratio
-std::vector<Band> lay_bands(const Model& model, const Garment& garment);
+/// straight; one given by points on the body is found in `laid` by its name. \throw Refusal unknown_line: a
+/// name that the control mesh does not have; bad_garment: region or ratio, a line on the body that is not in
+/// `laid`
+std::vector<Band> lay_bands(const Model& model, const Garment& garment,
+                            const std::vector<geometry::LaidLine>& laid = {});
 
-/// Sum of the straight ways between one fixed node that the band runs over and the next, at `x`.
+/// Where its points are.
+std::vector<Eigen::Vector3d> points_of(const Thread& thread, const Positions& x);
+
+/// Takes the parts of a band on the body that no node carries to `share` of a posture. `rest`: of the nodes,
+/// before it.
+void pose_band(Band& band, const Positions& rest, const geometry::BoneFrames& bones, double share);
+
+/// Sum of the straight ways between one fixed point of the band and the next, at `x`.
 double straight_way(const Model& model, const Band& band, const Positions& x);
 
-/// Length of the polyline. Smooth where a segment is shorter than `band.smooth` (1 mm, less on tiny models),
+/// Length of the polyline.
+double length_of(const Band& band, const Positions& x);
+
+/// The same, smooth where a segment is shorter than `band.smooth` (1 mm, less on tiny models),
 /// so that it may pass through zero; exact elsewhere.
 double smooth_length(const Band& band, const Positions& x);
 
@@ -46,18 +70,5 @@ void add_length_gradient(const Band& band, const Positions& x, const std::vector
 /// Adds `scale` times the smooth length's second derivative (positive semi-definite for scale >= 0).
 void add_length_hessian(const Band& band, const Positions& x, const std::vector<int>& free_index,
                         double scale, NodeMatrix& hessian);
-
-/// Tension of an elastic law, its slope by stretch, and its integral over stretch from 1. Beyond a table's
-/// last row the last slope goes on. \pre the law is not rigid
-double law_tension(const TensionLaw& law, double stretch);
-double law_slope(const TensionLaw& law, double stretch);
-double law_work(const TensionLaw& law, double stretch);
-
-/// The other way round, for a steep law: stretch by tension, its slope, and the integral of the tension over
-/// the stretch up to that tension. A rigid law has stretch 1. Defined for a tension below zero too, which a
-/// solver may pass through.
-double law_stretch(const TensionLaw& law, double tension);
-double law_compliance(const TensionLaw& law, double tension);
-double law_work_by_tension(const TensionLaw& law, double tension);
 
 }  // namespace tensegric_fit::tensegric

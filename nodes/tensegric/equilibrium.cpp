@@ -146,7 +146,7 @@ class LoadPath {
       else if (i < outer && problem_.free_index[outer + i] < 0)
         x[i] += after[outer + i] - before[outer + i];
     }
-    pose_apexes(problem_, to);
+    pose_problem(problem_, to);
   }
 
   Outcome follow(Balance at) {
@@ -177,7 +177,7 @@ class LoadPath {
       newton_.mend(at, load);
       if (!within(newton_.kkt().defect(at, load), kHandedBack)) {
         at = at_rest();
-        pose_apexes(problem_, 0);
+        pose_problem(problem_, 0);
         share = 0;
         load = load_at(share);
       }
@@ -193,7 +193,7 @@ class LoadPath {
       Load wanted = load;
       for (std::size_t b = 0; b < bands_; ++b) {
         const Band& band = problem_.bands[b];
-        const double length = geometry::line_length(band.nodes, at.x);
+        const double length = length_of(band, at.x);
         const bool kept = at.holds[b] == Hold::length && band.law.kind == TensionLaw::Kind::rigid;
         wanted.neutral[b] = kept ? load.neutral[b] + (band.neutral - length) * smooth_slope(band, at.x)
                                  : band.neutral * smooth_length(band, at.x) / length;

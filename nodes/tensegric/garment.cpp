@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 
 #include "geometry/checked_yaml.hpp"
 #include "geometry/shipped_files.hpp"
@@ -58,14 +59,23 @@ TensionLaw read_law(const YAML::Node& line, const std::string& where) {
   return law;
 }
 
+std::vector<Eigen::Vector3d> read_points(const YAML::Node& line, const std::string& where) {
+  const auto rows = geometry::required<std::vector<std::vector<double>>>(line, "points", where, kBadGarment);
+  std::vector<Eigen::Vector3d> points;
+  for (const std::vector<double>& row : rows) {
+    if (row.size() != 3 || !Eigen::Vector3d(row[0], row[1], row[2]).allFinite())
+      throw Refusal(kBadGarment, where + ": each of 'points' must be [x, y, z] in metres");
+    points.emplace_back(row[0], row[1], row[2]);
+  }
+  if (points.size() < 2) throw Refusal(kBadGarment, where + ": 'points' needs two points or more");
+  return points;
+}
+
 GarmentLine read_line(const YAML::Node& node, const std::string& where) {
   if (!node.IsMap()) throw Refusal(kBadGarment, where + ": must be a map");
-  for (const char* key : {"points", "width", "smooth"})
-    if (node[key])
-      throw Refusal(kBadGarment,
-                    where + ": '" + key + "' is not supported: give the line's nodes with 'through'");
-  geometry::check_keys(node, {"name", "ratio", "law", "tension_limit", "through", "follow"}, where,
-                       kBadGarment);
+  geometry::check_keys(
+      node, {"name", "ratio", "law", "tension_limit", "through", "follow", "points", "width", "smooth"},
+      where, kBadGarment);
   GarmentLine line;
   line.name = geometry::required<std::string>(node, "name", where, kBadGarment);
   if (line.name.empty()) throw Refusal(kBadGarment, where + ": 'name' is empty");
@@ -80,6 +90,17 @@ GarmentLine read_line(const YAML::Node& node, const std::string& where) {
   if (follow != "skin" && follow != "taut")
     throw Refusal(kBadGarment, where + ": 'follow' is '" + follow + "', not skin or taut");
   line.taut = follow == "taut";
+  if (node["points"]) {
+    line.points = read_points(node, where);
+    if (!line.through.empty()) throw Refusal(kBadGarment, where + ": has both 'through' and 'points'");
+  }
+  for (const char* key : {"width", "smooth"}) {
+    if (!node[key]) continue;
+    if (line.points.empty())
+      throw Refusal(kBadGarment, where + ": '" + key + "' is for lines that are given by 'points'");
+    (key == std::string("width") ? line.width : line.smooth) =
+        geometry::number_in(node, key, 0, kWidestBand, where, kBadGarment);
+  }
   return line;
 }
 
@@ -132,9 +153,11 @@ Garment take_garment(const std::string& words, const std::string& folder) {
 }
 
 void set_ratio(Garment& garment, const std::string& line, double ratio) {
-  if (!(ratio >= kLowestRatio && ratio <= kHighestRatio))
-    throw Refusal(kBadGarment, "ratio " + std::to_string(ratio) + " is outside [" +
-                                   std::to_string(kLowestRatio) + ", " + std::to_string(kHighestRatio) + "]");
+  if (!(ratio >= kLowestRatio && ratio <= kHighestRatio)) {
+    std::ostringstream what;
+    what << "ratio " << ratio << " is outside [" << kLowestRatio << ", " << kHighestRatio << "]";
+    throw Refusal(kBadGarment, what.str());
+  }
   bool found = line.empty();
   for (GarmentLine& l : garment.lines) {
     if (!line.empty() && l.name != line) continue;

@@ -1,6 +1,7 @@
 /// Garments: constraining lines with neutral lengths and tension laws (P1 §3.5, P2 §4; DESIGN §3 and §4).
 #pragma once
 
+#include <Eigen/Core>
 #include <limits>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@ namespace tensegric_fit::tensegric {
 /// What files and command lines may ask for: beyond lies a slip of the pen, not a garment.
 inline constexpr double kLowestRatio = 0.05, kHighestRatio = 10;
 inline constexpr double kHighestTension = 1e9;  ///< pseudo force; of stiffnesses too
+inline constexpr double kWidestBand = 0.2;      ///< m, of `smooth` too
 
 /// How the one tension T along a line follows from its length L and neutral length l. A line never pushes.
 struct TensionLaw {
@@ -27,7 +29,11 @@ struct GarmentLine {
   double tension_limit = std::numeric_limits<double>::infinity();  ///< pseudo force
   std::vector<std::string>
       through;        ///< names of control nodes; empty: the control mesh's own line of this name
-  bool taut = false;  ///< straight from stop to stop; else over the control mesh's edges
+  bool taut = false;  ///< straight from stop to stop; else over the control mesh's edges, or over the skin
+  /// In place of `through`: points on the body, scan frame, m; the band is `width` wide (0: a thread), and
+  /// its fibres average over `smooth` to either side along it.
+  std::vector<Eigen::Vector3d> points{};
+  double width = 0, smooth = 0;
 };
 
 struct Garment {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "tensegric/members.hpp"
+#include "tensegric/tension_law.hpp"
 
 namespace tensegric_fit::tensegric {
 namespace {
@@ -24,7 +25,10 @@ std::vector<std::pair<int, int>> coupled_nodes(const Problem& problem) {
     for (int i = 1; i < 6; ++i)
       for (int j = 0; j < i; ++j) couple(unit.nodes[i], unit.nodes[j]);
   for (const Band& band : problem.bands)
-    for (std::size_t i = 1; i < band.nodes.size(); ++i) couple(band.nodes[i - 1], band.nodes[i]);
+    for (const Thread& thread : band.threads)
+      for (const auto& span : thread.spans)
+        for (std::size_t i = 1; i < span.size(); ++i)
+          for (std::size_t j = 0; j < i; ++j) couple(span[i].first, span[j].first);
   return pairs;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tensegric/tension_law.hpp"
+
 namespace tensegric_fit::tensegric {
 namespace {
 

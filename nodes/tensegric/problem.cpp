@@ -63,7 +63,10 @@ std::vector<char> touched_nodes(const Problem& problem) {
     for (int k = 0; k < 3; ++k) piece[control.triangles[t][k]] = piece_of_triangle[t];
   std::vector<char> piece_touched(control.outer.size(), 0);
   for (const Band& band : problem.bands)
-    for (int node : band.nodes) piece_touched[piece[node]] = 1;
+    for (const Thread& thread : band.threads)
+      for (const geometry::CarriedPoint& point : thread.points)
+        for (const auto& [node, weight] : point.weights)
+          piece_touched[piece[static_cast<std::size_t>(node) % piece.size()]] = 1;
   for (std::size_t i = 0; i < touched.size(); ++i) touched[i] = piece_touched[piece[i]];
   return touched;
 }
@@ -81,12 +84,20 @@ void number_free_nodes(Problem& problem) {
 }  // namespace
 
 Problem lay_garment(const Model& model, const Garment& garment, const SolverOptions& options,
-                    const std::vector<VolumeFunction>& body_volumes) {
+                    const std::vector<VolumeFunction>& body_volumes,
+                    const std::vector<geometry::LaidLine>& laid) {
   check_regions(model.control, garment);
   check_options(model.control, options);
   check_body_volumes(model, options, body_volumes);
-  Problem problem{
-      model, options, {}, 0, model.rest_positions(), lay_bands(model, garment), {}, {}, model.mean_tension()};
+  Problem problem{model,
+                  options,
+                  {},
+                  0,
+                  model.rest_positions(),
+                  lay_bands(model, garment, laid),
+                  {},
+                  {},
+                  model.mean_tension()};
   number_free_nodes(problem);
   const Positions at_end = posed(problem, 1);
   for (Band& band : problem.bands) band.straight = straight_way(model, band, at_end);
@@ -107,12 +118,13 @@ Positions posed(const Problem& problem, double share) {
   return x;
 }
 
-void pose_apexes(Problem& problem, double share) {
+void pose_problem(Problem& problem, double share) {
   if (problem.options.bones.still()) return;
   const geometry::ControlMesh& control = problem.model.control;
   for (std::size_t r = 0; r < problem.volumes.size(); ++r)
     problem.volumes[r].apex =
         problem.options.bones.moved(geometry::region_apex(control, control.regions[r]), share);
+  for (Band& band : problem.bands) pose_band(band, problem.rest, problem.options.bones, share);
 }
 
 bool is_held(const Problem& problem, int node) {
@@ -137,8 +149,7 @@ double relative_residual(const Problem& problem, const Eigen::VectorXd& gradient
 bool Recorder::record(int iteration, const Positions& x, double residual, double merit_change) {
   Iterate iterate;
   iterate.iteration = iteration;
-  for (const Band& band : problem_.bands)
-    iterate.line_ratios.push_back(geometry::line_length(band.nodes, x) / band.initial);
+  for (const Band& band : problem_.bands) iterate.line_ratios.push_back(length_of(band, x) / band.initial);
   for (const RegionVolume& region : problem_.volumes)
     iterate.volume_errors.push_back(volume_error(region, x));
   for (int node : problem_.options.track) iterate.tracked.push_back(x[node]);

@@ -40,13 +40,14 @@ struct Outcome {
 
 /// \throw Refusal unknown_line, bad_garment, bad_option
 Problem lay_garment(const Model& model, const Garment& garment, const SolverOptions& options,
-                    const std::vector<VolumeFunction>& body_volumes = {});
+                    const std::vector<VolumeFunction>& body_volumes = {},
+                    const std::vector<geometry::LaidLine>& laid = {});
 
 /// The rest positions with `share` of the posture: where nodes that are not solved for belong.
 Positions posed(const Problem& problem, double share);
 
-/// Carries the apexes of the regions to `share` of the posture.
-void pose_apexes(Problem& problem, double share);
+/// Carries what is not a node to `share` of the posture: the apexes of the regions, bands on the body.
+void pose_problem(Problem& problem, double share);
 
 /// The model's fixed nodes, and with a posture all inner nodes.
 bool is_held(const Problem& problem, int node);

@@ -55,9 +55,19 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
   solution.inner.assign(middle, x.end());
   for (std::size_t b = 0; b < problem.bands.size(); ++b) {
     const Band& band = problem.bands[b];
-    const double length = geometry::line_length(band.nodes, x);
-    solution.lines.push_back({band.name, band.initial, band.neutral, length, band.request,
-                              outcome.state.tensions[b], band.nodes, band.straight, length});
+    const Thread& thread = band.threads[band.threads.size() / 2];
+    LineResult line;
+    line.name = band.name;
+    line.initial = band.initial;
+    line.neutral = band.neutral;
+    line.final = line.reachable = length_of(band, x);
+    line.request = band.request;
+    line.tension = outcome.state.tensions[b];
+    line.nodes = band.nodes;
+    for (const geometry::CarriedPoint& point : thread.points) line.course_at_rest.push_back(point.rest);
+    line.course = points_of(thread, x);
+    line.straight = band.straight;
+    solution.lines.push_back(line);
   }
   for (const RegionVolume& region : problem.volumes)
     solution.regions.push_back({region.name, region.control_rest, control_volume(region, x)});
@@ -75,7 +85,7 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
 Outcome relax_from(Problem& problem, const Solution* start, Recorder& recorder) {
   const bool adaptive = problem.options.solver == SolverName::adaptive;
   if (start == nullptr && problem.options.bones.still()) return relax(problem, nullptr, adaptive, recorder);
-  pose_apexes(problem, 1);
+  pose_problem(problem, 1);
   const Positions target = posed(problem, 1);
   Positions x = start == nullptr ? target : positions_of(*start);
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -125,9 +135,9 @@ SolverName solver_from(const std::string& word) {
 
 Solution solve(const Model& model, const Garment& garment, const SolverOptions& options,
                const Solution* start, const Progress& progress,
-               const std::vector<VolumeFunction>& body_volumes) {
+               const std::vector<VolumeFunction>& body_volumes, const std::vector<geometry::LaidLine>& laid) {
   if (start != nullptr) check_start(model, *start);
-  Problem problem = lay_garment(model, garment, options, body_volumes);
+  Problem problem = lay_garment(model, garment, options, body_volumes, laid);
   Recorder recorder(problem, progress);
   recorder.record(0, start == nullptr ? problem.rest : positions_of(*start),
                   start == nullptr ? 0 : start->residual);

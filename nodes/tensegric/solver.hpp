@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/fibre.hpp"
 #include "geometry/posture.hpp"
 #include "tensegric/garment.hpp"
 #include "tensegric/model.hpp"
@@ -29,7 +30,8 @@ struct LineResult {
   double initial = 0, neutral = 0, final = 0;  ///< lengths, m
   double request = 1;                          ///< neutral / initial
   double tension = 0;                          ///< pseudo force
-  std::vector<int> nodes;                      ///< outer nodes that it runs over, in order
+  std::vector<int> nodes;  ///< outer nodes that it runs over, in order; none where it lies on the body
+  std::vector<Eigen::Vector3d> course_at_rest, course;  ///< its middle thread, scan frame
   double straight = 0;   ///< m, between the fixed nodes that it runs over: it cannot become shorter
   double reachable = 0;  ///< m, the shortest that it came to: `final` where the request is infeasible
 };
@@ -87,10 +89,11 @@ using Progress = std::function<bool(const Iterate&, const std::vector<Eigen::Vec
 /// Deforms the model under the garment's lines at constant region volumes. Pieces of the control mesh that no
 /// line touches stay at rest, bit for bit, where there is no gravity and no posture. `start` is null (from
 /// rest) or an earlier solution of the same model (warm start). `body_volumes`: for KeptVolume::body, one a
-/// region of the control mesh. Never returns a non-finite position. \throw Refusal unknown_line, bad_garment,
-/// bad_option
+/// region of the control mesh. `laid`: the garment's lines that are given by points. Never returns a
+/// non-finite position. \throw Refusal unknown_line, bad_garment, bad_option
 Solution solve(const Model& model, const Garment& garment, const SolverOptions& options,
                const Solution* start = nullptr, const Progress& progress = {},
-               const std::vector<VolumeFunction>& body_volumes = {});
+               const std::vector<VolumeFunction>& body_volumes = {},
+               const std::vector<geometry::LaidLine>& laid = {});
 
 }  // namespace tensegric_fit::tensegric

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tensegric/members.hpp"
+#include "tensegric/tension_law.hpp"
 
 namespace tensegric_fit::tensegric {
 namespace {
@@ -147,13 +148,22 @@ void StrutRelaxation::hold_back(const Band& band, double slope, double tension) 
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(external_.size());
   add_length_gradient(band, x_, problem_.free_index, 1, gradient);
   const double along = slope * gradient.squaredNorm();
-  for (int node : band.nodes) held_[node] += along;
-  for (std::size_t i = 1; i < band.nodes.size(); ++i) {
-    const int a = band.nodes[i - 1], b = band.nodes[i];
-    const double across = 2 * tension / std::max((x_[a] - x_[b]).norm(), kShortSegment * size_);
-    held_[a] += across;
-    held_[b] += across;
+  std::vector<char> touched(x_.size(), 0);
+  for (const Thread& thread : band.threads) {
+    for (const auto& span : thread.spans) {
+      Eigen::Vector3d apart = Eigen::Vector3d::Zero();
+      double whole = 0;
+      for (const auto& [node, weight] : span) {
+        apart += weight * x_[node];
+        whole += std::abs(weight);
+        touched[node] = 1;
+      }
+      const double stiffness = thread.share * tension / std::max(apart.norm(), kShortSegment * size_);
+      for (const auto& [node, weight] : span) held_[node] += stiffness * std::abs(weight) * whole;
+    }
   }
+  for (std::size_t i = 0; i < touched.size(); ++i)
+    if (touched[i]) held_[i] += along;
 }
 
 // The pushes of P1's way are as old as their struts' last turn; the adaptive way has no memory of them.

@@ -11,6 +11,7 @@
 #include "tensegric/band.hpp"
 #include "tensegric/members.hpp"
 #include "tensegric/region_volume.hpp"
+#include "tensegric/tension_law.hpp"
 #include "tensegric_bust.hpp"
 
 namespace tensegric_fit::tensegric {

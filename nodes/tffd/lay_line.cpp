@@ -1,0 +1,223 @@
+#include "tffd/lay_line.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "geometry/section.hpp"
+#include "geometry/status.hpp"
+#include "geometry/surface_tree.hpp"
+
+namespace tensegric_fit::tffd {
+namespace {
+
+using Eigen::Vector3d;
+using geometry::CarriedPoint;
+using geometry::Refusal;
+using geometry::SurfacePoint;
+namespace refusal = geometry::refusal;
+
+constexpr double kFarFromSkin = 0.030;  // m
+constexpr double kNearLine = 0.15;      // m: skin farther from the line than this has no part in it
+constexpr double kSpacing = 0.003;      // m, between points along a fibre while it is laid
+constexpr double kMarch = 0.0025;       // m, a step over the skin across the band
+constexpr double kTurn = 0.020;         // m: the way across the band is averaged over so much of it
+constexpr int kFibres = 7;              // of a band; of a thread one
+constexpr int kKept = 2;                // every second point: smooth fibres need no more
+constexpr double kOffTheTape = 0.0005;  // m: a point this far inside the tape is bridged
+
+std::vector<Vector3d> evenly(const std::vector<Vector3d>& line) {
+  const double length = geometry::length_of(line, false);
+  if (!(length > kSpacing)) throw Refusal(refusal::kBadGarment, "a line on the body has no length");
+  const int count = std::max(2, static_cast<int>(std::ceil(length / kSpacing)) + 1);
+  std::vector<Vector3d> points{line.front()};
+  double behind = 0;
+  std::size_t s = 1;
+  for (int i = 1; i + 1 < count; ++i) {
+    const double at = length * i / (count - 1);
+    while (s + 1 < line.size() && behind + (line[s] - line[s - 1]).norm() < at) {
+      behind += (line[s] - line[s - 1]).norm();
+      ++s;
+    }
+    const double segment = (line[s] - line[s - 1]).norm();
+    const double t = segment > 0 ? std::clamp((at - behind) / segment, 0.0, 1.0) : 0.0;
+    points.push_back(line[s - 1] + t * (line[s] - line[s - 1]));
+  }
+  points.push_back(line.back());
+  return points;
+}
+
+// The body's skin around a line.
+class SkinNear {
+ public:
+  SkinNear(const geometry::TriangleMesh& body, const std::vector<Vector3d>& line)
+      : skin_(near(body, line)),
+        normals_(geometry::vertex_normals(body.vertices, body.triangles)),
+        tree_(skin_) {}
+
+  SurfacePoint nearest(const Vector3d& q) const { return tree_.nearest(q); }
+  const Eigen::Vector3i& corners(const SurfacePoint& at) const { return skin_.triangles[at.triangle]; }
+
+  Vector3d normal(const SurfacePoint& at) const {
+    const Eigen::Vector3i& k = corners(at);
+    return (at.barycentric[0] * normals_[k[0]] + at.barycentric[1] * normals_[k[1]] +
+            at.barycentric[2] * normals_[k[2]])
+        .normalized();
+  }
+
+ private:
+  static geometry::TriangleMesh near(const geometry::TriangleMesh& body, const std::vector<Vector3d>& line) {
+    const geometry::PointTree tree(line);
+    std::vector<char> close(body.vertices.size());
+    for (std::size_t v = 0; v < close.size(); ++v) close[v] = tree.distance(body.vertices[v]) < kNearLine;
+    geometry::TriangleMesh skin{body.vertices, {}};
+    for (const Eigen::Vector3i& t : body.triangles)
+      if (close[t[0]] && close[t[1]] && close[t[2]]) skin.triangles.push_back(t);
+    if (skin.triangles.empty()) throw Refusal(refusal::kBadGarment, "a line lies nowhere near the body");
+    return skin;
+  }
+
+  geometry::TriangleMesh skin_;
+  std::vector<Vector3d> normals_;
+  geometry::SurfaceTree tree_;
+};
+
+// Unit vectors over the skin, square to the band, smooth along it.
+std::vector<Vector3d> across(const std::vector<SurfacePoint>& middle, const SkinNear& skin) {
+  const int count = static_cast<int>(middle.size());
+  std::vector<Vector3d> raw;
+  for (int i = 0; i < count; ++i) {
+    const Vector3d along = middle[std::min(i + 1, count - 1)].position - middle[std::max(i - 1, 0)].position;
+    raw.push_back(skin.normal(middle[i]).cross(along));
+  }
+  const int reach = static_cast<int>(kTurn / kSpacing);
+  std::vector<Vector3d> smooth;
+  for (int i = 0; i < count; ++i) {
+    Vector3d sum = Vector3d::Zero();
+    for (int j = std::max(0, i - reach); j <= std::min(count - 1, i + reach); ++j) sum += raw[j];
+    smooth.push_back(sum.normalized());
+  }
+  return smooth;
+}
+
+// The point `way` metres from `from` over the skin, towards `direction`.
+SurfacePoint march(const SkinNear& skin, SurfacePoint from, const Vector3d& direction, double way) {
+  const int steps = static_cast<int>(std::ceil(std::abs(way) / kMarch));
+  for (int i = 0; i < steps; ++i) {
+    const Vector3d normal = skin.normal(from);
+    const Vector3d level = direction - normal.dot(direction) * normal;
+    from = skin.nearest(from.position + way / steps * level.normalized());
+  }
+  return from;
+}
+
+CarriedPoint carried(const SurfacePoint& at, const SkinNear& skin, const SparseRows& m) {
+  std::map<int, double> weights;
+  for (int k = 0; k < 3; ++k)
+    for (SparseRows::InnerIterator entry(m, skin.corners(at)[k]); entry; ++entry)
+      weights[static_cast<int>(entry.col())] += at.barycentric[k] * entry.value();
+  return {at.position, {weights.begin(), weights.end()}};
+}
+
+// Mean of the points up to `reach` metres to either side along the fibre; less near its ends, which stay.
+std::vector<CarriedPoint> averaged(const std::vector<CarriedPoint>& points, double reach) {
+  std::vector<double> at{0};
+  for (std::size_t i = 1; i < points.size(); ++i)
+    at.push_back(at.back() + (points[i].rest - points[i - 1].rest).norm());
+  std::vector<CarriedPoint> result;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double half = std::min({reach, at[i], at.back() - at[i]});
+    std::map<int, double> weights;
+    Vector3d rest = Vector3d::Zero();
+    double sum = 0;
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      // How much of the span from half way before to half way after point j lies within reach.
+      const double low = j == 0 ? at[j] : (at[j - 1] + at[j]) / 2;
+      const double high = j + 1 == points.size() ? at[j] : (at[j] + at[j + 1]) / 2;
+      const double share = std::min(high, at[i] + half) - std::max(low, at[i] - half);
+      if (!(share > 0) && j != i) continue;
+      const double weight = half > 0 ? std::max(share, 0.0) : (j == i ? 1 : 0);
+      sum += weight;
+      rest += weight * points[j].rest;
+      for (const auto& [node, part] : points[j].weights) weights[node] += weight * part;
+    }
+    CarriedPoint mean{rest / sum, {}};
+    for (const auto& [node, weight] : weights)
+      if (weight != 0) mean.weights.emplace_back(node, weight / sum);
+    result.push_back(mean);
+  }
+  return result;
+}
+
+// The points that a tape pulled round the fibre touches at rest, and the ends.
+std::vector<CarriedPoint> on_the_tape(const std::vector<CarriedPoint>& points) {
+  Vector3d mean = Vector3d::Zero();
+  for (const CarriedPoint& point : points) mean += point.rest / static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const CarriedPoint& point : points) spread += (point.rest - mean) * (point.rest - mean).transpose();
+  const Vector3d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+  std::vector<Vector3d> rest;
+  for (const CarriedPoint& point : points) rest.push_back(point.rest);
+  const std::vector<Vector3d> tape = geometry::tape(rest, normal);
+  std::vector<CarriedPoint> touched{points.front()};
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    double off = kFarFromSkin;
+    for (std::size_t s = 0; s < tape.size(); ++s) {
+      const Vector3d &a = tape[s], b = tape[(s + 1) % tape.size()];
+      Vector3d from = points[i].rest - a, along = b - a;
+      from -= normal.dot(from) * normal;
+      along -= normal.dot(along) * normal;
+      const double t = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
+      off = std::min(off, (from - t * along).norm());
+    }
+    if (off <= kOffTheTape) touched.push_back(points[i]);
+  }
+  touched.push_back(points.back());
+  return touched;
+}
+
+std::vector<CarriedPoint> thinned(const std::vector<CarriedPoint>& points) {
+  std::vector<CarriedPoint> kept;
+  for (std::size_t i = 0; i + 1 < points.size(); i += kKept) kept.push_back(points[i]);
+  kept.push_back(points.back());
+  return kept;
+}
+
+}  // namespace
+
+std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::TriangleMesh& body,
+                                      const Binding& binding) {
+  const SparseRows& m = binding.weights().nodes;
+  if (m.cols() == 0)
+    throw Refusal(refusal::kBadOption,
+                  "t-FFD: the paper's setting has no constant weights to carry a line by");
+  const std::vector<Vector3d> course = evenly(line.points);
+  const SkinNear skin(body, course);
+  std::vector<SurfacePoint> middle;
+  for (const Vector3d& point : course) {
+    middle.push_back(skin.nearest(point));
+    if ((middle.back().position - point).norm() > kFarFromSkin)
+      throw Refusal(refusal::kBadGarment, "a line's point is more than 30 mm away from the skin");
+  }
+  const std::vector<Vector3d> sideways = across(middle, skin);
+
+  std::vector<geometry::Fibre> fibres;
+  const int count = line.width > 0 ? kFibres : 1;
+  double shares = 0;
+  for (int f = 0; f < count; ++f) {
+    const double place = (2.0 * f + 1) / count - 1;  // -1 to 1 across the band
+    std::vector<CarriedPoint> points;
+    for (std::size_t i = 0; i < middle.size(); ++i)
+      points.push_back(carried(march(skin, middle[i], sideways[i], place * line.width / 2), skin, m));
+    if (line.smooth > 0) points = averaged(points, line.smooth);
+    points = line.taut ? on_the_tape(points) : points;
+    fibres.push_back({1 - place * place, line.smooth > 0 && !line.taut ? thinned(points) : points});
+    shares += fibres.back().share;
+  }
+  for (geometry::Fibre& fibre : fibres) fibre.share /= shares;
+  return fibres;
+}
+
+}  // namespace tensegric_fit::tffd

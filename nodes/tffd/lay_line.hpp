@@ -1,0 +1,29 @@
+/// Lays a garment's line on the body and lets the control mesh carry it (DESIGN §3 `points`, §5 constant M).
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "geometry/fibre.hpp"
+#include "geometry/triangle_mesh.hpp"
+#include "tffd/binding.hpp"
+
+namespace tensegric_fit::tffd {
+
+/// A band's middle line and how it lies. Metres, scan frame.
+struct LineOnBody {
+  std::vector<Eigen::Vector3d> points;  ///< on the skin or near it, two or more
+  double width = 0;                     ///< of the band; 0: one thread
+  double smooth = 0;                    ///< what its fibres average over, to either side along the band
+  bool taut = false;                    ///< bridges hollows instead of following the skin
+};
+
+/// Fibres across the band's width, on the skin of `body` at rest, carried by the binding's nodes as the skin
+/// is. A fibre counts the less the nearer it lies to the band's edge (1 - (distance / half width)^2): a
+/// band's edge carries little. `body` is the one that was bound.
+/// \throw Refusal bad_garment: a point farther than 30 mm from the skin, or a line without length;
+/// bad_option: a binding in the paper's setting, which has no constant M
+std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::TriangleMesh& body,
+                                      const Binding& binding);
+
+}  // namespace tensegric_fit::tffd
