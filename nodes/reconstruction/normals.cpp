@@ -2,11 +2,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 
 #include "geometry/point_tree.hpp"
+#include "reconstruction/halves.hpp"
 #include "reconstruction/visibility.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -20,14 +23,17 @@ struct Link {
   int a, b;
 };
 
-/// Unsigned normals, and links from each point to its nearest neighbours.
-std::vector<Eigen::Vector3d> plane_normals(const std::vector<Eigen::Vector3d>& points,
-                                           std::vector<Link>& links) {
-  const geometry::PointTree tree(points);
-  std::vector<Eigen::Vector3d> normals(points.size());
+bool more_certain(const Link& l, const Link& r) {
+  return std::tie(r.agreement, l.a, l.b) < std::tie(l.agreement, r.a, r.b);
+}
+
+/// Unsigned normals of the points from `begin` to `end`, and links from each to its nearest neighbours.
+void plane_normals(const std::vector<Eigen::Vector3d>& points, const geometry::PointTree& tree,
+                   std::size_t begin, std::size_t end, std::vector<Eigen::Vector3d>& normals,
+                   std::vector<Link>& links) {
   std::vector<int> near;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     tree.nearest(points[i], kNeighbours, near);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
@@ -41,7 +47,6 @@ std::vector<Eigen::Vector3d> plane_normals(const std::vector<Eigen::Vector3d>& p
     for (int k = 0; k < std::min<int>(kLinks + 1, static_cast<int>(near.size())); ++k)
       if (near[k] > static_cast<int>(i) || k == kLinks) links.push_back({0, static_cast<int>(i), near[k]});
   }
-  return normals;
 }
 
 /// Patches of points whose normals are known relative to each other, each with the evidence for its sign.
@@ -101,13 +106,21 @@ class SignedPatches {
 
 std::vector<Eigen::Vector3d> outward_normals(const std::vector<Eigen::Vector3d>& points,
                                              const std::vector<Eigen::Vector3d>& hints) {
-  std::vector<Link> links;
-  std::vector<Eigen::Vector3d> normals = plane_normals(points, links);
-  for (Link& link : links)
-    link.agreement = static_cast<float>(std::abs(normals[link.a].dot(normals[link.b])));
-  std::sort(links.begin(), links.end(), [](const Link& l, const Link& r) {
-    return std::tie(r.agreement, l.a, l.b) < std::tie(l.agreement, r.a, r.b);
+  const geometry::PointTree tree(points);
+  std::vector<Eigen::Vector3d> normals(points.size());
+  std::array<std::vector<Link>, 2> links_of_half;
+  in_halves(points.size(), [&](std::size_t begin, std::size_t end, int half) {
+    plane_normals(points, tree, begin, end, normals, links_of_half[half]);
   });
+  in_halves(2, [&](std::size_t, std::size_t, int half) {
+    for (Link& link : links_of_half[half])
+      link.agreement = static_cast<float>(std::abs(normals[link.a].dot(normals[link.b])));
+    std::sort(links_of_half[half].begin(), links_of_half[half].end(), more_certain);
+  });
+  std::vector<Link> links;
+  links.reserve(links_of_half[0].size() + links_of_half[1].size());
+  std::merge(links_of_half[0].begin(), links_of_half[0].end(), links_of_half[1].begin(),
+             links_of_half[1].end(), std::back_inserter(links), more_certain);
 
   const bool hinted = !hints.empty();
   const std::vector<Eigen::Vector3d> seen = hinted ? std::vector<Eigen::Vector3d>() : seen_from(points);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 #include "geometry/decimate.hpp"
 #include "geometry/status.hpp"
 #include "reconstruction/body_points.hpp"
 #include "reconstruction/floor.hpp"
 #include "reconstruction/fractures.hpp"
+#include "reconstruction/halves.hpp"
 #include "reconstruction/handles.hpp"
 #include "reconstruction/normals.hpp"
 #include "reconstruction/poisson.hpp"
@@ -107,7 +109,7 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   // 3. Normals, and points where no sensor sees but the shape is known.
   body.normals = outward_normals(body.points, body.normals);
   BodyMesh result;
-  result.fractures = find_fractures(body);
+  auto fractures = std::async(std::launch::async, [seen_body = body] { return find_fractures(seen_body); });
   const PointCloud soles = sole_points(body.points);
   append(body, sight_line_points(body));
   append(body, soles);
@@ -122,8 +124,15 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   result.mesh = geometry::with_triangles(mesh, options.body_triangles);
   result.points_used = seen;
   body.points.resize(seen);
-  result.filled = filled_vertices(result.mesh, body.points, options.support_distance);
-  result.holes = holes_of(mesh, filled_vertices(mesh, body.points, options.support_distance));
+  in_halves(2, [&](std::size_t, std::size_t, int half) {
+    const auto filled =
+        filled_vertices(half == 0 ? result.mesh : mesh, body.points, options.support_distance);
+    if (half == 0)
+      result.filled = filled;
+    else
+      result.holes = holes_of(mesh, filled);
+  });
+  result.fractures = fractures.get();
   // 6. Back to the scan's frame.
   const Eigen::Isometry3d to_scan = from_scan.inverse();
   for (Eigen::Vector3d& v : result.mesh.vertices) v = to_scan * v;

@@ -1,10 +1,12 @@
 #include "reconstruction/sight_lines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/point_tree.hpp"
 #include "geometry/triangle_mesh.hpp"
+#include "reconstruction/halves.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -113,20 +115,23 @@ void look(const geometry::PointCloud& body, const Eigen::Vector3d& eye, int slic
 }  // namespace
 
 geometry::PointCloud sight_line_points(const geometry::PointCloud& body) {
-  geometry::PointCloud strips;
   const int slices_of_row = std::clamp(
       static_cast<int>(std::ceil(kDense / static_cast<double>(body.points.size()))), 1, kMostSlices);
-  for (int i = 0; i < kEyes; ++i) {
-    const double turn = M_PI * i / kEyes;
-    look(body, {std::cos(turn), std::sin(turn), 0}, slices_of_row, strips);
-  }
+  std::array<geometry::PointCloud, 2> of_half;
+  in_halves(kEyes, [&](std::size_t begin, std::size_t end, int half) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double turn = M_PI * static_cast<double>(i) / kEyes;
+      look(body, {std::cos(turn), std::sin(turn), 0}, slices_of_row, of_half[half]);
+    }
+  });
   const geometry::PointTree tree(body.points);
   geometry::PointCloud result;
-  for (std::size_t i = 0; i < strips.points.size(); ++i) {
-    const Eigen::Vector3d& p = strips.points[i];
-    if (tree.distance(p) < kSeen) continue;
-    result.points.push_back(p);
-    result.normals.push_back(strips.normals[i]);
+  for (const geometry::PointCloud& strips : of_half) {
+    for (std::size_t i = 0; i < strips.points.size(); ++i) {
+      if (tree.distance(strips.points[i]) < kSeen) continue;
+      result.points.push_back(strips.points[i]);
+      result.normals.push_back(strips.normals[i]);
+    }
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/point_tree.hpp"
+#include "reconstruction/halves.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -40,14 +41,16 @@ double distance_from_points(const Eigen::Vector3d& p, const Eigen::Vector3d& nor
 
 void fit_to_points(geometry::TriangleMesh& mesh, const geometry::PointCloud& cloud) {
   const geometry::PointTree tree(cloud.points);
-  std::vector<int> near;
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<Eigen::Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-      tree.nearest(mesh.vertices[v], kNeighbours, near);
-      const double distance = distance_from_points(mesh.vertices[v], normals[v], cloud, near);
-      mesh.vertices[v] -= std::clamp(distance, -kLargestStep, kLargestStep) * normals[v];
-    }
+    in_halves(mesh.vertices.size(), [&](std::size_t begin, std::size_t end, int) {
+      std::vector<int> near;
+      for (std::size_t v = begin; v < end; ++v) {
+        tree.nearest(mesh.vertices[v], kNeighbours, near);
+        const double distance = distance_from_points(mesh.vertices[v], normals[v], cloud, near);
+        mesh.vertices[v] -= std::clamp(distance, -kLargestStep, kLargestStep) * normals[v];
+      }
+    });
   }
 }
 
