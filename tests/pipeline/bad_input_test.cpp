@@ -3,8 +3,9 @@
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <sys/wait.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <random>
 #include <set>
@@ -68,11 +69,19 @@ std::vector<BadScan> bad_scans() {
   wrong_fields.fields[2].name = "intensity";
   sensor_msgs::PointCloud2 truncated = booth_scan("a");
   truncated.data.resize(truncated.data.size() / 2);
+  sensor_msgs::PointCloud2 too_wide = booth_scan("a"), too_narrow = too_wide;
+  ++too_wide.width;
+  --too_narrow.width;
+  sensor_msgs::PointCloud2 whole_numbers = cloud_of(Points(20000, {0, 0, 0}));
+  for (sensor_msgs::PointField& field : whole_numbers.fields) field.datatype = sensor_msgs::PointField::INT32;
   return {{"no points", cloud_of({}), {"empty_cloud"}},
           {"all NaN", cloud_of(Points(20000, {nan, nan, nan})), {"non_finite"}},
           {"a few points", cloud_of({{0, 0, 0}, {0, 0, 1.7f}, {0.3f, 0, 1}}), {"too_few_points"}},
           {"no z", wrong_fields, {"wrong_fields"}},
+          {"x y z are integers", whole_numbers, {"wrong_fields"}},
           {"shorter than it says", truncated, {"broken_file"}},
+          {"wider than its data", too_wide, {"broken_file"}},
+          {"narrower than its data", too_narrow, {"broken_file"}},
           {"millimetres", cloud_of(millimetres), {"wrong_unit"}},
           {"a box", cloud_of(box(0.5, 0.4, 1.7)), {"not_a_body"}}};
 }
@@ -102,6 +111,72 @@ TEST_F(BadInputTest, EachIsRefusedByNameAndTheNextGoodScanWorks) {
         << name;
 }
 
+/// The same points in other bytes: `names` in steps of `step` (8 bytes each as doubles, else 4), `columns` to
+/// a row, rows `padding` bytes longer than their points.
+struct Layout {
+  std::string name;
+  std::vector<std::string> names;
+  bool doubles, big_endian;
+  std::uint32_t step, columns, padding;
+};
+
+sensor_msgs::PointCloud2 laid_out(const Points& points, const Layout& layout) {
+  sensor_msgs::PointCloud2 cloud = cloud_of({});
+  const std::uint32_t size = layout.doubles ? 8 : 4;
+  cloud.fields.clear();
+  for (const std::string& name : layout.names) {
+    sensor_msgs::PointField& field = cloud.fields.emplace_back();
+    field.name = name;
+    field.count = 1;
+    field.datatype = layout.doubles ? sensor_msgs::PointField::FLOAT64 : sensor_msgs::PointField::FLOAT32;
+    field.offset = size * static_cast<std::uint32_t>(cloud.fields.size() - 1);
+  }
+  cloud.is_bigendian = layout.big_endian;
+  cloud.point_step = layout.step;
+  cloud.width = layout.columns;
+  cloud.height = static_cast<std::uint32_t>(points.size()) / layout.columns;
+  cloud.row_step = layout.columns * layout.step + layout.padding;
+  cloud.data.assign(static_cast<std::size_t>(cloud.height) * cloud.row_step, 0xa5);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t f = 0; f < layout.names.size(); ++f) {
+      const std::size_t axis = layout.names[f][0] - 'x';
+      if (axis > 2) continue;  // another field: whatever stands there
+      std::uint8_t* at = &cloud.data[i / layout.columns * cloud.row_step + i % layout.columns * layout.step +
+                                     cloud.fields[f].offset];
+      const float single = points[i][axis];
+      const double twice = single;
+      if (layout.doubles)
+        std::memcpy(at, &twice, size);
+      else
+        std::memcpy(at, &single, size);
+      if (layout.big_endian) std::reverse(at, at + size);  // this host is not
+    }
+  }
+  return cloud;
+}
+
+TEST_F(BadInputTest, TheSamePointsInAnotherLayoutGiveTheSameBody) {
+  const Points points = points_of(booth_scan("a"));
+  ASSERT_EQ(points.size() % 100, 0u);
+  const auto all = static_cast<std::uint32_t>(points.size());
+  const std::vector<std::string> xyz = {"x", "y", "z"};
+  const std::vector<Layout> layouts = {
+      {"plain", xyz, false, false, 12, all, 0},
+      {"another order", {"intensity", "z", "x", "y"}, false, false, 16, all, 0},
+      {"doubles", xyz, true, false, 24, all, 0},
+      {"big-endian", xyz, false, true, 12, all, 0},
+      {"big-endian doubles, padded points", xyz, true, true, 37, all, 0},
+      {"padded points and rows", xyz, false, false, 20, 100, 7}};
+  std::vector<float> plain;
+  for (const Layout& layout : layouts) {
+    client_.forget();
+    const std::string scan_id = client_.send(laid_out(points, layout));
+    ASSERT_TRUE(wait_for([&] { return count_of(client_.bodies, scan_id) == 1; })) << layout.name;
+    if (plain.empty()) plain = client_.bodies.back()->vertices;
+    EXPECT_EQ(client_.bodies.back()->vertices, plain) << layout.name;
+  }
+}
+
 /// Exit code of a stage node that is started with one parameter.
 int exit_code(const std::string& program, const std::string& parameter) {
   const std::string command = std::string("timeout 20 ") + TENSEGRIC_FIT_PROGRAMS + "/" + program +
@@ -115,6 +190,8 @@ TEST_F(BadInputTest, NodesRefuseParametersThatTheyDoNotKnowOrThatAreOutOfRange) 
   EXPECT_EQ(exit_code("reconstruction_node", "_body_trianglez:=62000"), kRefused);
   EXPECT_EQ(exit_code("reconstruction_node", "_body_triangles:=-1"), kRefused);
   EXPECT_EQ(exit_code("reconstruction_node", "_body_triangles:=many"), kRefused);
+  EXPECT_EQ(exit_code("assembler_node", ""), kRefused);  // no sensors
+  EXPECT_EQ(exit_code("assembler_node", "_sensors:=here/points"), kRefused);
   EXPECT_EQ(exit_code("landmarks_node", "_nose:=1"), kRefused);
   EXPECT_EQ(exit_code("control_mesh_node", "_template:=no_such_template"), kRefused);
   EXPECT_EQ(exit_code("tensegric_node", "_solver:=magic"), kRefused);
