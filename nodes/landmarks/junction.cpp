@@ -9,11 +9,10 @@ namespace {
 constexpr int kPlaces = 13;  // lateral positions tried
 // Of a limb's depth so much is one with the trunk at its root; fillings are shorter.
 constexpr double kShareOfLimb = 0.5;
-constexpr double kApart = 0.0025;  // between sections
-constexpr int kReach = 2;          // sections each way over which lengthening is taken: 5 mm
-constexpr int kGrown = 4;          // sections above, 10 mm, where the bridge must have that share
-// Shares of the length further up between which a root's growth is taken, and the one at which its gap ends.
-constexpr double kUpperShare = 0.75, kLowerShare = 0.65, kShareOfGap = 0.5;
+constexpr double kApart = 0.0025;       // between sections
+constexpr int kReach = 2;               // sections each way over which lengthening is taken: 5 mm
+constexpr int kGrown = 4;               // sections above, 10 mm, where the bridge must have that share
+constexpr double kGrownTogether = 0.9;  // share of the length further up
 
 }  // namespace
 
@@ -66,19 +65,11 @@ Root find_root(const SlicedMesh& body, const JunctionSearch& search, double furt
     lengths.push_back(narrowest_bridge(body.outlines_at(z), search.low_y, search.high_y).length);
   const int up = static_cast<int>(std::lround(further_up / kApart));
   // The highest place below which the share is missing: lower down, fillings come and go.
-  const auto place_of = [&](double share) {
-    const auto missing = [&](int i) { return share * lengths[i + up] - lengths[i]; };
-    for (int i = static_cast<int>(lengths.size()) - up - 2; i >= 0; --i)
-      if (missing(i) > 0 && missing(i + 1) <= 0) return i + missing(i) / (missing(i) - missing(i + 1));
-    return -1.0;
-  };
-  const double upper = place_of(kUpperShare), lower = place_of(kLowerShare);
-  if (lower < 0 || upper < lower) return {};
-  return {true, search.low + upper * kApart, (upper - lower) * kApart};
-}
-
-double end_of_gap(const Root& root) {
-  return root.height - root.growth * (kUpperShare - kShareOfGap) / (kUpperShare - kLowerShare);
+  const auto missing = [&](int i) { return kGrownTogether * lengths[i + up] - lengths[i]; };
+  for (int i = static_cast<int>(lengths.size()) - up - 2; i >= 0; --i)
+    if (missing(i) > 0 && missing(i + 1) <= 0)
+      return {true, search.low + (i + missing(i) / (missing(i) - missing(i + 1))) * kApart};
+  return {};
 }
 
 }  // namespace tensegric_fit::landmarks

@@ -33,18 +33,14 @@ struct JunctionSearch {
 /// slowly.
 Junction find_junction(const SlicedMesh& body, const JunctionSearch& search);
 
-/// How a limb grows together with the trunk above skin that fills the gap between them.
+/// Where a limb is one with the trunk.
 struct Root {
   bool found = false;
-  double height = 0;  ///< metres; the bridge has three quarters of the length that it has `further_up`
-  double growth = 0;  ///< metres lower it has 0.65 of it; filled skin makes this longer
+  double height = 0;  ///< metres; the bridge has nine tenths of the length that it has `further_up`
 };
 
-/// Of the bridge's two ends sensors see more than of the hollow, so that its length is right soon above the
-/// filling. `search.limb_depth` is not needed.
+/// Sensors see the bridge's two ends sooner than the hollow between them, so that its length is right soon
+/// above a filling. `search.limb_depth` is not needed.
 Root find_root(const SlicedMesh& body, const JunctionSearch& search, double further_up);
-
-/// Half way to that length, going on down at the same pace: there the gap begins where nothing fills it.
-double end_of_gap(const Root& root);
 
 }  // namespace tensegric_fit::landmarks

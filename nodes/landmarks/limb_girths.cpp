@@ -12,7 +12,8 @@ using Eigen::Vector3d;
 // Statures.
 constexpr double kBelowAxilla = 0.051, kBelowCrotch = 0.039, kUnderTouchingThighs = 0.012;
 constexpr double kUpper = 0.03, kLower = 0.09;  // below the axilla: sections whose middles tell the arm's way
-constexpr double kLowerThigh = 0.10;            // below the thigh's girth: the same of the thigh
+constexpr double kFurtherDown = 0.02;  // both, where skin that fills the armpit joins the arm to the trunk
+constexpr double kLowerThigh = 0.10;   // below the thigh's girth: the same of the thigh
 constexpr double kArmRadius = 0.06, kThighRadius = 0.10;
 
 // The loop of material in the plane that runs round `origin` most nearly, and its middle; false where none
@@ -76,8 +77,11 @@ LimbGirth find_upper_arm_girth(const BodyShape& body, const Trunk& trunk, const 
     const auto place = [&](double along) -> Vector3d {
       return on_axis + (axis.dot(axilla.point - on_axis) + along * s) * axis;
     };
-    if (!loop_round(body, place(kUpper), axis, radius, points, upper) ||
-        !loop_round(body, place(kLower), axis, radius, points, lower)) {
+    const auto look = [&](double further) {
+      return loop_round(body, place(kUpper + further), axis, radius, points, upper) &&
+             loop_round(body, place(kLower + further), axis, radius, points, lower);
+    };
+    if (!look(0) && !look(kFurtherDown)) {
       girth.reason = "no arm that stands clear of the trunk below the axilla";
       return girth;
     }

@@ -21,7 +21,7 @@ constexpr double kHanging = 22 * kDegree;
 // A raised arm takes acromion and axilla along, towards the neck and outwards; statures a radian.
 constexpr double kCollarboneRises = 0.009, kAxillaOpens = 0.0226;
 // The share of the bones; the rest is what the axillae tell, if they were seen.
-constexpr double kBones = 0.25, kBonesIfFilled = 2.0 / 3;
+constexpr double kBones = 0.25, kBonesIfFilled = 0.4;
 
 // The line from the neck's back down the upper back, over so much of it, leans forward by this on an upright
 // body: a heavier one, told by its neck, has more on its neck. A stoop bends the spine within that stretch

@@ -15,11 +15,13 @@ constexpr double kWidestChest = 1.7;      // of the waist; what reaches further 
 constexpr double kBeyondShoulders = 0.2;  // of stature, from the middle
 constexpr double kWidestGap =
     0.02;  // statures, of arm and trunk a fraction of a millimetre under the place where they join
-constexpr double kFilling = 0.006;       // statures, 10 mm: as much of an armpit sensors may not see
+constexpr double kDome =
+    0.0066;  // statures: an armpit is a dome of 11 mm, whether its owner is slim or heavy
+constexpr double kFilling = 0.0075;      // statures; more above where arm and trunk join was not seen
 constexpr double kRoundFilling = 0.015;  // skin round a filling, smoothed with it
 constexpr double kBesideGap = 0.02;      // the bridge from arm to trunk is as near as that to the gap
 constexpr double kFurtherUp = 0.015;     // there the arm is one with the trunk
-constexpr double kHollow = 0.45;         // of the bridge, from behind
+constexpr double kHollow = 0.42;         // of the bridge, from behind
 constexpr double kUnderArm = 0.025;      // statures under the axilla where the arm tells how far it is raised
 constexpr double kRaised = 1.5;          // times that, from the trunk to the arm: 56 degrees
 constexpr double kUpperArm = 0.02, kLowerArm = 0.05;  // statures under the axilla, between which the arm runs
@@ -124,13 +126,11 @@ int Trunk::level_of_raised_arm(Side side) const {
 }
 
 Eigen::Vector3d Trunk::under_filling(Side side) const {
-  // Arms are alike, and a filling or a torn place only draws the growth out: the quicker one is right.
-  Root root = axillae_[side].root;
-  for (const Axilla& axilla : axillae_)
-    if (axilla.root.found) root.growth = std::min(root.growth, axilla.root.growth);
+  const Root& root = axillae_[side].root;
   const Eigen::Vector3d& filled = axillae_[side].point;
   if (!root.found) return filled;
-  const double height = std::max(end_of_gap(root), filled.z()), beside = kBesideGap * body_.stature;
+  const double height = std::max(root.height - kDome * body_.stature, filled.z()),
+               beside = kBesideGap * body_.stature;
   const Bridge above = narrowest_bridge(body_.sliced.outlines_at(height + 0.003 * body_.stature),
                                         filled.y() - beside, filled.y() + beside);
   if (above.length <= 0) return {filled.x(), filled.y(), height};
@@ -213,7 +213,7 @@ Axilla Trunk::find_axilla(Side side) const {
                              std::max(inner, outer), 0},
                             kFurtherUp * body_.stature);
     if (gap_beside(trunk, outlines, side, kWidestGap * body_.stature, axilla.point)) {
-      axilla.filled = (axilla.root.found && end_of_gap(axilla.root) - low > kFilling * body_.stature) ||
+      axilla.filled = (axilla.root.found && axilla.root.height - low > (kDome + kFilling) * body_.stature) ||
                       body_.unseen(axilla.point, kRoundFilling * body_.stature);
       return axilla;
     }
