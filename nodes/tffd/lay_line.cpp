@@ -25,7 +25,7 @@ constexpr double kSpacing = 0.003;      // m, between points along a fibre while
 constexpr double kMarch = 0.0025;       // m, a step over the skin across the band
 constexpr double kTurn = 0.020;         // m: the way across the band is averaged over so much of it
 constexpr int kFibres = 7;              // of a band; of a thread one
-constexpr int kKept = 2;                // every second point: smooth fibres need no more
+constexpr double kPointsPerReach = 2;   // of averaged fibres: closer ones tell nothing new
 constexpr double kOffTheTape = 0.0005;  // m: a point this far inside the tape is bridged
 
 std::vector<Vector3d> evenly(const std::vector<Vector3d>& line) {
@@ -178,9 +178,11 @@ std::vector<CarriedPoint> on_the_tape(const std::vector<CarriedPoint>& points) {
   return touched;
 }
 
-std::vector<CarriedPoint> thinned(const std::vector<CarriedPoint>& points) {
+// As few points as tell the course of a fibre that was averaged over `reach`.
+std::vector<CarriedPoint> thinned(const std::vector<CarriedPoint>& points, double reach) {
+  const auto step = std::max<std::size_t>(1, static_cast<std::size_t>(reach / kPointsPerReach / kSpacing));
   std::vector<CarriedPoint> kept;
-  for (std::size_t i = 0; i + 1 < points.size(); i += kKept) kept.push_back(points[i]);
+  for (std::size_t i = 0; i + 1 < points.size(); i += step) kept.push_back(points[i]);
   kept.push_back(points.back());
   return kept;
 }
@@ -212,8 +214,8 @@ std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::Tr
     for (std::size_t i = 0; i < middle.size(); ++i)
       points.push_back(carried(march(skin, middle[i], sideways[i], place * line.width / 2), skin, m));
     if (line.smooth > 0) points = averaged(points, line.smooth);
-    points = line.taut ? on_the_tape(points) : points;
-    fibres.push_back({1 - place * place, line.smooth > 0 && !line.taut ? thinned(points) : points});
+    if (line.taut) points = on_the_tape(points);
+    fibres.push_back({1 - place * place, line.taut ? points : thinned(points, line.smooth)});
     shares += fibres.back().share;
   }
   for (geometry::Fibre& fibre : fibres) fibre.share /= shares;

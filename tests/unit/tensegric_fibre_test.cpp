@@ -1,0 +1,100 @@
+// Bands whose points several nodes carry.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "geometry/status.hpp"
+#include "tensegric/band.hpp"
+#include "tensegric/solver.hpp"
+#include "tensegric_bust.hpp"
+
+namespace tensegric_fit::tensegric {
+namespace {
+
+using Eigen::Vector3d;
+
+GarmentLine by_points(double ratio) {
+  GarmentLine line;
+  line.name = "chest";
+  line.ratio = ratio;
+  line.points = {Vector3d::Zero(), Vector3d::UnitX()};  // where they lie is the laid line's business
+  return line;
+}
+
+/// Points between the nodes of the chest line, each carried by both neighbours, in two fibres.
+geometry::LaidLine between_nodes(const geometry::ControlMesh& control) {
+  geometry::LaidLine laid{"chest", {}};
+  const std::vector<int>& nodes = control.lines.front().nodes;
+  for (const double at : {0.3, 0.6}) {
+    geometry::Fibre fibre{at == 0.3 ? 0.75 : 0.25, {}};
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+      const int a = std::min(nodes[i - 1], nodes[i]), b = std::max(nodes[i - 1], nodes[i]);
+      fibre.points.push_back({(1 - at) * control.outer[a] + at * control.outer[b], {{a, 1 - at}, {b, at}}});
+    }
+    laid.fibres.push_back(fibre);
+  }
+  return laid;
+}
+
+TEST(Fibres, PointsThatAreNodesAreTheLineThroughThem) {
+  const Model model = build_model(bust_mesh(), {});
+  geometry::LaidLine laid{"chest", {{1, {}}}};
+  for (const int node : model.control.lines.front().nodes)
+    laid.fibres.front().points.push_back({model.control.outer[node], {{node, 1.0}}});
+  Garment on_body{"body", {"bust"}, {by_points(0.93)}}, through{"nodes", {"bust"}, {by_points(0.93)}};
+  through.lines.front().points.clear();
+  const Solution a = solve(model, on_body, {}, nullptr, {}, {}, {laid});
+  const Solution b = solve(model, through, {});
+  ASSERT_EQ(a.status, Status::converged);
+  for (std::size_t i = 0; i < a.outer.size(); ++i) EXPECT_EQ(a.outer[i], b.outer[i]);
+}
+
+TEST(Fibres, TheGradientIsThatOfTheLength) {
+  const Model model = build_model(bust_mesh(), {});
+  const Band band =
+      lay_bands(model, {"body", {"bust"}, {by_points(0.95)}}, {between_nodes(model.control)}).front();
+  Positions x = model.rest_positions();
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> jitter(-0.003, 0.003);
+  for (Vector3d& p : x) p += Vector3d(jitter(random), jitter(random), jitter(random));
+  std::vector<int> all(x.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(x.size()));
+  add_length_gradient(band, x, all, 1, gradient);
+  for (const int node : model.control.lines.front().nodes)
+    for (int k = 0; k < 3; ++k) {
+      const double step = 1e-6;
+      Positions plus = x, minus = x;
+      plus[node][k] += step;
+      minus[node][k] -= step;
+      // Central differences: step^2 times a third derivative of about 1 / (10 mm)^2, and rounding 1e-16 /
+      // step.
+      EXPECT_NEAR(gradient[3 * node + k], (length_of(band, plus) - length_of(band, minus)) / (2 * step),
+                  1e-7);
+    }
+}
+
+TEST(Fibres, AreExactAndKeepTheVolume) {
+  const Model model = build_model(bust_mesh(), {});
+  for (const double ratio : {0.97, 0.90}) {
+    const Solution fit = solve(model, {"body", {"bust"}, {by_points(ratio)}}, {}, nullptr, {}, {},
+                               {between_nodes(model.control)});
+    EXPECT_EQ(fit.status, Status::converged);
+    EXPECT_NEAR(fit.lines.front().final / fit.lines.front().initial, ratio, 1e-6 * ratio);
+    EXPECT_NEAR(fit.regions.front().volume_after / fit.regions.front().volume_before, 1, 1e-9);
+    EXPECT_LE(fit.residual, 1e-8);
+  }
+}
+
+TEST(Fibres, ALineThatWasNotLaidIsRefused) {
+  const Model model = build_model(bust_mesh(), {});
+  try {
+    solve(model, {"body", {"bust"}, {by_points(0.95)}}, {});
+    FAIL() << "not refused";
+  } catch (const geometry::Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), std::string("bad_garment"));
+  }
+}
+
+}  // namespace
+}  // namespace tensegric_fit::tensegric

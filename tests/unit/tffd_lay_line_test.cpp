@@ -1,0 +1,136 @@
+// Lines laid on the body: where their fibres lie, and what carries them.
+#include "tffd/lay_line.hpp"
+
+#include <gtest/gtest.h>
+
+#include "geometry/section.hpp"
+#include "geometry/status.hpp"
+#include "tffd_shapes.hpp"
+
+namespace tensegric_fit::tffd {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Over the bump from one side of the patch to the other.
+std::vector<Vector3d> over_the_bump() {
+  std::vector<Vector3d> points;
+  for (int i = 0; i <= 60; ++i) {
+    const double x = -0.09 + 0.003 * i;
+    points.emplace_back(x, 0, bump(x, 0));
+  }
+  return points;
+}
+
+double length_at_rest(const std::vector<geometry::Fibre>& fibres) {
+  double length = 0;
+  for (const geometry::Fibre& fibre : fibres) {
+    std::vector<Vector3d> points;
+    for (const geometry::CarriedPoint& point : fibre.points) points.push_back(point.rest);
+    length += fibre.share * geometry::length_of(points, false);
+  }
+  return length;
+}
+
+struct Slab : testing::Test {
+  const geometry::TriangleMesh body = slab(121);  // 2.5 mm apart
+  const geometry::ControlMesh control = patch();
+  const Binding binding{body, control, {}};
+};
+
+TEST_F(Slab, AThreadIsAsLongAsTheSkinUnderIt) {
+  const auto fibres = lay_line({over_the_bump()}, body, binding);
+  ASSERT_EQ(fibres.size(), 1u);
+  // Facets of 2.5 mm on a bend of 40 mm radius cut off 1e-4 of the way.
+  EXPECT_NEAR(length_at_rest(fibres), geometry::length_of(over_the_bump(), false), 1e-4);
+}
+
+TEST_F(Slab, ABandSpreadsOverItsWidthAndStaysOnTheSkin) {
+  const auto fibres = lay_line({over_the_bump(), 0.03}, body, binding);
+  double shares = 0, widest = 0;
+  for (const geometry::Fibre& fibre : fibres) {
+    shares += fibre.share;
+    for (const geometry::CarriedPoint& point : fibre.points) {
+      widest = std::max(widest, std::abs(point.rest.y()));
+      // Facets lie up to size^2 / (8 radius) = 0.02 mm inside the bump.
+      EXPECT_NEAR(point.rest.z(), bump(point.rest.x(), point.rest.y()), 5e-5);
+    }
+  }
+  EXPECT_NEAR(shares, 1, 1e-12);
+  // The outermost of seven fibres runs 6/7 of half the width away, measured over the skin.
+  EXPECT_LE(widest, 0.015 * 6 / 7 + 1e-4);
+  EXPECT_GT(widest, 0.012);
+}
+
+TEST_F(Slab, SmoothingShortensWhereTheBandBends) {
+  const double thread = length_at_rest(lay_line({over_the_bump(), 0, 0}, body, binding));
+  const double smooth = length_at_rest(lay_line({over_the_bump(), 0, 0.02}, body, binding));
+  EXPECT_LT(smooth, thread - 1e-3);
+  EXPECT_GT(smooth, 0.18);  // not below the straight way
+}
+
+TEST_F(Slab, AnAffineMapOfTheNodesCarriesTheFibresAlong) {
+  const Eigen::Matrix3d a = (Eigen::Matrix3d() << 1.1, 0.2, 0, -0.1, 0.9, 0.05, 0.02, 0, 1.2).finished();
+  geometry::ControlMesh loose = control;  // nothing fixed: the share is 1 all over the patch
+  loose.outer_fixed.assign(loose.outer.size(), 0);
+  loose.inner_fixed = loose.outer_fixed;
+  const Binding free(body, loose, {});
+  const auto fibres = lay_line({over_the_bump(), 0.03, 0.02}, body, free);
+  for (const geometry::Fibre& fibre : fibres)
+    for (const geometry::CarriedPoint& point : fibre.points) {
+      Vector3d moved = point.rest;
+      for (const auto& [node, weight] : point.weights) {
+        const std::size_t i = static_cast<std::size_t>(node) % loose.outer.size();
+        const Vector3d& rest =
+            static_cast<std::size_t>(node) < loose.outer.size() ? loose.outer[i] : loose.inner[i];
+        moved += weight * (a * rest - rest);
+      }
+      EXPECT_LT((moved - a * point.rest).norm(), 1e-12);
+    }
+}
+
+TEST_F(Slab, ATautBandBridgesAHollow) {
+  const auto hollow = [](double x) { return bump(2 * (x - 0.045), 0) + bump(2 * (x + 0.045), 0); };
+  geometry::TriangleMesh two = body;
+  for (std::size_t v = 0; v < 121 * 121; ++v) {
+    const Vector3d& p = two.vertices[v];
+    two.vertices[v].z() = bump(2 * (p.x() - 0.045), 2 * p.y()) + bump(2 * (p.x() + 0.045), 2 * p.y());
+  }
+  geometry::ControlMesh over = control;
+  for (std::size_t i = 0; i < over.outer.size(); ++i) {
+    const double rise = bump(2 * (over.outer[i].x() - 0.045), 2 * over.outer[i].y()) +
+                        bump(2 * (over.outer[i].x() + 0.045), 2 * over.outer[i].y()) - over.outer[i].z();
+    over.outer[i].z() += rise;
+    over.inner[i].z() += rise;
+  }
+  std::vector<Vector3d> points;
+  for (int i = 0; i <= 60; ++i) points.emplace_back(-0.09 + 0.003 * i, 0, hollow(-0.09 + 0.003 * i));
+  const Binding bound(two, over, {});
+  const double skin = length_at_rest(lay_line({points}, two, bound));
+  const double taut = length_at_rest(lay_line({points, 0, 0, true}, two, bound));
+  const std::vector<Vector3d> tape = geometry::tape(points, Vector3d::UnitY());
+  const double hull = geometry::length_of(tape, true) - (points.back() - points.front()).norm();
+  EXPECT_LT(taut, skin - 5e-4);
+  EXPECT_NEAR(taut, hull, 3e-4);  // points up to 0.5 mm inside the tape count as touched
+}
+
+TEST_F(Slab, RefusesByName) {
+  const auto code = [](const auto& work) -> std::string {
+    try {
+      work();
+    } catch (const geometry::Refusal& refusal) {
+      return refusal.code();
+    }
+    return "";
+  };
+  EXPECT_EQ(code([&] { lay_line({{{-0.05, 0, 0.2}, {0.05, 0, 0.2}}}, body, binding); }), "bad_garment");
+  EXPECT_EQ(code([&] { lay_line({{{-0.05, 0, 5}, {0.05, 0, 5}}}, body, binding); }), "bad_garment");
+  EXPECT_EQ(code([&] { lay_line({{{0, 0, 0.06}, {0, 0, 0.06}}}, body, binding); }), "bad_garment");
+  Options paper;
+  paper.setting = Setting::paper;
+  const Binding published(body, control, paper);
+  EXPECT_EQ(code([&] { lay_line({over_the_bump()}, body, published); }), "bad_option");
+}
+
+}  // namespace
+}  // namespace tensegric_fit::tffd
