@@ -1,5 +1,6 @@
 #include "booth/body_landmarks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -138,6 +139,15 @@ Vector3d axilla(const BodyShape& shape, double side) {
   return shape.project(passage(shape, side, open).narrowest);
 }
 
+// Over the shoulder joint, outwards and back; the shoulder blade turns with an arm that is raised further
+// than half a radian, by a third of the rest (scapulohumeral rhythm).
+Vector3d acromion(const BodyShape& shape, double side) {
+  const BodyShape::Axis arm = shape.upper_arm_axis(side > 0);
+  const double raised = std::max(0.0, std::acos(-arm.direction.z()) - 0.5) / 3;
+  const Eigen::AngleAxisd blade(side * raised, Vector3d::UnitX());
+  return shape.exit_point(arm.origin, blade * Vector3d(-0.50, side * 0.46, 0.75).normalized());
+}
+
 }  // namespace
 
 std::vector<geometry::Landmark> find_body_landmarks(const BodyShape& shape) {
@@ -149,6 +159,10 @@ std::vector<geometry::Landmark> find_body_landmarks(const BodyShape& shape) {
   const auto skin = [&shape](const Vector3d& inside, const Vector3d& direction) {
     return shape.exit_point(shape.posed(inside), shape.posed_direction(inside, direction));
   };
+  // From a bone, which is where it was however thick she is: fat lifts the skin up the slope of nape and neck
+  const auto over_bone = [&shape](const Vector3d& bone, const Vector3d& direction) {
+    return shape.exit_point(shape.posed_bone(bone), shape.posed_direction(bone, direction));
+  };
   for (const bool left : {true, false}) {
     const double side = left ? 1 : -1;
     const std::string suffix = left ? "_L" : "_R";
@@ -157,14 +171,13 @@ std::vector<geometry::Landmark> find_body_landmarks(const BodyShape& shape) {
     add("bust_point" + suffix, bust_point);
     add("underbust" + suffix, fold_under(shape, bust_point).point);
     add("fold_lowest" + suffix, lowest_fold(shape, bust_point));
-    add("shoulder" + suffix,
-        shape.exit_point(shape.upper_arm_axis(left).origin, Vector3d(-0.50, side * 0.46, 0.75).normalized()));
-    add("neck_side" + suffix, skin({0.028, 0, 1.443}, side * Vector3d::UnitY()));
+    add("shoulder" + suffix, acromion(shape, side));
+    add("neck_side" + suffix, over_bone({0.0514, 0.007 * side, 1.422}, Vector3d(-0.39, 0.85 * side, 0.35)));
     add("axilla" + suffix, axilla(shape, side));
     add("buttock" + suffix, rearmost(shape, side));
   }
   add("neck_front", throat(shape));
-  add("neck_back", skin({0.02, 0, 1.417}, -Vector3d::UnitX()));
+  add("neck_back", over_bone({-0.015, 0, 1.4125}, Vector3d(-0.94, 0, 0.342)));
   add("navel", skin({0.05, 0, 1.050}, Vector3d::UnitX()));
   add("crotch", shape.exit_point(shape.posed({0.014, 0, 0.90}), -Vector3d::UnitZ()));
   return landmarks;

@@ -14,10 +14,14 @@ using Eigen::Vector3d;
 constexpr double kReferenceStature = 1.70;
 constexpr double kUpperArm = 0.270;  // shoulder joint to elbow
 constexpr double kElbowFlexion = 0.45;
-constexpr double kMiddle = 0.04;  // x of the axis about which the trunk is thick or thin
-const Vector3d kShoulderJoint(0.008, 0.165, 1.330);
-const Vector3d kChest(0.144, 0.088, 1.236);  // the chest wall under a breast
-constexpr double kCrease = 0.014;            // over which the skin under the breast is rounded
+constexpr double kMiddle = 0.04, kThroat = 0.065;  // x about which trunk and neck are thick or thin
+constexpr double kLeg = 0.096;                     // y about which a leg is
+constexpr double kThighGap = 0.0008;               // half of what is left between thighs that touch
+const Vector3d kShoulderJoint(0.008, 0.168, 1.330);
+const Vector3d kCollarbone(0.008, 0.02, 1.340);  // its inner end, as far as the shoulder turns about it
+const Vector3d kChest(0.144, 0.088, 1.236);      // the chest wall under a breast
+constexpr double kCrease = 0.014;                // over which the skin under the breast is rounded
+const Vector3d kCrotch(0.014, 0, 0.7940);
 const Vector3d kBelly(0.060, 0, 1.010);
 
 double bell(double t) {
@@ -34,6 +38,22 @@ Vector3d mirrored(const Vector3d& p) {
 }
 Vector3d on_left(const Vector3d& p) {
   return {p.x(), std::abs(p.y()), p.z()};
+}
+
+// y of a leg's axis at that height of a body of that thickness: hips grow outwards, thighs to both sides.
+double leg_axis(double z, double girth) {
+  return kLeg * (1 + (0.2 + 0.8 * smooth_step((z - 0.78) / 0.10)) * (girth - 1));
+}
+
+double middle_at(double z) {
+  return kMiddle + (kThroat - kMiddle) * smooth_step((z - 1.36) / 0.06);
+}
+
+// Across neck and shoulders she is broadest behind, where the trapezius lies: by how much she is broader at
+// a point than on average.
+double trapezius(const Vector3d& p) {
+  const double share = smooth_step((p.z() - 1.37) / 0.06) - smooth_step((p.z() - 1.43) / 0.05);
+  return 1 - 0.5 * share * std::clamp((p.x() - 0.015) / 0.055, -1.0, 1.0);
 }
 
 Spine spine_of(double stoop) {
@@ -59,9 +79,14 @@ BodyShape::BodyShape(const BodyParameters& parameters)
   for (const double side : {0.5, -0.5})
     breasts_.emplace_back(thickened(kChest), parameters.bust * (1 + side * parameters.asymmetry),
                           1 - parameters.firmness);
-  // Arms hang from the shoulders and do not turn with the chest
+  // Arms hang from the shoulders and do not turn with the chest. Collarbones hardly grow with weight.
+  Vector3d joint = thickened(kShoulderJoint);
+  joint.y() = (1 + 0.25 * (build_ - 1)) * kShoulderJoint.y();
+  // and go up with a raised arm
+  const Eigen::AngleAxisd raised(0.12 * std::max(0.0, parameters.arm_angle - 0.5), Vector3d::UnitX());
+  joint = kCollarbone + raised * (joint - kCollarbone);
   const Eigen::Isometry3d shoulder =
-      Eigen::Translation3d(spine_.bent(thickened(kShoulderJoint))) *
+      Eigen::Translation3d(spine_.bent(joint)) *
       Eigen::Isometry3d(Eigen::AngleAxisd(parameters.arm_angle, Vector3d::UnitX()));
   const Eigen::Isometry3d elbow = shoulder * Eigen::Translation3d(0, 0, -kUpperArm) *
                                   Eigen::AngleAxisd(-kElbowFlexion, Vector3d::UnitY());
@@ -70,17 +95,17 @@ BodyShape::BodyShape(const BodyParameters& parameters)
 }
 
 double BodyShape::thickness(double z) const {
-  // Fat sits on the trunk, less on hips, thighs and shoulders, hardly on shins and neck, not on the head
+  // Fat sits on the trunk, less on hips, thighs, shoulders and neck, hardly on shins, not on the head
   const double share = 0.25 + 0.45 * smooth_step((z - 0.10) / 0.70) + 0.3 * smooth_step((z - 0.88) / 0.18) -
-                       0.6 * smooth_step((z - 1.25) / 0.14) - 0.4 * smooth_step((z - 1.42) / 0.10);
+                       0.4 * smooth_step((z - 1.25) / 0.14) - 0.6 * smooth_step((z - 1.44) / 0.12);
   const double hips = 1 + (hip_ - 1) * bell((z - 0.87) / 0.16);
   const double waist = 1 + (waist_ - 1) * bell((z - 1.08) / 0.085);
   return hips * waist * (1 + (build_ - 1) * share);
 }
 
 Vector3d BodyShape::thickened(const Vector3d& p) const {
-  const double girth = thickness(p.z());
-  return {kMiddle + girth * (p.x() - kMiddle), girth * p.y(), p.z()};
+  const double girth = thickness(p.z()), middle = middle_at(p.z());
+  return {middle + girth * (p.x() - middle), girth * p.y(), p.z()};
 }
 
 double BodyShape::breasts(const Vector3d& p) const {
@@ -88,22 +113,29 @@ double BodyShape::breasts(const Vector3d& p) const {
 }
 
 double BodyShape::trunk_without_breasts(const Vector3d& p) const {
-  const double girth = thickness(p.z());
-  const Vector3d q(kMiddle + (p.x() - kMiddle) / girth, p.y() / girth, p.z());
-  const double legs = smooth_union(leg_(q), leg_(mirrored(q)), 0.010);
+  const double girth = thickness(p.z()), middle = middle_at(p.z());
+  const Vector3d q(middle + (p.x() - middle) / girth, p.y() / girth, p.z());
+  const auto leg = [&](double side) {
+    return leg_({q.x(), kLeg + (side * p.y() - leg_axis(p.z(), girth)) / girth, q.z()});
+  };
+  const double legs = smooth_union(leg(1), leg(-1), 0.010), broad = trapezius(q);
   const auto buttock = [&q](double side) {
     return ellipsoid(q - Vector3d(-0.018, side * 0.068, 0.885), {0.078, 0.072, 0.085});
   };
-  double d = smooth_union(torso_(q), legs, 0.035);
+  double d = smooth_union(torso_({q.x(), q.y() / broad, q.z()}), legs, 0.035);
   d = smooth_union(d, smooth_union(buttock(1), buttock(-1), 0.012), 0.040);
   if (belly_ > 0) d = smooth_union(d, ellipsoid(q - kBelly, {navel_.x() - kBelly.x(), 0.125, 0.125}), 0.060);
-  // The perineum, level from front to back between the thighs, and the pubis before it
-  const double perineum = tapered_capsule(q, {-0.002, 0, 0.8165}, {0.058, 0, 0.8165}, 0.020, 0.020),
-               pubis = tapered_capsule(q, {0.058, 0, 0.8200}, {0.080, 0, 0.870}, 0.020, 0.034);
-  d = smooth_union(d, smooth_union(perineum, pubis, 0.010), 0.020);
-  d -= 0.003 * bell((q - Vector3d(-0.040, 0, 1.417)).norm() / 0.014);  // the spine's lowest neck vertebra
+  // The spine's lowest neck vertebra, unless fat hides it
+  d -= 0.003 * bell((build_ - 1) / 0.2) * bell((q - Vector3d(-0.038, 0, 1.422)).norm() / 0.014);
   d += 0.006 * bell((q - navel_).norm() / 0.009);
-  return d * girth;
+  // The perineum, level from front to back between the thighs, and the pubis before it: bones do not thicken
+  const Vector3d r = p - thickened(kCrotch) + kCrotch;
+  const double perineum = tapered_capsule(r, {0.010, 0, 0.8165}, {0.070, 0, 0.8165}, 0.020, 0.020),
+               pubis = tapered_capsule(r, {0.070, 0, 0.8200}, {0.090, 0, 0.870}, 0.020, 0.034);
+  // Thighs that touch are apart all the same, up to the perineum and somewhat higher before it
+  const double roof = kCrotch.z() + 0.026 * smooth_step((r.x() - 0.075) / 0.03);
+  d = std::max(d * girth, std::min(kThighGap - std::abs(p.y()), roof - p.z()));
+  return smooth_union(d, smooth_union(perineum, pubis, 0.010), 0.020);
 }
 
 double BodyShape::trunk(const Vector3d& p) const {
@@ -132,7 +164,9 @@ double BodyShape::arm(const Vector3d& p) const {
 double BodyShape::head(const Vector3d& p) const {
   const double cranium = ellipsoid(p - Vector3d(0.052, 0, 1.603), {0.098, 0.076, 0.097});
   const double face = ellipsoid(p - Vector3d(0.086, 0, 1.562), {0.060, 0.058, 0.074});
-  const double jaw = ellipsoid(p - Vector3d(0.100, 0, 1.520), {0.050, 0.044, 0.028});
+  const double fat = std::max(0.0, build_ - 1);  // under the chin
+  const double jaw =
+      ellipsoid(p - Vector3d(0.100, 0, 1.520 - 0.024 * fat), {0.050, 0.044, 0.028 + 0.024 * fat});
   const double nose = tapered_capsule(p, {0.142, 0, 1.585}, {0.156, 0, 1.550}, 0.006, 0.010);
   return smooth_union(smooth_union(smooth_union(cranium, face, 0.030), jaw, 0.020), nose, 0.012);
 }
@@ -201,6 +235,10 @@ Vector3d BodyShape::posed(const Vector3d& reference) const {
   return scale_ * spine_.bent(thickened(reference));
 }
 
+Vector3d BodyShape::posed_bone(const Vector3d& reference) const {
+  return scale_ * spine_.bent(reference);
+}
+
 Vector3d BodyShape::posed_direction(const Vector3d& reference, const Vector3d& direction) const {
   return spine_.bent_direction(reference, direction);
 }
@@ -223,7 +261,7 @@ BodyShape::Axis BodyShape::upper_arm_axis(bool left) const {
 }
 
 BodyShape::Axis BodyShape::neck_axis() const {
-  const Vector3d origin(0.030, 0, 1.4605);
+  const Vector3d origin(0.030, 0, 1.4635);
   return {posed(origin), posed_direction(origin, Vector3d(0.390, 0, 0.921))};
 }
 

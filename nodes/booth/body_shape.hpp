@@ -38,6 +38,7 @@ class BodyShape : public Implicit {
   Axis neck_axis() const;  ///< from the middle of the neck's girth upwards, normal to the girth's plane
   /// Where a point of the reference body is on this one, and the direction `direction` there.
   Eigen::Vector3d posed(const Eigen::Vector3d& reference) const;
+  Eigen::Vector3d posed_bone(const Eigen::Vector3d& reference) const;  ///< bones do not thicken
   Eigen::Vector3d posed_direction(const Eigen::Vector3d& reference, const Eigen::Vector3d& direction) const;
   /// The same place on this body without a stoop.
   Eigen::Vector3d upright(const Eigen::Vector3d& p) const;
