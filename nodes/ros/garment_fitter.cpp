@@ -15,13 +15,13 @@ tensegric::SolverName GarmentFitter::solver_of(const GarmentRequest& request) co
 }
 
 std::optional<tensegric::Solution> GarmentFitter::fit(const FittingScene& scene,
-                                                      const GarmentRequest& request, bool from_rest,
+                                                      const GarmentRequest& request, int rest,
                                                       const tensegric::Progress& progress) {
   if (scene.control != scene_.control) take(scene);
   tensegric::SolverOptions options = options_.solver;
   options.bones = bones_;
   options.solver = solver_of(request);
-  const bool warm = !from_rest && last_ && last_->status == tensegric::Status::converged;
+  const bool warm = last_ && last_rest_ == rest && last_->status == tensegric::Status::converged;
   bool stopped = false;
   tensegric::Solution solution = tensegric::solve(
       *model(), request.garment, options, warm ? &*last_ : nullptr,
@@ -32,6 +32,7 @@ std::optional<tensegric::Solution> GarmentFitter::fit(const FittingScene& scene,
       body_volumes_);
   if (stopped) return std::nullopt;
   last_ = std::move(solution);
+  last_rest_ = rest;
   return last_;
 }
 

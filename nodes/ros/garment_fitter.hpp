@@ -42,10 +42,11 @@ class GarmentFitter {
   /// The solver that a request is for.
   tensegric::SolverName solver_of(const GarmentRequest& request) const;
 
-  /// For one thread. `from_rest`: without a warm start. Nothing where `progress` stopped it. \throw Refusal
-  /// as build_model and solve
-  std::optional<tensegric::Solution> fit(const FittingScene& scene, const GarmentRequest& request,
-                                         bool from_rest, const tensegric::Progress& progress);
+  /// For one thread. `rest` counts how often a start from rest was asked for: only a solution of the same
+  /// count is started from, so that none of them is lost where a fit is left out or stopped. Nothing where
+  /// `progress` stopped it. \throw Refusal as build_model and solve
+  std::optional<tensegric::Solution> fit(const FittingScene& scene, const GarmentRequest& request, int rest,
+                                         const tensegric::Progress& progress);
 
   /// The newest model; null where there is none.
   std::shared_ptr<const tensegric::Model> model() const;
@@ -58,6 +59,7 @@ class GarmentFitter {
   geometry::BoneFrames bones_;
   std::vector<tensegric::VolumeFunction> body_volumes_;
   std::optional<tensegric::Solution> last_;
+  int last_rest_ = 0;  // of last_
 
   mutable std::mutex mutex_;
   std::shared_ptr<const tensegric::Model> model_;

@@ -1,10 +1,11 @@
-/// A node's private parameters, each checked.
+/// A stage's parameters, each checked.
 #pragma once
 
 #include <ros/node_handle.h>
+#include <yaml-cpp/yaml.h>
 
 #include <Eigen/Core>
-#include <initializer_list>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,7 +16,12 @@ namespace tensegric_fit::node {
 /// Defaults are the fields of the stages' option structs.
 class Parameters {
  public:
+  /// A node's private parameters.
   explicit Parameters(const ros::NodeHandle& private_node);
+
+  /// The same without a master: what a configuration file (launch/config) says of the stage of that name.
+  /// `values` is a map, or nothing where all are defaults.
+  Parameters(const YAML::Node& values, const std::string& stage);
 
   /// \throw Refusal bad_option naming parameter, value and range
   int integer(const std::string& name, int fallback, int low, int high);
@@ -32,10 +38,10 @@ class Parameters {
   void check_all_known() const;
 
  private:
-  template <typename T>
-  T read(const std::string& name, const T& fallback, const char* type);
+  const XmlRpc::XmlRpcValue* find(const std::string& name);
 
-  ros::NodeHandle node_;
+  std::string prefix_;          // of full names
+  XmlRpc::XmlRpcValue values_;  // a struct
   std::set<std::string> known_;
 };
 

@@ -3,7 +3,7 @@
 
 #include <boost/shared_ptr.hpp>
 
-#include <functional>
+#include <optional>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -16,20 +16,17 @@ namespace tensegric_fit::node {
 template <typename Trigger, typename... Context>
 class ScanJoin {
  public:
-  using Complete = std::function<void(const boost::shared_ptr<const Trigger>&,
-                                      const boost::shared_ptr<const Context>&...)>;
+  using Joined = std::tuple<boost::shared_ptr<const Trigger>, boost::shared_ptr<const Context>...>;
 
-  explicit ScanJoin(Complete complete) : complete_(std::move(complete)) {}
-
+  /// What the message completes, if anything.
   template <typename Message>
-  void add(const boost::shared_ptr<const Message>& message) {
+  std::optional<Joined> add(const boost::shared_ptr<const Message>& message) {
     if constexpr (std::is_same_v<Message, Trigger>)
       trigger_ = message;
     else
       std::get<boost::shared_ptr<const Message>>(context_) = message;
-    if (!trigger_ || !(holds<Context>() && ...)) return;
-    const auto trigger = std::exchange(trigger_, nullptr);
-    std::apply([&](const auto&... context) { complete_(trigger, context...); }, context_);
+    if (!trigger_ || !(holds<Context>() && ...)) return std::nullopt;
+    return std::tuple_cat(std::make_tuple(std::exchange(trigger_, nullptr)), context_);
   }
 
  private:
@@ -39,7 +36,6 @@ class ScanJoin {
     return message && message->scan_id == trigger_->scan_id;
   }
 
-  Complete complete_;
   boost::shared_ptr<const Trigger> trigger_;
   std::tuple<boost::shared_ptr<const Context>...> context_;
 };

@@ -3,6 +3,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <diagnostic_msgs/KeyValue.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <chrono>
 
@@ -20,6 +21,13 @@ diagnostic_msgs::KeyValue fact(const std::string& key, const std::string& value)
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The most memory that this process had so far.
+double peak_mebibytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
 }  // namespace
@@ -156,6 +164,7 @@ void Stage::report() {
   status.values = {fact("state", state_.word),
                    fact("scan_id", state_.scan_id),
                    fact("milliseconds", fmt::format("{:.3f}", state_.milliseconds)),
+                   fact("peak_mebibytes", fmt::format("{:.1f}", peak_mebibytes())),
                    fact("last_error", state_.last_error),
                    fact("last_error_message", state_.last_error_message),
                    fact("last_error_scan_id", state_.last_error_scan_id)};

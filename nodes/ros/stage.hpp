@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "geometry/status.hpp"
+#include "ros/facts.hpp"
 
 namespace tensegric_fit::node {
 
@@ -22,7 +23,7 @@ namespace tensegric_fit::node {
 /// that piece of work alone: it is named on /diagnostics and in the log, and nothing is published.
 class Stage {
  public:
-  using Facts = std::vector<std::pair<std::string, std::string>>;
+  using Facts = node::Facts;
 
   /// What work ends with: how to publish it (empty where it stopped half way), and what to say of it on
   /// /diagnostics. A warning is for what came out, but not as it should.

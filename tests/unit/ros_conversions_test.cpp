@@ -286,15 +286,15 @@ class ScanJoinTest : public testing::Test {
   void arrive(const std::string& scan_id) {
     const auto message = boost::make_shared<Message>();
     message->scan_id = scan_id;
-    join_.add(boost::shared_ptr<const Message>(message));
+    const auto joined = join_.add(boost::shared_ptr<const Message>(message));
+    if (!joined) return;
+    const auto& [fit, mesh, control] = *joined;
+    EXPECT_EQ(fit->scan_id, mesh->scan_id);
+    EXPECT_EQ(fit->scan_id, control->scan_id);
+    joined_.push_back(fit->scan_id);
   }
   std::vector<std::string> joined_;
-  ScanJoin<FitState, TriangleMesh, ControlMesh> join_{
-      [this](const auto& fit, const auto& mesh, const auto& control) {
-        EXPECT_EQ(fit->scan_id, mesh->scan_id);
-        EXPECT_EQ(fit->scan_id, control->scan_id);
-        joined_.push_back(fit->scan_id);
-      }};
+  ScanJoin<FitState, TriangleMesh, ControlMesh> join_;
 };
 
 TEST_F(ScanJoinTest, CompletesInAnyOrderOfArrival) {

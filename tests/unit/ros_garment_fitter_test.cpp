@@ -42,13 +42,13 @@ class GarmentFitterTest : public testing::Test {
 TEST_F(GarmentFitterTest, AStoppedFitIsNoneAndTheNextIsAsIfItHadNotBeen) {
   GarmentFitter undisturbed{FitterOptions()};
   for (GarmentFitter* fitter : {&fitter_, &undisturbed})
-    ASSERT_TRUE(fitter->fit({control_, nullptr, nullptr}, chest_at(0.95), true, kGoOn));
+    ASSERT_TRUE(fitter->fit({control_, nullptr, nullptr}, chest_at(0.95), 0, kGoOn));
   int steps = 0;
-  EXPECT_FALSE(fitter_.fit({control_, nullptr, nullptr}, chest_at(0.8), false,
+  EXPECT_FALSE(fitter_.fit({control_, nullptr, nullptr}, chest_at(0.8), 0,
                            [&steps](const auto&, const auto&) { return ++steps < 3; }));
   EXPECT_EQ(steps, 3);  // it stopped there and then
-  const auto after = fitter_.fit({control_, nullptr, nullptr}, chest_at(0.94), false, kGoOn);
-  const auto expected = undisturbed.fit({control_, nullptr, nullptr}, chest_at(0.94), false, kGoOn);
+  const auto after = fitter_.fit({control_, nullptr, nullptr}, chest_at(0.94), 0, kGoOn);
+  const auto expected = undisturbed.fit({control_, nullptr, nullptr}, chest_at(0.94), 0, kGoOn);
   ASSERT_TRUE(after && expected);
   EXPECT_EQ(after->iterations, expected->iterations);
   EXPECT_EQ(after->outer, expected->outer);  // to the bit
@@ -59,7 +59,7 @@ TEST_F(GarmentFitterTest, GarmentsAreCheckedAgainstTheNewestModel) {
   hat.garment.regions = {"hat"};
   belt.garment.lines[0].name = "belt";
   EXPECT_EQ(refusal_of(hat), "accepted");  // no model yet to say no
-  ASSERT_TRUE(fitter_.fit({control_, nullptr, nullptr}, chest_at(0.95), true, kGoOn));
+  ASSERT_TRUE(fitter_.fit({control_, nullptr, nullptr}, chest_at(0.95), 0, kGoOn));
   EXPECT_EQ(refusal_of(chest_at(0.9)), "accepted");
   EXPECT_EQ(refusal_of(hat), "bad_garment");
   EXPECT_EQ(refusal_of(belt), "unknown_line");
@@ -72,7 +72,7 @@ TEST_F(GarmentFitterTest, KeepsTheBodysVolumeWhereItIsAskedTo) {
   options.solver.volume = tensegric::KeptVolume::body;
   GarmentFitter fitter(options);
   const auto body = boost::make_shared<TriangleMesh>(to_message(ScanTag(), skin, {}));
-  const auto solution = fitter.fit({control_, nullptr, body}, chest_at(0.93), true, kGoOn);
+  const auto solution = fitter.fit({control_, nullptr, body}, chest_at(0.93), 0, kGoOn);
   ASSERT_TRUE(solution);
   EXPECT_EQ(solution->status, tensegric::Status::converged);
   const geometry::TriangleMesh sent = mesh_in(*body);  // float32 on the way
@@ -91,7 +91,7 @@ TEST_F(GarmentFitterTest, APostureTakesTheBoundNodesAlong) {
   measures.heights = {{"hip", 0.9, 1, ""}, {"underbust", 1.12, 1, ""}};
   measures.landmarks = {{"crotch", {0, 0, 0.8}, 1, ""}};
   const auto landmarks = boost::make_shared<Landmarks>(to_message(ScanTag(), measures));
-  const auto solution = fitter.fit({control_, landmarks, nullptr}, chest_at(0.97), true, kGoOn);
+  const auto solution = fitter.fit({control_, landmarks, nullptr}, chest_at(0.97), 0, kGoOn);
   ASSERT_TRUE(solution);
   EXPECT_EQ(solution->status, tensegric::Status::converged);
   const geometry::BoneFrames bones(measures, options.posture);

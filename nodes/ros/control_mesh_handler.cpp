@@ -1,0 +1,53 @@
+#include "ros/control_mesh_handler.hpp"
+
+#include <boost/make_shared.hpp>
+
+#include <sstream>
+
+#include "geometry/shipped_files.hpp"
+#include "geometry/status.hpp"
+#include "ros/body_messages.hpp"
+
+namespace tensegric_fit::node {
+
+ControlMeshHandler::ControlMeshHandler(Parameters parameters) {
+  options_.control_triangles = parameters.integer("control_triangles", options_.control_triangles, 1, 100000);
+  options_.thickness =
+      parameters.number("thickness", options_.thickness, control_mesh::kThinnest, control_mesh::kThickest);
+  std::istringstream names(parameters.text("template", "bust+hips"));
+  const std::string folder = parameters.text("template_directory", geometry::shipped_folder("templates"));
+  parameters.check_all_known();
+  for (std::string name; std::getline(names, name, '+');)
+    patterns_.push_back(
+        control_mesh::load_template(geometry::yaml_file(folder, name, geometry::refusal::kBadTemplate)));
+  if (patterns_.empty()) throw geometry::Refusal(geometry::refusal::kBadOption, "template is empty");
+}
+
+ControlMeshHandler::Output ControlMeshHandler::handle(const Input& input) const {
+  const auto& [landmarks, mesh] = input;
+  Output output;
+  output.body = mesh_in(*mesh);
+  const geometry::BodyMeasures measures = measures_in(*landmarks);
+  output.body_from_scan = measures.body_from_scan;
+
+  std::vector<geometry::ControlMesh> parts;
+  std::optional<geometry::Refusal> first;
+  for (const control_mesh::Template& pattern : patterns_) {
+    try {
+      parts.push_back(control_mesh::fit_template(pattern, output.body, measures, options_));
+    } catch (const geometry::Refusal& refusal) {
+      if (!first) first = refusal;
+      output.left_out += (output.left_out.empty() ? "" : "; ") + pattern.name + ": " + refusal.what();
+    }
+  }
+  if (parts.empty()) throw *first;
+
+  output.control_mesh = geometry::joined(parts);
+  output.control = boost::make_shared<ControlMesh>(to_message(tag_in(*mesh), output.control_mesh));
+  output.facts = {{"nodes", std::to_string(output.control_mesh.outer.size())},
+                  {"triangles", std::to_string(output.control_mesh.triangles.size())},
+                  {"left_out", output.left_out}};
+  return output;
+}
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,37 @@
+#include "ros/reconstruction_handler.hpp"
+
+#include <pcl_conversions/pcl_conversions.h>
+
+#include <boost/make_shared.hpp>
+
+#include "geometry/point_cloud.hpp"
+#include "ros/body_messages.hpp"
+
+namespace tensegric_fit::node {
+
+ReconstructionHandler::ReconstructionHandler(Parameters parameters) {
+  reconstruction::Options& options = options_;
+  options.body_triangles = parameters.integer("body_triangles", options.body_triangles, 1000, 2000000);
+  options.poisson_depth = parameters.integer("poisson_depth", options.poisson_depth, 5, 10);
+  options.min_points = parameters.integer("min_points", options.min_points, 100, 10000000);
+  options.max_points = parameters.integer("max_points", options.max_points, 100, 100000000);
+  options.support_distance = parameters.number("support_distance", options.support_distance, 0.001, 0.1);
+  parameters.check_all_known();
+}
+
+ReconstructionHandler::Output ReconstructionHandler::handle(const sensor_msgs::PointCloud2& scan,
+                                                            const ScanTag& tag) const {
+  pcl::PCLPointCloud2 cloud;
+  pcl_conversions::toPCL(scan, cloud);
+  const auto body = std::make_shared<const reconstruction::BodyMesh>(
+      reconstruction::reconstruct(geometry::points_of(cloud), options_));
+  return {boost::make_shared<TriangleMesh>(to_message(tag, body->mesh, body->filled)),
+          body,
+          {{"points_used", std::to_string(body->points_used)},
+           {"vertices", std::to_string(body->mesh.vertices.size())},
+           {"triangles", std::to_string(body->mesh.triangles.size())},
+           {"holes_closed", std::to_string(body->holes.size())},
+           {"fractures", std::to_string(body->fractures.size())}}};
+}
+
+}  // namespace tensegric_fit::node

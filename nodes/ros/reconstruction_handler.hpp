@@ -1,0 +1,33 @@
+/// scan/points -> body/mesh
+#pragma once
+
+#include <sensor_msgs/PointCloud2.h>
+#include <tensegric_fit/TriangleMesh.h>
+
+#include <memory>
+
+#include "reconstruction/reconstruct.hpp"
+#include "ros/facts.hpp"
+#include "ros/parameters.hpp"
+#include "ros/scan_tag.hpp"
+
+namespace tensegric_fit::node {
+
+class ReconstructionHandler {
+ public:
+  /// \throw Refusal bad_option
+  explicit ReconstructionHandler(Parameters parameters);
+
+  struct Output {
+    TriangleMesh::ConstPtr mesh;
+    std::shared_ptr<const reconstruction::BodyMesh> body;
+    Facts facts;
+  };
+  /// `tag` is the scan's. \throw Refusal as reconstruct
+  Output handle(const sensor_msgs::PointCloud2& scan, const ScanTag& tag) const;
+
+ private:
+  reconstruction::Options options_;
+};
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,135 @@
+#include "ros/replay.hpp"
+
+#include <tensegric_fit/SetGarment.h>
+
+#include "ros/scan_tag.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+std::string fact(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key) {
+  for (const diagnostic_msgs::KeyValue& pair : status.values)
+    if (pair.key == key) return pair.value;
+  return "";
+}
+
+template <typename Message>
+void write(rosbag::Bag& out, const std::string& topic, const ros::Time& time,
+           const boost::shared_ptr<const Message>& message) {
+  if (message) out.write(topic, time, *message);
+}
+
+}  // namespace
+
+Replay::Replay(ros::NodeHandle node, const Options& options)
+    : options_(options),
+      node_(node),
+      scans_(node.advertise<sensor_msgs::PointCloud2>("scan/points", 1, true)),
+      set_garment_(node.serviceClient<SetGarment>("set_garment")),
+      diagnostics_in_(node.subscribe("/diagnostics", 100, &Replay::on_diagnostics, this)) {
+  keep("body/mesh", &FittedScan::body);
+  keep("body/landmarks", &FittedScan::landmarks);
+  last_stage_ = "landmarks";
+  if (options.measure_only) return;
+  keep("control/mesh", &FittedScan::control);
+  keep("control/deformed", &FittedScan::fit);
+  keep("body/deformed", &FittedScan::deformed);
+  last_stage_ = "tffd";
+}
+
+template <typename Message>
+void Replay::keep(const std::string& topic, boost::shared_ptr<const Message> FittedScan::*slot) {
+  const boost::function<void(const boost::shared_ptr<const Message>&)> take =
+      [this, slot](const boost::shared_ptr<const Message>& message) {
+        if constexpr (std::is_same_v<Message, FitState>)
+          if (message->status == FitState::SOLVING) return;
+        if (message->scan_id == scan_id_) got_.*slot = message;
+      };
+  subscribers_.push_back(node_.subscribe<Message>(topic, 10, take));
+}
+
+void Replay::on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
+  for (const diagnostic_msgs::DiagnosticStatus& status : message->status) {
+    diagnostics_[status.name.substr(status.name.rfind(' ') + 1)] = message;
+    if (!scan_id_.empty() && fact(status, "last_error_scan_id") == scan_id_) refused_ = true;
+  }
+}
+
+bool Replay::wait(const std::function<bool()>& condition) const {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(options_.timeout);
+  while (ros::ok() && ros::WallTime::now() < end) {
+    ros::spinOnce();
+    if (condition()) return true;
+    ros::WallDuration(0.005).sleep();
+  }
+  return false;
+}
+
+std::vector<std::string> Replay::wait_for_chain() {
+  std::vector<std::string> missing;
+  wait([&] {
+    missing.clear();
+    if (scans_.getNumSubscribers() == 0) missing.push_back(scans_.getTopic());
+    for (const ros::Subscriber& subscriber : subscribers_)
+      if (subscriber.getNumPublishers() == 0) missing.push_back(subscriber.getTopic());
+    if (!options_.measure_only && !set_garment_.exists()) missing.push_back(set_garment_.getService());
+    return missing.empty();
+  });
+  return missing;
+}
+
+/// Everything is there, and the last stage has said what it took.
+bool Replay::answered() const {
+  if (refused_) return true;
+  const bool fitted = got_.control && got_.fit && got_.deformed;
+  if (!got_.body || !got_.landmarks || (!options_.measure_only && !fitted)) return false;
+  const auto last = diagnostics_.find(last_stage_);
+  return last != diagnostics_.end() && fact(last->second->status.front(), "state") == "done" &&
+         fact(last->second->status.front(), "scan_id") == scan_id_;
+}
+
+void Replay::write_answer(const ros::Time& time, rosbag::Bag& out, bool whole) {
+  if (whole) {
+    write(out, "body/mesh", time, got_.body);
+    write(out, "body/landmarks", time, got_.landmarks);
+    write(out, "control/mesh", time, got_.control);
+  }
+  write(out, "control/deformed", time, got_.fit);
+  write(out, "body/deformed", time, got_.deformed);
+  for (const auto& [stage, message] : diagnostics_) write(out, "/diagnostics", time, message);
+}
+
+bool Replay::send(const sensor_msgs::PointCloud2& scan, const ros::Time& time, rosbag::Bag& out) {
+  scan_id_ = tag_of(scan).scan_id;
+  got_ = FittedScan();
+  refused_ = false;
+  scans_.publish(scan);
+  const bool ended = wait([this] { return answered(); });
+  write_answer(time, out, true);
+  ROS_INFO("replay: scan %s %s", scan_id_.c_str(),
+           !ended     ? "TIMED OUT"
+           : refused_ ? "refused"
+                      : "went through");
+  return ended;
+}
+
+bool Replay::send(const Garment& garment, const ros::Time& time, rosbag::Bag& out) {
+  if (options_.measure_only) return false;
+  const bool on_scan = got_.deformed && !refused_;
+  got_.fit = nullptr;
+  got_.deformed = nullptr;
+  SetGarment call;
+  call.request.garment = garment;
+  if (!set_garment_.call(call) || !call.response.accepted) {
+    ROS_ERROR("replay: garment '%s': %s: %s", garment.name.c_str(), call.response.code.c_str(),
+              call.response.message.c_str());
+    return false;
+  }
+  if (!on_scan) return true;
+  const bool ended = wait([this] { return answered(); });
+  write_answer(time, out, false);
+  ROS_INFO("replay: garment '%s' %s", garment.name.c_str(), ended ? "worn" : "TIMED OUT");
+  return ended;
+}
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,173 @@
+/// What stages do with messages, without a master.
+#include <gtest/gtest.h>
+
+#include <boost/make_shared.hpp>
+
+#include "geometry/status.hpp"
+#include "ros/body_messages.hpp"
+#include "ros/kept_garment.hpp"
+#include "ros/tensegric_handler.hpp"
+#include "tensegric_bust.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+const std::string kGarments = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/garments";
+const auto kGoOn = [] { return true; };
+const auto kSilent = [](const FitState&) {};
+
+Parameters parameters(const std::string& yaml) {
+  return {YAML::Load(yaml), "stage"};
+}
+
+template <typename Read>
+std::string refusal_of(const Read& read) {
+  try {
+    read();
+  } catch (const geometry::Refusal& refusal) {
+    return refusal.what();
+  }
+  return "accepted";
+}
+
+TEST(Parameters, FromAFileAreReadAndCheckedLikeThoseOfANode) {
+  Parameters given = parameters("{count: 7, size: 2, exact: true, word: b, name: '12', way: [0, 0.5, -1]}");
+  EXPECT_EQ(given.integer("count", 1, 0, 10), 7);
+  EXPECT_EQ(given.number("size", 1, 0, 10), 2);
+  EXPECT_EQ(given.number("absent", 1.5, 0, 10), 1.5);
+  EXPECT_TRUE(given.flag("exact", false));
+  EXPECT_EQ(given.choice("word", "a", {"a", "b"}), "b");
+  EXPECT_EQ(given.text("name", ""), "12");  // in quotes: no number
+  EXPECT_EQ(given.vector("way", Eigen::Vector3d::Zero()), Eigen::Vector3d(0, 0.5, -1));
+  EXPECT_NO_THROW(given.check_all_known());
+}
+
+TEST(Parameters, AreRefusedByName) {
+  const auto refused = [](const std::string& yaml, const auto& read) {
+    return refusal_of([&] {
+      Parameters given = parameters(yaml);
+      read(given);
+      given.check_all_known();
+    });
+  };
+  const auto count = [](Parameters& p) { p.integer("count", 1, 0, 10); };
+  EXPECT_EQ(refused("{count: 11}", count), "parameter '/stage/count' is 11, not in [0, 10]");
+  EXPECT_EQ(refused("{count: 1e300}", count), "parameter '/stage/count' is 1e+300, not in [0, 10]");
+  EXPECT_EQ(refused("{count: 1.5}", count), "parameter '/stage/count' is not an integer");
+  EXPECT_EQ(refused("{count: many}", count), "parameter '/stage/count' is not an integer");
+  EXPECT_EQ(refused("{cuont: 1}", count), "parameter '/stage/cuont' is unknown; the node knows: count");
+  EXPECT_EQ(refused("{way: [1, 2]}", [](Parameters& p) { p.vector("way", Eigen::Vector3d::Zero()); }),
+            "parameter '/stage/way' is not a list of three numbers");
+  EXPECT_EQ(refused("[1]", count), "parameters of 'stage' are not a map");
+}
+
+/// Messages of scans that all have the same bust.
+class TensegricHandlerTest : public testing::Test {
+ protected:
+  using Input = TensegricHandler::Input;
+
+  static TriangleMesh::ConstPtr body_of(const std::string& scan_id) {
+    const auto body = boost::make_shared<TriangleMesh>();
+    body->scan_id = scan_id;
+    return body;
+  }
+  static ControlMesh::ConstPtr control_of(const std::string& scan_id) {
+    const auto control = boost::make_shared<ControlMesh>(to_message(ScanTag(), tensegric::bust_mesh()));
+    control->scan_id = scan_id;
+    return control;
+  }
+  static Garment chest_at(double ratio) {
+    Garment garment;
+    garment.name = "band";
+    garment.regions = {"bust"};
+    garment.lines.resize(1);
+    garment.lines[0].name = "chest";
+    garment.lines[0].ratio = ratio;
+    return garment;
+  }
+  /// One whose garment needs no more than the test's bust has.
+  TensegricHandler handler(const std::string& more = "") const {
+    return TensegricHandler(
+        Parameters(YAML::Load("{garment_directory: " + kGarments + (more.empty() ? "" : ", " + more) + "}"),
+                   "tensegric"));
+  }
+  FitState::ConstPtr fit_of(TensegricHandler& stage, const std::optional<Input>& input) const {
+    return input ? stage.handle(*input, kGoOn, kSilent)->fit : nullptr;
+  }
+};
+
+TEST_F(TensegricHandlerTest, FitsOnceEverythingOfOneScanIsThere) {
+  TensegricHandler stage = handler();
+  EXPECT_FALSE(stage.put_on(chest_at(0.95)));
+  EXPECT_EQ(stage.outlook(), "kept until a scan comes");
+  EXPECT_FALSE(stage.add(control_of("A")));  // messages of two topics come in any order
+  EXPECT_TRUE(stage.add(body_of("A")));
+  EXPECT_EQ(stage.outlook(), "fitting to scan A");
+  EXPECT_FALSE(stage.add(body_of("A")));  // the same scan again: its control mesh is still to come
+  EXPECT_TRUE(stage.add(control_of("A")));
+}
+
+TEST_F(TensegricHandlerTest, AGarmentForARefusedScanIsKeptAndNotPromised) {
+  TensegricHandler stage = handler();
+  stage.put_on(chest_at(0.95));
+  stage.add(body_of("A"));
+  ASSERT_TRUE(stage.add(control_of("A")));
+  EXPECT_FALSE(stage.add(body_of("B")));  // refused later on: no control mesh comes
+  EXPECT_FALSE(stage.put_on(chest_at(0.9)));
+  EXPECT_EQ(stage.outlook(), "kept: scan B has no control mesh so far");
+  EXPECT_FALSE(stage.reset());
+  stage.put_on(chest_at(0.92));
+  stage.add(body_of("C"));
+  const auto input = stage.add(control_of("C"));
+  ASSERT_TRUE(input);
+  EXPECT_EQ(input->request.garment.lines[0].ratio, 0.92);
+}
+
+TEST_F(TensegricHandlerTest, AStartFromRestIsNotLostWhereTheNextGarmentTakesItsPlace) {
+  const auto way_of = [this](bool reset) {
+    TensegricHandler stage = handler();
+    stage.put_on(chest_at(0.9));
+    stage.add(body_of("A"));
+    EXPECT_EQ(fit_of(stage, stage.add(control_of("A")))->status, FitState::CONVERGED);
+    if (reset) {
+      EXPECT_TRUE(stage.reset());  // asked for, and left out: a newer garment waits
+    }
+    return fit_of(stage, stage.put_on(chest_at(0.899)));
+  };
+  TensegricHandler fresh = handler();
+  fresh.put_on(chest_at(0.899));
+  fresh.add(body_of("A"));
+  const FitState::ConstPtr from_rest = fit_of(fresh, fresh.add(control_of("A")));
+  EXPECT_EQ(way_of(true)->iteration, from_rest->iteration);
+  EXPECT_EQ(way_of(true)->outer, from_rest->outer);           // to the bit
+  EXPECT_LT(way_of(false)->iteration, from_rest->iteration);  // from the last balance: that is quicker
+}
+
+TEST_F(TensegricHandlerTest, StartedAgainItWearsWhatItWore) {
+  TensegricHandler before = handler("garment: B2");
+  before.put_on(chest_at(0.9123456789012345));
+  TensegricHandler after = handler("garment: B2, worn: '" + before.kept() + "'");
+  EXPECT_EQ(after.worn().garment.name, "band");
+  EXPECT_EQ(after.worn().garment.lines.at(0).ratio, 0.9123456789012345);
+  after.reset();
+  EXPECT_EQ(after.worn().garment.name, "B2");
+  // another first garment was asked for meanwhile; words that are none of the node's
+  EXPECT_EQ(handler("garment: B1, worn: '" + before.kept() + "'").worn().garment.name, "B1");
+  for (const char* words : {"B2|", "B2|0", "B2|xyz", "B2|ffffffff", "nonsense"})
+    EXPECT_FALSE(kept_garment(words, "B2")) << words;
+}
+
+TEST_F(TensegricHandlerTest, RefusedGarmentsLeaveTheOldOneOn) {
+  TensegricHandler stage = handler();
+  EXPECT_EQ(refusal_of([&] { stage.put_on(chest_at(1e300)); }),
+            "line 'chest': ratio 1e+300 is not in [0.05, 10]");
+  SetGarment::Request request;
+  request.name = "B1";
+  request.lines = {"chest"};
+  request.ratios = {1e300};
+  EXPECT_EQ(refusal_of([&] { stage.put_on(request); }), "ratio 1e+300 is outside [0.05, 10]");
+  EXPECT_EQ(stage.worn().garment.lines.at(0).ratio, 0.95);
+}
+
+}  // namespace
+}  // namespace tensegric_fit::node
