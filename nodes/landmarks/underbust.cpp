@@ -35,6 +35,8 @@ std::vector<Place> places_below(const BodyShape& body, const std::vector<int>& s
   const Profile profile = cut_profile(body, skin, {bust_point.x(), y, bust_point.z()}, Vector3d::UnitX());
   std::vector<Place> places;
   const int count = static_cast<int>(profile.points.size());
+  // Beside a slim trunk the plane meets it again below: that profile does not belong to the breast.
+  if (count == 0 || profile.points.front().z() < bust_point.z()) return places;
   int level = 0;  // of the bust point; the fold of a breast that hangs can be as high
   while (level < count && profile.points[level].z() > bust_point.z()) ++level;
   for (int i = level + static_cast<int>(kRim / profile.step); i < count; ++i) {
@@ -42,6 +44,16 @@ std::vector<Place> places_below(const BodyShape& body, const std::vector<int>& s
     places.push_back({profile.points[i], hollowness, hollowness, -1});
   }
   return places;
+}
+
+// Height of the middle one of five neighbours: one profile that noise or a filling spoils does not tell a
+// fold's lowest point.
+double steady_height(const std::vector<Place>& way, int at) {
+  const int last = static_cast<int>(way.size()) - 1, reach = std::min({2, at, last - at});
+  std::vector<double> heights;
+  for (int i = at - reach; i <= at + reach; ++i) heights.push_back(way[i].point.z());
+  std::nth_element(heights.begin(), heights.begin() + reach, heights.end());
+  return heights[reach];
 }
 
 // Carries the ways on from profile to profile. False where there is nowhere to go.
@@ -72,14 +84,15 @@ Fold find_fold(const BodyShape& body, const Vector3d& bust_point, Side side) {
   // The fold runs on smoothly from profile to profile: of all such ways the one that is most hollow in sum.
   std::vector<std::vector<Place>> profiles;
   for (int k = 0; k * kApart <= kMedialReach + 1e-9; ++k) {
-    profiles.push_back(places_below(body, skin, bust_point, bust_point.y() + inwards * k * kApart));
-    if (k > 0 && !carry_on(profiles[k - 1], profiles[k])) {
-      profiles.pop_back();
+    std::vector<Place> places = places_below(body, skin, bust_point, bust_point.y() + inwards * k * kApart);
+    if (profiles.empty() ? places.empty() : !carry_on(profiles.back(), places)) {
+      if (profiles.empty()) continue;
       break;
     }
+    profiles.push_back(std::move(places));
   }
   std::vector<Place> way;
-  if (!profiles.back().empty()) {
+  if (!profiles.empty()) {
     const auto less = [](const Place& a, const Place& b) { return a.sum < b.sum; };
     way.push_back(*std::max_element(profiles.back().begin(), profiles.back().end(), less));
     for (std::size_t k = profiles.size() - 1; k-- > 0;)
@@ -95,8 +108,14 @@ Fold find_fold(const BodyShape& body, const Vector3d& bust_point, Side side) {
   }
   Fold fold;
   fold.below_bust_point = fold.lowest = first->point;
-  for (auto place = first; place != way.end() && is_hollow(*place); ++place)
-    if (place->point.z() < fold.lowest.z()) fold.lowest = place->point;
+  const std::vector<Place> hollow(first, std::find_if_not(first, way.end(), is_hollow));
+  double lowest = 1e9;
+  for (int i = 0; i < static_cast<int>(hollow.size()); ++i) {
+    const double height = steady_height(hollow, i);
+    if (height >= lowest) continue;
+    lowest = height;
+    fold.lowest = {hollow[i].point.x(), hollow[i].point.y(), height};
+  }
   fold.confidence = 0.9;
   return fold;
 }
