@@ -11,7 +11,8 @@
 namespace tensegric_fit::booth {
 
 /// The first sensor_msgs/PointCloud2 of a bag: on the topic scan/points (in any namespace) if there is one,
-/// else on any. \throw Refusal broken_file: not there, truncated, not a bag, or without a point cloud
+/// else on the only one with clouds. \throw Refusal broken_file: not there, truncated, not a bag, or without
+/// a point cloud; bad_option: clouds on several topics, none of them scan/points
 pcl::PCLPointCloud2 read_bag_scan(const std::string& path);
 
 /// One message on /scan/points, x y z as float32. Same arguments, same bytes. \throw std::runtime_error

@@ -1,16 +1,21 @@
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
+#include <pcl_conversions/pcl_conversions.h>
 #include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_msgs/String.h>
+#include <tf2_msgs/TFMessage.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "booth/scan_bag.hpp"
 #include "booth/scan_file.hpp"
+#include "booth/sensor_bag.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/status.hpp"
@@ -101,6 +106,42 @@ TEST_F(ScanFileTest, ABagsScanTopicComesBeforeOtherClouds) {
     bag.write("/another/points", ros::Time(1), sensor_msgs::PointCloud2());  // earlier, and empty
   }
   expect_cloud(file("a.bag"));
+}
+
+TEST_F(ScanFileTest, ABagOfAllSensorsHasTheirClouds) {
+  std::vector<booth::SensorScan> scans(2);
+  for (std::size_t sensor = 0; sensor < scans.size(); ++sensor) {
+    booth::SensorPose& pose = scans[sensor].pose;
+    pose.booth_from_sensor = Eigen::Translation3d(1.0 + sensor, 0, 2) *
+                             Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ());  // x is the booth's y
+    scans[sensor].cloud.points = {pose.booth_from_sensor * Vector3d(1, 2, 3)};
+  }
+  booth::write_sensor_bag(file("sensors.bag"), scans, "booth", ros::Time(5));
+  int clouds = 0, poses = 0;
+  const rosbag::Bag bag(file("sensors.bag"));
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+    if (const auto cloud = message.instantiate<sensor_msgs::PointCloud2>()) {
+      const std::string sensor = std::to_string(clouds);
+      EXPECT_EQ(message.getTopic(), "/sensors/" + sensor + "/points");
+      EXPECT_EQ(cloud->header.frame_id, "sensor_" + sensor);
+      EXPECT_EQ(cloud->header.stamp, ros::Time(5, 1000000 * clouds++));
+      pcl::PCLPointCloud2 points;
+      pcl_conversions::toPCL(*cloud, points);
+      const geometry::PointCloud seen = geometry::points_of(points);
+      ASSERT_EQ(seen.points.size(), 1u);
+      EXPECT_LT((seen.points[0] - Vector3d(1, 2, 3)).norm(), 1e-6);  // float32
+    }
+    if (const auto tf = message.instantiate<tf2_msgs::TFMessage>()) {
+      poses = static_cast<int>(tf->transforms.size());
+      EXPECT_EQ(tf->transforms.at(1).child_frame_id, "sensor_1");
+      EXPECT_EQ(tf->transforms.at(1).transform.translation.x, 2);
+      EXPECT_NEAR(tf->transforms.at(1).transform.rotation.z, std::sqrt(0.5), 1e-12);
+    }
+  }
+  EXPECT_EQ(clouds, 2);
+  EXPECT_EQ(poses, 2);
+  // None of them is the scan.
+  EXPECT_EQ(refusal_of(file("sensors.bag")), geometry::refusal::kBadOption);
 }
 
 TEST_F(ScanFileTest, ABagWithoutACloudIsRefused) {
