@@ -17,7 +17,7 @@ constexpr double kLowest = -0.17, kHighest = 0.03;  // from the axilla
 constexpr double kMedial = 0.025, kLateral = 0.13;
 constexpr double kNeighbourhood = 0.015;  // a tip is the skin furthest along its breast within 25 mm
 constexpr double kApex = 0.027;           // 45 mm of skin tell it where no nipple does
-constexpr double kCleavage = 0.005;       // 8 mm behind the tips
+constexpr double kCleavage = 0.005, kAboveTip = 0.015;  // 8 mm behind the tips, and over a round belly's top
 constexpr double kProfileReach =
     0.045;  // about a breast's radius: skin above and below that it stands out from
 
@@ -66,7 +66,9 @@ BustPoint find_bust_point(const BodyShape& body, const Trunk& trunk, Side side) 
       const Vector3d& q = body.mesh.vertices[w];
       return ahead.dot(q - p) > 0 && (q - p).squaredNorm() < std::pow(kNeighbourhood * s, 2);
     });
-    if (!furthest || front_at(body, chest, middle.y(), p.z(), p.x() - 1) > p.x() - kCleavage * s) continue;
+    if (!furthest ||
+        front_at(body, chest, middle.y(), p.z() + kAboveTip * s, p.x() - 1) > p.x() - kCleavage * s)
+      continue;
     const double above = front_at(body, chest, p.y(), p.z() + margin, p.x());
     const double below = front_at(body, chest, p.y(), p.z() - margin, p.x());
     const double stands_out = p.x() - (above + below) / 2;
