@@ -17,7 +17,6 @@ constexpr double kWidestGap =
     0.02;  // statures, of arm and trunk a fraction of a millimetre under the place where they join
 constexpr double kDome =
     0.0066;  // statures: an armpit is a dome of 11 mm, whether its owner is slim or heavy
-constexpr double kFilling = 0.0075;      // statures; more above where arm and trunk join was not seen
 constexpr double kRoundFilling = 0.015;  // skin round a filling, smoothed with it
 constexpr double kBesideGap = 0.02;      // the bridge from arm to trunk is as near as that to the gap
 constexpr double kFurtherUp = 0.015;     // there the arm is one with the trunk
@@ -213,8 +212,7 @@ Axilla Trunk::find_axilla(Side side) const {
                              std::max(inner, outer), 0},
                             kFurtherUp * body_.stature);
     if (gap_beside(trunk, outlines, side, kWidestGap * body_.stature, axilla.point)) {
-      axilla.filled = (axilla.root.found && axilla.root.height - low > (kDome + kFilling) * body_.stature) ||
-                      body_.unseen(axilla.point, kRoundFilling * body_.stature);
+      axilla.filled = body_.unseen(axilla.point, kRoundFilling * body_.stature);
       return axilla;
     }
   }
