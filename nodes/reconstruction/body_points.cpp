@@ -19,24 +19,6 @@ Points points_at(const Points& points, const std::vector<int>& indices) {
   return result;
 }
 
-/// Points in neighbourhoods that hold at least a tenth of what the median point's does, in the grid's order.
-std::vector<int> without_stray(const Points& points) {
-  const VoxelGrid grid(points, kNeighbourhood);
-  std::vector<int> company(grid.cell_count()), cells, sorted;
-  for (int c = 0; c < grid.cell_count(); ++c) {
-    grid.around(c, cells);
-    for (int other : cells) company[c] += grid.end(other) - grid.begin(other);
-    sorted.insert(sorted.end(), grid.end(c) - grid.begin(c), company[c]);
-  }
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  const int enough = std::max(3, sorted[sorted.size() / 2] / 10);
-  std::vector<int> kept;
-  for (int c = 0; c < grid.cell_count(); ++c)
-    if (company[c] >= enough)
-      kept.insert(kept.end(), grid.order().begin() + grid.begin(c), grid.order().begin() + grid.end(c));
-  return kept;
-}
-
 /// Number of the connected cluster of each cell.
 std::vector<int> clusters_of(const VoxelGrid& grid) {
   std::vector<int> cluster(grid.cell_count(), -1), front, cells;
@@ -61,6 +43,23 @@ std::vector<int> clusters_of(const VoxelGrid& grid) {
 }
 
 }  // namespace
+
+std::vector<int> without_stray(const Points& points) {
+  const VoxelGrid grid(points, kNeighbourhood);
+  std::vector<int> company(grid.cell_count()), cells, sorted;
+  for (int c = 0; c < grid.cell_count(); ++c) {
+    grid.around(c, cells);
+    for (int other : cells) company[c] += grid.end(other) - grid.begin(other);
+    sorted.insert(sorted.end(), grid.end(c) - grid.begin(c), company[c]);
+  }
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  const int enough = std::max(3, sorted[sorted.size() / 2] / 10);
+  std::vector<int> kept;
+  for (int c = 0; c < grid.cell_count(); ++c)
+    if (company[c] >= enough)
+      kept.insert(kept.end(), grid.order().begin() + grid.begin(c), grid.order().begin() + grid.end(c));
+  return kept;
+}
 
 std::vector<int> body_points(const Points& points) {
   if (points.empty()) return {};

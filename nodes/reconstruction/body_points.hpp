@@ -6,6 +6,10 @@
 
 namespace tensegric_fit::reconstruction {
 
+/// Indices of the points in neighbourhoods of a few centimetres that hold at least a tenth of what the median
+/// point's does; spatially ordered. \pre not empty, finite points within a few metres
+std::vector<int> without_stray(const std::vector<Eigen::Vector3d>& points);
+
 /// Indices of the largest thing in the scan, without stray points; spatially ordered, so that neighbours lie
 /// close in memory too. \pre finite points within a few metres, floor removed
 std::vector<int> body_points(const std::vector<Eigen::Vector3d>& points);

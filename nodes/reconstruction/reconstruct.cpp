@@ -19,6 +19,7 @@
 #include "reconstruction/standing.hpp"
 #include "reconstruction/support.hpp"
 #include "reconstruction/surface_fit.hpp"
+#include "reconstruction/surface_points.hpp"
 #include "reconstruction/thinning.hpp"
 #include "reconstruction/validate.hpp"
 
@@ -74,7 +75,7 @@ double lowest_of(const std::vector<Eigen::Vector3d>& points) {
 
 /// The body's points, upright, the ground under the soles at z = 0; `from_scan` takes the scan to them.
 PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometry3d& from_scan) {
-  const std::optional<Floor> floor = find_floor(scan.points);
+  const std::optional<Floor> floor = find_floor(pick(scan, without_stray(scan.points)).points);
   const Eigen::Vector3d middle = geometry::bounding_box(scan.points)[0];
   from_scan = floor ? level(floor->normal, floor->offset, middle)
                     : level(Eigen::Vector3d::UnitZ(), middle.z(), middle);
@@ -87,6 +88,11 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
     scan = pick(scan, above);
   }
   PointCloud body = pick(scan, body_points(scan.points));
+  const std::vector<int> on_surface = surface_points(body.points);
+  if (on_surface.size() < body.points.size()) {
+    body = pick(body, on_surface);
+    body = pick(body, body_points(body.points));
+  }
   check_shape(body.points, options);
   Eigen::Isometry3d to_ground = resting_plane(body.points);
   const bool leans = to_ground.linear()(2, 2) < kFlatOnFloor;
