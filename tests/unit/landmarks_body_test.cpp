@@ -236,6 +236,41 @@ TEST(Landmarks, ArmsMayBeHeldOut) {
         << name;  // a real collarbone rises with the arm, by 16 mm towards the neck; this figure has none
 }
 
+TEST(Landmarks, ABellyIsNoBreast) {
+  test::Parts parts;
+  parts.belly = 0.03;
+  const BodyMeasures slim = measure(plain_person()), round = measure(test::person_mesh(parts));
+  for (const char* name : {"bust_point_L", "bust_point_R"})  // the belly's top melts into the breasts
+    EXPECT_LT((round.landmark(name) - slim.landmark(name)).norm(), 0.012) << name;
+  EXPECT_GT(girth(round, "waist"), girth(slim, "waist") + 0.1);
+}
+
+TEST(Landmarks, AnAxillaIsFoundForEachPoseOfTheArm) {
+  for (const bool out : {false, true}) {
+    test::Parts parts;
+    parts.arms_out = out;
+    const BodyMeasures measures = measure(test::person_mesh(parts));
+    for (const char* name : {"axilla_L", "axilla_R"}) {
+      // Under the arm's root (45 mm thick, centred 0.19 m out at 1.34 m) and outside the chest, 0.15 m.
+      const Vector3d& axilla = measures.landmark(name);
+      EXPECT_GT(std::abs(axilla.y()), 0.12) << name << out;
+      EXPECT_LT(std::abs(axilla.y()), 0.24) << name << out;
+      EXPECT_NEAR(axilla.z(), 1.27, 0.04) << name << out;
+    }
+  }
+}
+
+TEST(Landmarks, ASideWithoutAnArmIsToldByTheOther) {
+  TriangleMesh mesh = plain_person();
+  const BodyMeasures both = measure(mesh);
+  test::Parts parts;
+  parts.right_arm = false;
+  const BodyMeasures one = measure(test::person_mesh(parts));
+  EXPECT_EQ(one.find_landmark("axilla_R"), nullptr);
+  EXPECT_LT((one.landmark("axilla_L") - both.landmark("axilla_L")).norm(), 0.002);
+  EXPECT_LT((one.landmark("shoulder_L") - both.landmark("shoulder_L")).norm(), 0.010);
+}
+
 TEST(Landmarks, GirthsOfLimbsAreSquareToThem) {
   const BodyMeasures measures = measure(plain_person());
   // The arm's radius falls from 45 to 30 mm over 586 mm, the thigh's from 80 to 45 mm over 750 mm. A grid of

@@ -33,17 +33,19 @@ inline double melt(double a, double b) {
 }
 
 struct Parts {
-  bool head = true, arms = true;
+  bool head = true, arms = true, right_arm = true;
   bool arms_out = false;         ///< level, to the sides
   double left_breast_lower = 0;  ///< metres
   double web_below_crotch = 0;   ///< metres of a thin skin between the thighs, as a scan's hole filling makes
+  double belly = 0;              ///< metres by which a round belly reaches further forward than the breasts
 };
 
-/// x forward, y left, z up, soles at 0. The breasts' foremost points are (0.155, +-0.085, 1.24), least girth of the trunk
-/// near 1.08.
+/// x forward, y left, z up, soles at 0. The breasts' foremost points are (0.155, +-0.085, 1.24), least girth
+/// of the trunk near 1.08.
 inline double person(const Eigen::Vector3d& p, const Parts& parts) {
   double d = ellipsoid(p, {0, 0, 0.93}, {0.11, 0.16, 0.14});
   d = melt(d, ellipsoid(p, {0, 0, 1.08}, {0.095, 0.12, 0.20}));
+  if (parts.belly > 0) d = melt(d, ellipsoid(p, {0, 0, 1.04}, {0.155 + parts.belly, 0.17, 0.14}));
   d = melt(d, ellipsoid(p, {0, 0, 1.26}, {0.11, 0.15, 0.17}));
   for (double side : {1.0, -1.0}) {
     const double lower = side > 0 ? parts.left_breast_lower : 0;
@@ -53,7 +55,8 @@ inline double person(const Eigen::Vector3d& p, const Parts& parts) {
     d = melt(d, ellipsoid(p, {0.09, side * 0.085, 1.24 - lower}, {0.065, 0.06, 0.06}));
     d = melt(d, capsule(p, {0, side * 0.05, 1.40}, {0, side * 0.17, 1.36}, 0.05, 0.05));
     const double hand_y = parts.arms_out ? 0.70 : 0.42, hand_z = parts.arms_out ? 1.26 : 0.80;
-    if (parts.arms) d = melt(d, capsule(p, {0, side * 0.19, 1.34}, {0, side * hand_y, hand_z}, 0.045, 0.03));
+    if (parts.arms && (side > 0 || parts.right_arm))
+      d = melt(d, capsule(p, {0, side * 0.19, 1.34}, {0, side * hand_y, hand_z}, 0.045, 0.03));
   }
   d = melt(d, capsule(p, {0, 0, 1.38}, {0.02, 0, 1.50}, 0.055, 0.05));
   if (parts.head) d = melt(d, ellipsoid(p, {0.03, 0, 1.58}, {0.10, 0.08, 0.12}));
