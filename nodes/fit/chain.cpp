@@ -55,6 +55,7 @@ Body measure_scan(const geometry::PointCloud& scan, const Settings& settings, St
   }
   const Stopwatch watch(times.landmarks);
   body.measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, settings.landmarks);
+  geometry::doubt_fractured(body.mesh.fractures, body.measures);
   return body;
 }
 

@@ -129,7 +129,14 @@ Json report_of(const Source& source, const Body& body, const Fitting* fitting, c
                     {"closed", geometry::is_closed(body.mesh.mesh)}};
   report["body"]["holes"] = Json::array();
   for (const auto& hole : body.mesh.holes)
-    report["body"]["holes"].push_back({{"centre", json_of(hole.centre)}, {"area", hole.area}});
+    report["body"]["holes"].push_back(
+        {{"centre", json_of(hole.centre)}, {"area", hole.area}, {"confidence", hole.confidence}});
+  report["body"]["fractures"] = Json::array();
+  for (const geometry::Fracture& fracture : body.mesh.fractures)
+    report["body"]["fractures"].push_back({{"centre", json_of(fracture.centre)},
+                                           {"radius", fracture.radius},
+                                           {"area", fracture.area},
+                                           {"offset", fracture.offset}});
   add_measures(body.measures, report);
   if (fit != nullptr) add_fit(body, *fitting, *fit, settings, times, report);
   return report;

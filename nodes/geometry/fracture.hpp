@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
+
+#include "geometry/body_measures.hpp"
 
 namespace tensegric_fit::geometry {
 
@@ -13,5 +16,9 @@ struct Fracture {
   double area;             ///< m^2 of skin
   double offset;           ///< m between the two sheets, along their normal, where they are farthest apart
 };
+
+/// Lowers the confidence of the landmarks, and of the girths whose tape runs, where the scan shows skin
+/// twice, and says why.
+void doubt_fractured(const std::vector<Fracture>& fractures, BodyMeasures& measures);
 
 }  // namespace tensegric_fit::geometry
