@@ -9,8 +9,10 @@
 namespace tensegric_fit::landmarks {
 namespace {
 
-constexpr double kBehindPubis =
-    0.040;  // statures: the perineum's middle, on bone, however far back thighs touch
+// Statures: the perineum's middle, on bone, however far back thighs touch; and of what thighs are deeper than
+// slim ones, this share lies as fat before the bone.
+constexpr double kBehindPubis = 0.040, kSlimThigh = 0.092, kFatBefore = 0.08;
+constexpr double kThighBelowCrotch = 0.03;
 
 constexpr double kThigh = 0.13;  // statures under the buttock point: the back of the thigh, below the fold
 constexpr double kFoldByProportion = 0.065;
@@ -84,7 +86,13 @@ Eigen::Vector3d side_of(const Outline& outline, Side side) {
 Eigen::Vector3d find_crotch(const BodyShape& body) {
   const double y = body.crotch.above.y, s = body.stature;
   const Bridge bridge = narrowest_bridge(body.sliced.outlines_at(body.crotch.height + 0.003 * s), y, y);
-  return {std::max(bridge.front - kBehindPubis * s, bridge.back), y, body.crotch.height};
+  const Level& thighs = body.levels.levels[body.levels.nearest(
+      std::min(body.crotch.height - kThighBelowCrotch * s, body.levels.legs_part))];
+  double depth = 0;
+  for (const int leg : thighs.legs)
+    if (leg >= 0) depth += (thighs.outlines[leg].high.x() - thighs.outlines[leg].low.x()) / (2 * s);
+  const double behind = kBehindPubis + kFatBefore * std::max(depth - kSlimThigh, 0.0);
+  return {std::max(bridge.front - behind * s, bridge.back), y, body.crotch.height};
 }
 
 }  // namespace tensegric_fit::landmarks
