@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "booth/viewpoint_normals.hpp"
+#include "geometry/halves.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::booth {
@@ -45,12 +46,17 @@ Assembly assemble(const Capture& capture, const std::vector<Isometry3d>& booth_f
   check_columns(capture.clouds.size(), options.sensors_per_column);
   Assembly assembly;
   // 1. Columns in the booth's frame, with normals.
-  std::vector<PointCloud> columns(capture.clouds.size() / options.sensors_per_column);
-  for (std::size_t sensor = 0; sensor < capture.clouds.size(); ++sensor) {
-    if (!capture.clouds[sensor]) continue;
-    const PointCloud cloud = in_booth(capture.clouds[sensor]->cloud, booth_from_sensor[sensor]);
-    append(columns[sensor / options.sensors_per_column], cloud);
-    assembly.sensor.insert(assembly.sensor.end(), cloud.points.size(), static_cast<std::uint8_t>(sensor));
+  std::vector<PointCloud> clouds(capture.clouds.size());
+  geometry::in_halves(clouds.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t sensor = begin; sensor < end; ++sensor)
+      if (capture.clouds[sensor])
+        clouds[sensor] = in_booth(capture.clouds[sensor]->cloud, booth_from_sensor[sensor]);
+  });
+  std::vector<PointCloud> columns(clouds.size() / options.sensors_per_column);
+  for (std::size_t sensor = 0; sensor < clouds.size(); ++sensor) {
+    append(columns[sensor / options.sensors_per_column], clouds[sensor]);
+    assembly.sensor.insert(assembly.sensor.end(), clouds[sensor].points.size(),
+                           static_cast<std::uint8_t>(sensor));
   }
   // 2. Their corrections.
   if (options.refine) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "geometry/halves.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
 
@@ -119,32 +120,40 @@ class Columns {
  private:
   void find_pairs() {
     const int count = static_cast<int>(columns_.size());
-    const int per_pair = std::max(400, kSearches / std::max(1, count * (count - 1)));
-    for (int a = 0; a < count; ++a) {
-      const std::size_t points = columns_[a].points.size(), stride = 1 + points / (4 * per_pair);
-      for (int b = 0; b < count; ++b) {
-        if (a == b || !trees_[b]) continue;
-        Pair pair{a, b, {}};
-        Match match;
-        for (std::size_t i = 0; i < points; i += stride)
-          if (find(pair, static_cast<int>(i), match)) pair.points.push_back(static_cast<int>(i));
-        if (pair.points.size() < kFewestOfPair) continue;
-        const std::size_t every = 1 + pair.points.size() / (2 * per_pair);
-        for (std::size_t i = 0; i * every < pair.points.size(); ++i) pair.points[i] = pair.points[i * every];
-        pair.points.resize((pair.points.size() + every - 1) / every);
-        pairs_.push_back(std::move(pair));
-      }
-    }
+    for (int a = 0; a < count; ++a)
+      for (int b = 0; b < count; ++b)
+        if (a != b && trees_[a] && trees_[b]) pairs_.push_back({a, b, {}});
+    const std::size_t most = std::max<std::size_t>(400, kSearches / std::max<std::size_t>(1, pairs_.size()));
+    geometry::in_halves(pairs_.size(), [&](std::size_t begin, std::size_t end, int) {
+      for (std::size_t p = begin; p < end; ++p) choose_points(pairs_[p], most);
+    });
+    pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(),
+                                [](const Pair& pair) { return pair.points.size() < kFewestOfPair; }),
+                 pairs_.end());
+  }
+
+  /// Of the points that have a match, twice as many as a step is to look for: the others are for the check.
+  void choose_points(Pair& pair, std::size_t most) const {
+    const std::size_t points = columns_[pair.a].points.size(), stride = 1 + points / (4 * most);
+    std::vector<int> matched;
+    Match match;
+    for (std::size_t i = 0; i < points; i += stride)
+      if (find(pair, static_cast<int>(i), match)) matched.push_back(static_cast<int>(i));
+    const std::size_t every = 1 + matched.size() / (2 * most);
+    for (std::size_t i = 0; i < matched.size(); i += every) pair.points.push_back(matched[i]);
   }
 
   /// Every other point, the first or the second of two.
   std::vector<Match> matches(std::size_t first) const {
-    std::vector<Match> found;
-    Match match;
-    for (const Pair& pair : pairs_)
-      for (std::size_t i = first; i < pair.points.size(); i += 2)
-        if (find(pair, pair.points[i], match)) found.push_back(match);
-    return found;
+    std::vector<Match> found[2];
+    geometry::in_halves(pairs_.size(), [&](std::size_t begin, std::size_t end, int half) {
+      Match match;
+      for (std::size_t p = begin; p < end; ++p)
+        for (std::size_t i = first; i < pairs_[p].points.size(); i += 2)
+          if (find(pairs_[p], pairs_[p].points[i], match)) found[half].push_back(match);
+    });
+    found[0].insert(found[0].end(), found[1].begin(), found[1].end());
+    return std::move(found[0]);
   }
 
   bool find(const Pair& pair, int i, Match& match) const {

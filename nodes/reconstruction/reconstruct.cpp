@@ -5,11 +5,11 @@
 #include <future>
 
 #include "geometry/decimate.hpp"
+#include "geometry/halves.hpp"
 #include "geometry/status.hpp"
 #include "reconstruction/body_points.hpp"
 #include "reconstruction/floor.hpp"
 #include "reconstruction/fractures.hpp"
-#include "reconstruction/halves.hpp"
 #include "reconstruction/handles.hpp"
 #include "reconstruction/normals.hpp"
 #include "reconstruction/poisson.hpp"
@@ -130,7 +130,7 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   result.mesh = geometry::with_triangles(mesh, options.body_triangles);
   result.points_used = seen;
   body.points.resize(seen);
-  in_halves(2, [&](std::size_t, std::size_t, int half) {
+  geometry::in_halves(2, [&](std::size_t, std::size_t, int half) {
     const auto filled =
         filled_vertices(half == 0 ? result.mesh : mesh, body.points, options.support_distance);
     if (half == 0)

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/halves.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/triangle_mesh.hpp"
-#include "reconstruction/halves.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -118,7 +118,7 @@ geometry::PointCloud sight_line_points(const geometry::PointCloud& body) {
   const int slices_of_row = std::clamp(
       static_cast<int>(std::ceil(kDense / static_cast<double>(body.points.size()))), 1, kMostSlices);
   std::array<geometry::PointCloud, 2> of_half;
-  in_halves(kEyes, [&](std::size_t begin, std::size_t end, int half) {
+  geometry::in_halves(kEyes, [&](std::size_t begin, std::size_t end, int half) {
     for (std::size_t i = begin; i < end; ++i) {
       const double turn = M_PI * static_cast<double>(i) / kEyes;
       look(body, {std::cos(turn), std::sin(turn), 0}, slices_of_row, of_half[half]);

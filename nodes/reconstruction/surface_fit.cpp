@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/halves.hpp"
 #include "geometry/point_tree.hpp"
-#include "reconstruction/halves.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -43,7 +43,7 @@ void fit_to_points(geometry::TriangleMesh& mesh, const geometry::PointCloud& clo
   const geometry::PointTree tree(cloud.points);
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<Eigen::Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
-    in_halves(mesh.vertices.size(), [&](std::size_t begin, std::size_t end, int) {
+    geometry::in_halves(mesh.vertices.size(), [&](std::size_t begin, std::size_t end, int) {
       std::vector<int> near;
       for (std::size_t v = begin; v < end; ++v) {
         tree.nearest(mesh.vertices[v], kNeighbours, near);

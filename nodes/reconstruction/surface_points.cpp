@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "geometry/halves.hpp"
 #include "geometry/point_tree.hpp"
-#include "reconstruction/halves.hpp"
 #include "reconstruction/percentile.hpp"
 #include "reconstruction/voxel_grid.hpp"
 
@@ -27,7 +27,7 @@ std::vector<char> look_stray(const Points& points, const geometry::PointTree& tr
   Points sample(count);
   std::vector<double> reach(count);
   std::vector<char> stray(count);
-  in_halves(count, [&](std::size_t begin, std::size_t end, int) {
+  geometry::in_halves(count, [&](std::size_t begin, std::size_t end, int) {
     std::vector<int> near;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
     for (std::size_t s = begin; s < end; ++s) {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <future>
 
-namespace tensegric_fit::reconstruction {
+namespace tensegric_fit::geometry {
 
 /// Calls `work(begin, end, half)` for the first half of [0, count) on a second thread and for the other on
 /// this one: the same two halves on every machine. What either throws is thrown here. \pre the halves write
@@ -17,4 +17,4 @@ void in_halves(std::size_t count, const Work& work) {
   first.get();
 }
 
-}  // namespace tensegric_fit::reconstruction
+}  // namespace tensegric_fit::geometry
