@@ -25,6 +25,7 @@ struct Measure {
   double metres;
   double confidence;
   std::string reason;
+  double half_width = 0;  ///< metres, of a measured girth's 95 % interval; 0 where nothing is said
 };
 
 /// The tape of a girth as drawn: a closed loop in the scan's frame.

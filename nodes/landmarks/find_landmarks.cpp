@@ -1,11 +1,13 @@
 #include "landmarks/find_landmarks.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "geometry/status.hpp"
 #include "landmarks/body_frame.hpp"
 #include "landmarks/bust.hpp"
 #include "landmarks/girth_levels.hpp"
+#include "landmarks/girth_spread.hpp"
 #include "landmarks/limb_girths.hpp"
 #include "landmarks/lower_trunk.hpp"
 #include "landmarks/neck.hpp"
@@ -54,13 +56,24 @@ class Record {
     measures_.heights.push_back({name, metres, confidence, std::move(reason)});
   }
 
-  void girth(const std::string& name, const std::vector<Vector3d>& tape, double confidence = 0.9,
+  /// `tape_at` gives the tape at an offset from its level.
+  void girth(const std::string& name, const std::function<Tape(double)>& tape_at, double confidence = 0.9,
              std::string reason = "") {
+    const Tape tape = tape_at(0);
     if (tape.size() < 3) return;
-    measures_.girths.push_back({name, geometry::length_of(tape, true), confidence, std::move(reason)});
+    measures_.girths.push_back({name, geometry::length_of(tape, true), confidence, std::move(reason),
+                                half_width_of(body_, tape_at)});
     geometry::GirthLoop loop{name, {}};
     for (const Vector3d& p : tape) loop.points.push_back(scan_from_body_ * p);
     measures_.loops.push_back(std::move(loop));
+  }
+
+  /// Of the neck or a limb.
+  void girth(const std::string& name, const Tape& tape, double confidence, std::string reason) {
+    if (tape.size() < 3) return;
+    girth(
+        name, [&](double offset) { return offset == 0 ? tape : parallel_tape(body_, tape, offset); },
+        confidence, std::move(reason));
   }
 
   void missing(const std::string& name, const std::string& reason) {
@@ -133,7 +146,7 @@ double lower_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
   const double hip = found > 0 ? sum / found : crotch + 0.05 * body.stature;
   record.height("hip", hip, found > 0 ? 0.9 : 0.3,
                 found > 0 ? "" : "no buttock stands out; a level by proportion");
-  record.girth("hip", tape_loop(trunk.outline_at(hip)));
+  record.girth("hip", [&](double offset) { return tape_loop(trunk.outline_at(hip + offset)); });
   sides(trunk, "hip_side", hip, found > 0 ? 0.9 : 0.3, record);
   return hip;
 }
@@ -159,17 +172,23 @@ double bust(const BodyShape& body, const Trunk& trunk, Record& record) {
     }
   }
   record.height("bust", height, confidence, reason);
-  record.girth("bust", tape_loop(trunk.outlines_with_breasts_at(height)), confidence, reason);
+  record.girth(
+      "bust", [&](double offset) { return tape_loop(trunk.outlines_with_breasts_at(height + offset)); },
+      confidence, reason);
   record.height("underbust", underbust, fold_confidence, fold_reason);
-  record.girth("underbust", tape_loop(trunk.outline_at(underbust - kUnderbustBelowFold)), fold_confidence,
-               fold_reason);
+  const double level = underbust - kUnderbustBelowFold;
+  record.girth(
+      "underbust", [&](double offset) { return tape_loop(trunk.outline_at(level + offset)); },
+      fold_confidence, fold_reason);
   return underbust;
 }
 
 void waist(const BodyShape& body, const Trunk& trunk, double hip, double underbust, Record& record) {
   const WaistLevel level = find_waist(body, trunk, hip + kWaistAboveHip, underbust - kWaistBelowUnderbust);
   record.height("waist", level.height, level.confidence, level.reason);
-  record.girth("waist", tape_loop(trunk.outline_at(level.height)), level.confidence, level.reason);
+  record.girth(
+      "waist", [&](double offset) { return tape_loop(trunk.outline_at(level.height + offset)); },
+      level.confidence, level.reason);
   sides(trunk, "waist_side", level.height, level.confidence, record);
 
   const double navel = navel_height(body);

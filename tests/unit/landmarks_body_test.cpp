@@ -293,6 +293,24 @@ TEST(Landmarks, FilledSkinIsLessCertain) {
   EXPECT_GE(measures.find_landmark("bust_point_R")->confidence, 0.5);
 }
 
+TEST(Landmarks, AGirthSaysHowFarItCanBeOff) {
+  const TriangleMesh& mesh = plain_person();
+  std::vector<char> filled(mesh.vertices.size(), 0);
+  for (std::size_t v = 0; v < filled.size(); ++v) filled[v] = mesh.vertices[v].x() < 0;
+  const BodyMeasures seen = measure(mesh), half_seen = landmarks::find_landmarks(mesh, filled, {});
+  ASSERT_EQ(seen.girths.size(), half_seen.girths.size());
+  for (std::size_t i = 0; i < seen.girths.size(); ++i) {
+    EXPECT_GT(seen.girths[i].half_width, 0) << seen.girths[i].name;
+    EXPECT_GE(half_seen.girths[i].half_width, seen.girths[i].half_width) << seen.girths[i].name;
+  }
+  // The whole back 5 mm off changes a girth by half of 2 pi times 5 mm.
+  const auto hip = std::find_if(half_seen.girths.begin(), half_seen.girths.end(),
+                                [](const geometry::Measure& m) { return m.name == "hip"; });
+  ASSERT_NE(hip, half_seen.girths.end());
+  EXPECT_GT(hip->half_width, 0.008);
+  EXPECT_LT(hip->half_width, 0.025);
+}
+
 TEST(Landmarks, WhatIsNoStandingBodyIsRefused) {
   const auto mesh = [](const test::Distance& d) {
     return test::surface_of(d, {-0.55, -0.55, -0.05}, {0.55, 0.55, 1.75}, 0.03);
