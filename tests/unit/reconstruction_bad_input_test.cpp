@@ -70,8 +70,8 @@ struct Outcome {
 
 Outcome measure(const Points& points) {
   reconstruction::Options options;
-  options.body_triangles = 30000;
-  options.poisson_depth = 8;
+  options.body_triangles = 20000;
+  options.poisson_depth = 7;
   try {
     const reconstruction::BodyMesh body = reconstruction::reconstruct({points, {}}, options);
     return {"", landmarks::find_landmarks(body.mesh, body.filled, {})};
