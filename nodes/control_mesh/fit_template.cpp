@@ -135,6 +135,7 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
   while (control.triangles.size() < static_cast<std::size_t>(options.control_triangles))
     control = subdivide(control, skin);
   match_skin(control, liftable(pattern, control), skin);
+  thin_folded_units(control);
 
   // 4. Back to the scan's frame.
   const Eigen::Isometry3d scan_from_body = measures.body_from_scan.inverse();

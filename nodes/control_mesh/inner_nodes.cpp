@@ -39,10 +39,14 @@ void place_inner_nodes(geometry::ControlMesh& control, std::vector<double> thick
     const auto far_side = skin.first_exit(below, -normals[v], thickness[v] / kShareOfBody);
     if (far_side) thickness[v] = std::min(thickness[v], kShareOfBody * (*far_side - below).norm());
   }
+  for (std::size_t v = 0; v < thickness.size(); ++v)
+    control.inner[v] = control.outer[v] - thickness[v] * normals[v];
+  thin_folded_units(control);
+}
+
+void thin_folded_units(geometry::ControlMesh& control) {
   for (int round = 0; round < kMostRounds; ++round) {
-    for (std::size_t v = 0; v < thickness.size(); ++v)
-      control.inner[v] = control.outer[v] - thickness[v] * normals[v];
-    std::vector<char> too_thick(thickness.size(), 0);
+    std::vector<char> too_thick(control.outer.size(), 0);
     for (const Eigen::Vector3i& k : control.triangles) {
       const Vector3d outer =
           geometry::area_vector(control.outer[k[0]], control.outer[k[1]], control.outer[k[2]]);
@@ -52,8 +56,8 @@ void place_inner_nodes(geometry::ControlMesh& control, std::vector<double> thick
         for (int i = 0; i < 3; ++i) too_thick[k[i]] = 1;
     }
     if (std::find(too_thick.begin(), too_thick.end(), 1) == too_thick.end()) return;
-    for (std::size_t v = 0; v < thickness.size(); ++v)
-      if (too_thick[v]) thickness[v] *= kShrink;
+    for (std::size_t v = 0; v < too_thick.size(); ++v)
+      if (too_thick[v]) control.inner[v] = control.outer[v] + kShrink * (control.inner[v] - control.outer[v]);
   }
 }
 

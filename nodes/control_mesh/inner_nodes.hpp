@@ -12,4 +12,7 @@ namespace tensegric_fit::control_mesh {
 /// is thin there or where an inner triangle would fold or shrink to a sliver.
 void place_inner_nodes(geometry::ControlMesh& control, std::vector<double> thickness, const Skin& skin);
 
+/// Brings inner nodes nearer to their outer ones wherever an inner triangle is folded or a sliver.
+void thin_folded_units(geometry::ControlMesh& control);
+
 }  // namespace tensegric_fit::control_mesh

@@ -26,7 +26,7 @@ int whole_number(const YAML::Node& map, const char* key, int low, int high, cons
 }
 
 Reference reference_from(const YAML::Node& map, double most_offset, const std::string& where) {
-  check_keys(map, {"landmark", "between", "at", "offset"}, where, kCode);
+  check_keys(map, {"landmark", "between", "at", "offset", "below", "by"}, where, kCode);
   Reference reference;
   if (map["between"]) {
     const auto ends = required<std::vector<std::string>>(map, "between", where, kCode);
@@ -40,6 +40,8 @@ Reference reference_from(const YAML::Node& map, double most_offset, const std::s
     if (map["at"]) throw Refusal(kCode, where + ": 'at' needs 'between'");
   }
   if (map["offset"]) reference.offset = number_in(map, "offset", -most_offset, most_offset, where, kCode);
+  if (map["below"]) reference.below = required<std::string>(map, "below", where, kCode);
+  if (map["below"] || map["by"]) reference.by = number_in(map, "by", 0, 0.5, where, kCode);
   return reference;
 }
 
@@ -195,12 +197,13 @@ void check_lines(const Template& pattern, const std::string& path) {
 Template load_template(const std::string& path) {
   const YAML::Node root = geometry::load_yaml_map(path, kCode);
   check_keys(root,
-             {"name", "axis", "rows", "columns", "nodes", "diagonals", "fixed", "inner_fixed", "thickness",
-              "regions", "lines"},
+             {"name", "axis", "axis_foot", "rows", "columns", "nodes", "diagonals", "fixed", "inner_fixed",
+              "thickness", "regions", "lines"},
              path, kCode);
   Template pattern;
   pattern.name = required<std::string>(root, "name", path, kCode);
   pattern.axis = axis_from(root, path);
+  if (root["axis_foot"]) pattern.axis_foot = required<std::string>(root, "axis_foot", path, kCode);
   pattern.rows = whole_number(root, "rows", 2, kMostRows, path);
   pattern.columns = whole_number(root, "columns", 3, kMostRows, path);
   if (pattern.columns % 2 == 0)

@@ -32,10 +32,29 @@ Vector3d vertical_through(const geometry::BodyMeasures& measures, const std::vec
   return {mean.x(), mean.y(), 0};
 }
 
+/// The trunk's axis at any height: under the template's axis landmarks, over its foot where that is known.
+class LeaningAxis {
+ public:
+  LeaningAxis(const Template& pattern, const geometry::BodyMeasures& measures)
+      : top_(trunk_axis(pattern, measures)) {
+    for (const std::string& landmark : pattern.axis)
+      top_.z() += in_body(measures, landmark).z() / static_cast<double>(pattern.axis.size());
+    if (pattern.axis_foot.empty() || !measures.find_landmark(pattern.axis_foot)) return;
+    const Vector3d up = top_ - in_body(measures, pattern.axis_foot);
+    constexpr double kLeast = 0.1;  // m; a foot that is hardly lower tells no lean
+    if (up.z() > kLeast) lean_ = {up.x() / up.z(), up.y() / up.z(), 1};
+  }
+
+  Vector3d at(double height) const { return top_ + (height - top_.z()) * lean_; }
+
+ private:
+  Vector3d top_, lean_ = Vector3d::UnitZ();
+};
+
 class Placer {
  public:
   Placer(const Template& pattern, const geometry::BodyMeasures& measures, const Skin& skin)
-      : pattern_(pattern), measures_(measures), skin_(skin), axis_(trunk_axis(pattern, measures)) {
+      : pattern_(pattern), measures_(measures), skin_(skin), axis_(pattern, measures) {
     positions_.resize(grid_of(pattern).outer.size(), Vector3d::Zero());
     known_.resize(positions_.size(), 0);
   }
@@ -62,10 +81,12 @@ class Placer {
       return skin_.nearest(0.5 * (in_body(measures_, name_on(node.landmark, first)) +
                                   in_body(measures_, name_on(node.landmark, second))));
     const double height = 0.5 * (level(node.level, first) + level(node.level, second));
-    const Vector3d axis = node.axis.empty() ? axis_ : vertical_through(measures_, node.axis, side);
+    const auto axis = [&](double z) -> Vector3d {
+      return node.axis.empty() ? axis_.at(z) : vertical_through(measures_, node.axis, side);
+    };
     const Vector3d direction =
         (heading(node.angle, axis, first) + heading(node.angle, axis, second)).normalized();
-    const Vector3d centre(axis.x(), axis.y(), height);
+    const Vector3d centre(axis(height).x(), axis(height).y(), height);
     const auto exit = skin_.first_exit(centre, direction, kTrunkReach);
     if (!exit)
       throw geometry::Refusal(geometry::refusal::kNotABody,
@@ -81,13 +102,17 @@ class Placer {
     double z = in_body(measures_, name_on(reference.landmark, side)).z();
     if (!reference.towards.empty())
       z += reference.at * (in_body(measures_, name_on(reference.towards, side)).z() - z);
+    if (!reference.below.empty())
+      z = std::min(z, in_body(measures_, name_on(reference.below, side)).z() - reference.by);
     return z + reference.offset;
   }
 
-  Vector3d heading(const Reference& reference, const Vector3d& axis, Side side) const {
+  /// `axis` gives its own place at any height: a landmark is seen from its own height.
+  template <typename Axis>
+  Vector3d heading(const Reference& reference, const Axis& axis, Side side) const {
     const auto angle_to = [&](const std::string& landmark) {
-      const Vector3d p = in_body(measures_, name_on(landmark, side)) - axis;
-      return std::atan2(p.y(), p.x());
+      const Vector3d p = in_body(measures_, name_on(landmark, side)), from = p - axis(p.z());
+      return std::atan2(from.y(), from.x());
     };
     double angle = angle_to(reference.landmark);
     if (!reference.towards.empty()) {
@@ -99,9 +124,11 @@ class Placer {
   }
 
   /// Of the farther landmark of the two from the axis.
-  double distance(const Reference& reference, const Vector3d& axis, Side side) const {
+  template <typename Axis>
+  double distance(const Reference& reference, const Axis& axis, Side side) const {
     const auto radius = [&](const std::string& landmark) {
-      return (in_body(measures_, name_on(landmark, side)) - axis).head<2>().norm();
+      const Vector3d p = in_body(measures_, name_on(landmark, side));
+      return (p - axis(p.z())).template head<2>().norm();
     };
     return std::max(radius(reference.landmark),
                     radius(reference.towards.empty() ? reference.landmark : reference.towards));
@@ -112,32 +139,33 @@ class Placer {
     known_[node] = 1;
   }
 
-  std::vector<Vector3d> between(const Vector3d& a, const Vector3d& b, int count) const {
-    Vector3d outward = 0.5 * (a + b) - axis_;
-    outward.z() = 0;
-    return skin_.between(a, b, count, outward.normalized());
-  }
-
   void fill_row(int row, Side side) {
     std::vector<int> nodes;
     for (int column = 0; column <= pattern_.middle(); ++column)
       if (const int node = node_at(pattern_, row, column, side); node >= 0) nodes.push_back(node);
-    if (known_[nodes.front()] && known_[nodes.back()]) fill(nodes);
+    if (known_[nodes.front()] && known_[nodes.back()])
+      fill(nodes, [](const Vector3d&) -> Vector3d { return Vector3d::UnitZ(); });
   }
 
   void fill_column(int column, Side side) {
     std::vector<int> nodes;
     for (int row = 0; row < pattern_.rows; ++row)
       if (const int node = node_at(pattern_, row, column, side); node >= 0) nodes.push_back(node);
-    fill(nodes);
+    // Round the trunk, so that columns run down in upright planes
+    fill(nodes, [this](const Vector3d& p) -> Vector3d {
+      const Vector3d outward = p - axis_.at(p.z());
+      return {-outward.y(), outward.x(), 0};
+    });
   }
 
-  /// Lays what is not known evenly between the known. \pre the first and the last one are known
-  void fill(const std::vector<int>& nodes) {
+  /// Lays what is not known evenly between the known, square to `across`. \pre the first and the last one are
+  /// known
+  template <typename Direction>
+  void fill(const std::vector<int>& nodes, const Direction& across) {
     for (std::size_t from = 0, to = 1; to < nodes.size(); ++to) {
       if (!known_[nodes[to]]) continue;
-      const auto points =
-          between(positions_[nodes[from]], positions_[nodes[to]], static_cast<int>(to - from) - 1);
+      const Vector3d &a = positions_[nodes[from]], &b = positions_[nodes[to]];
+      const auto points = skin_.between(a, b, static_cast<int>(to - from) - 1, across(0.5 * (a + b)));
       for (std::size_t i = 1; i < to - from; ++i) set(nodes[from + i], points[i - 1]);
       from = to;
     }
@@ -146,7 +174,7 @@ class Placer {
   const Template& pattern_;
   const geometry::BodyMeasures& measures_;
   const Skin& skin_;
-  Vector3d axis_;
+  LeaningAxis axis_;
   std::vector<Vector3d> positions_;
   std::vector<char> known_;
 };

@@ -199,8 +199,9 @@ Vector3d Skin::nearest(const Vector3d& point) const {
 }
 
 std::vector<Vector3d> Skin::between(const Vector3d& a, const Vector3d& b, int count,
-                                    const Vector3d& outward) const {
-  const Vector3d normal = (b - a).cross(outward);
+                                    const Vector3d& across) const {
+  const Vector3d way_straight = (b - a).stableNormalized(),
+                 normal = across - across.dot(way_straight) * way_straight;
   std::vector<Vector3d> way;
   if (normal.norm() > 0) {
     const geometry::TriangleMesh part =

@@ -28,9 +28,10 @@ class Skin {
   Eigen::Vector3d nearest(const Eigen::Vector3d& point) const;
 
   /// `count` points that divide the way over the skin from `a` to `b` evenly: along the plane section through
-  /// both that holds `outward`, the shorter way round. Follows the skin into folds that a ray would miss.
+  /// both that is as square to `across` as can be, the shorter way round. Follows the skin into folds that a
+  /// ray would miss.
   std::vector<Eigen::Vector3d> between(const Eigen::Vector3d& a, const Eigen::Vector3d& b, int count,
-                                       const Eigen::Vector3d& outward) const;
+                                       const Eigen::Vector3d& across) const;
 
  private:
   /// Triangles whose cells touch the box, ascending.

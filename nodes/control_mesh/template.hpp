@@ -14,6 +14,8 @@ struct Reference {
   std::string towards;  ///< empty: the value at `landmark` alone
   double at = 0;        ///< share of the way from `landmark` to `towards`
   double offset = 0;    ///< added; angles: away from the front, to either side alike
+  std::string below;    ///< levels, before the offset: no higher than `by` metres below this landmark, if any
+  double by = 0;
 };
 
 /// A node of her left half or of the middle column: placed by the body, or with a name only.
@@ -43,7 +45,8 @@ struct TemplateLine {
 /// between those that are. Where no cell is, below a crotch, the grid has no nodes.
 struct Template {
   std::string name;
-  std::vector<std::string> axis;  ///< landmarks; the vertical through their mean is the trunk's axis
+  std::vector<std::string> axis;  ///< landmarks; the trunk's axis runs through their mean, upright or
+  std::string axis_foot;          ///< leaning, over this landmark, where the body has it; empty: upright
   int rows = 0, columns = 0;
   std::vector<TemplateNode> nodes;
   /// rows-1 words of columns/2 characters: '\' joins (r,c) to (r+1,c+1), '/' joins (r+1,c) to (r,c+1), ' ' is
