@@ -85,7 +85,7 @@ double largest_girth_height(const Tape& tape, double low, double high) {
   return best;
 }
 
-// The least girth in between, where it is less than at both ends by more than a tape would feel.
+// The least girth in between, where it is so much less than at both ends that no two tapes disagree.
 std::optional<double> waist_height(const Tape& tape, double low, double high) {
   const std::vector<double> heights = levels(low, high, 0.005);
   std::vector<double> girths;
@@ -94,7 +94,7 @@ std::optional<double> waist_height(const Tape& tape, double low, double high) {
   for (std::size_t i = 1; i + 1 < girths.size(); ++i)
     if (girths[i] < girths[i - 1] && girths[i] <= girths[i + 1] && (!least || girths[i] < girths[*least]))
       least = i;
-  constexpr double kFelt = 0.002;
+  constexpr double kFelt = 0.005;
   if (!least || std::min(girths.front(), girths.back()) - girths[*least] < kFelt) return std::nullopt;
   // Top of the parabola through the three
   const double below = girths[*least - 1], at = girths[*least], above = girths[*least + 1];

@@ -39,7 +39,7 @@ Json definitions() {
        "most concave point of the sagittal profile under the bust point; height: lowest such point "
        "from there to 55 mm towards the middle, over both sides"},
       {"waist",
-       "interior minimum of the hull girth between hip + 100 mm and underbust - 15 mm, 2 mm or more "
+       "interior minimum of the hull girth between hip + 100 mm and underbust - 15 mm, 5 mm or more "
        "below both ends; without one the navel's level, as waist_ruler"},
       {"hip", "mean height of the rearmost points of the buttocks"},
       {"girths",

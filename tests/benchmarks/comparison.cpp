@@ -24,13 +24,23 @@ constexpr Wanted kPoints[] = {
     {"shoulder_L", 10},  {"shoulder_R", 10},  {"neck_back", 10},   {"neck_front", 10},  {"neck_side_L", 10},
     {"neck_side_R", 10}, {"axilla_L", 10},    {"axilla_R", 10},    {"buttock_L", 10},   {"buttock_R", 10}};
 
-const double* find(const std::vector<geometry::Measure>& measures, const std::string& name) {
+const geometry::Measure* find(const std::vector<geometry::Measure>& measures, const std::string& name) {
   for (const geometry::Measure& measure : measures)
-    if (measure.name == name) return &measure.metres;
+    if (measure.name == name) return &measure;
   return nullptr;
 }
 
+std::string why_missing(const geometry::BodyMeasures& measured, const std::string& name) {
+  for (const geometry::Missing& missing : measured.missing)
+    if (missing.name == name) return missing.reason;
+  return "not found";
+}
+
 }  // namespace
+
+bool Error::within() const {
+  return std::abs(millimetres) <= limit;  // false for NaN
+}
 
 std::vector<Error> errors_of(const geometry::BodyMeasures& measured, const geometry::BodyMeasures& truth,
                              bool has_waist) {
@@ -38,9 +48,10 @@ std::vector<Error> errors_of(const geometry::BodyMeasures& measured, const geome
   const auto compare = [&](const std::string& kind, const auto& wanted, const auto& found,
                            const auto& expected) {
     for (const Wanted& w : wanted) {
-      const double *value = find(found, w.name), *right = find(expected, w.name);
+      const geometry::Measure *value = find(found, w.name), *right = find(expected, w.name);
       if (!right || (!has_waist && w.name == std::string("waist"))) continue;
-      errors.push_back({kind + w.name, value ? 1e3 * (*value - *right) : kMissing, w.limit});
+      errors.push_back({kind + w.name, value ? 1e3 * (value->metres - right->metres) : kMissing, w.limit,
+                        value ? value->reason : why_missing(measured, w.name)});
     }
   };
   compare("girth ", kGirths, measured.girths, truth.girths);
@@ -49,7 +60,8 @@ std::vector<Error> errors_of(const geometry::BodyMeasures& measured, const geome
     const geometry::Landmark *value = measured.find_landmark(w.name), *right = truth.find_landmark(w.name);
     if (right)
       errors.push_back({std::string("point ") + w.name,
-                        value ? 1e3 * (value->position - right->position).norm() : kMissing, w.limit});
+                        value ? 1e3 * (value->position - right->position).norm() : kMissing, w.limit,
+                        value ? value->reason : why_missing(measured, w.name)});
   }
   return errors;
 }
@@ -72,7 +84,7 @@ std::vector<Row> summary(const std::vector<std::vector<Error>>& bodies, const st
       Row& row = rows[i];
       const double size = std::abs(error.millimetres);
       ++row.bodies;
-      row.within += size <= error.limit;
+      row.within += error.within();
       if (row.bodies == 1 || size > row.largest) {
         row.largest = size;
         row.worst = seeds[b];

@@ -8,12 +8,15 @@
 
 namespace tensegric_fit::population {
 
-/// One measure of one body, millimetres. A girth's or height's error has its sign; a point's is its distance.
+/// One measure of one body. A girth's or height's error has its sign; a point's is its distance.
 struct Error {
-  std::string measure;  ///< "girth bust", "height hip", "point crotch"
-  double millimetres;   ///< infinite where it was not measured
+  std::string measure;  ///< "girth bust", "height hip", "point crotch", "control bust volume %"
+  double millimetres;   ///< infinite where it was not measured; what counts or shares are called so
   double limit;         ///< ISO 20685: 9 for large girths, 4 for small ones and heights; points: 5 for bust
                         ///< points, else 10
+  std::string cause = {};  ///< what the stage itself says: why it is uncertain of it or did not find it
+
+  bool within() const;
 };
 
 /// All that the truth knows and that is measured on people. Without an inner minimum the waist is a

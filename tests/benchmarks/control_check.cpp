@@ -1,0 +1,77 @@
+#include "control_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "control_mesh/fit_template.hpp"
+#include "control_mesh/skin.hpp"
+#include "geometry/point_tree.hpp"
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::population {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d area_of(const std::vector<Vector3d>& nodes, const Eigen::Vector3i& t) {
+  return geometry::area_vector(nodes[t[0]], nodes[t[1]], nodes[t[2]]);
+}
+
+/// Outer triangles that face against the skin nearest to them, inner ones that face against their outer one.
+int folded_triangles(const geometry::ControlMesh& control, const geometry::TriangleMesh& body) {
+  const geometry::PointTree tree(body.vertices);
+  const std::vector<Vector3d> normals = geometry::vertex_normals(body.vertices, body.triangles);
+  int folded = 0;
+  for (const Eigen::Vector3i& t : control.triangles) {
+    const Vector3d outer = area_of(control.outer, t);
+    const Vector3d middle = (control.outer[t[0]] + control.outer[t[1]] + control.outer[t[2]]) / 3;
+    Vector3d skin = normals[tree.nearest(middle)];
+    for (int i = 0; i < 3; ++i) skin += normals[tree.nearest((middle + control.outer[t[i]]) / 2)];
+    folded += outer.dot(skin) <= 0 || outer.dot(area_of(control.inner, t)) <= 0;
+  }
+  return folded;
+}
+
+double off_skin(const geometry::ControlMesh& control, const geometry::TriangleMesh& body) {
+  const control_mesh::Skin skin(body);
+  double most = 0;
+  for (const Vector3d& p : control.outer) most = std::max(most, (skin.nearest(p) - p).norm());
+  return most;
+}
+
+double off_landmarks(const control_mesh::Template& pattern, const geometry::ControlMesh& control,
+                     const geometry::BodyMeasures& measures) {
+  double most = 0;
+  for (const control_mesh::TemplateNode& node : pattern.nodes) {
+    if (node.placing != control_mesh::TemplateNode::Placing::at_landmark) continue;
+    const int at = control.node(node.name);
+    if (at >= 0) most = std::max(most, (control.outer[at] - measures.landmark(node.landmark)).norm());
+  }
+  return most;
+}
+
+}  // namespace
+
+std::vector<Error> control_errors(const control_mesh::Template& pattern, const geometry::TriangleMesh& body,
+                                  const geometry::BodyMeasures& measures) {
+  const std::string name = "control " + pattern.name;
+  try {
+    const geometry::ControlMesh control = control_mesh::fit_template(pattern, body, measures, {});
+    control_mesh::Options options;
+    options.control_triangles = 1920;  // 10 mm wide triangles stand for the skin
+    const geometry::ControlMesh fine = control_mesh::fit_template(pattern, body, measures, options);
+    const Vector3d apex = geometry::region_apex(control, control.regions[0]);
+    const double volume = geometry::cone_volume(control.outer, control.triangles, apex) /
+                          geometry::cone_volume(fine.outer, fine.triangles, apex);
+    return {{name + " laid", 0, 0},
+            {name + " folded", static_cast<double>(folded_triangles(control, body)), 0},
+            {name + " off skin", 1e3 * off_skin(control, body), 3.001},
+            {name + " volume %", 100 * (volume - 1), 2},
+            {name + " tips", 1e3 * off_landmarks(pattern, control, measures), 1}};
+  } catch (const geometry::Refusal& refusal) {
+    return {{name + " laid", std::numeric_limits<double>::infinity(), 0, refusal.code()}};
+  }
+}
+
+}  // namespace tensegric_fit::population
