@@ -30,7 +30,6 @@ double side_below_plane(double girth) {
   return 0.0107 - 0.105 * (girth - kGirth);
 }
 constexpr double kBackBelowPlane = 0.0383, kSideForwards = 0.003;
-constexpr double kPlaneAboveNotch = 0.0236;
 constexpr double kNotchBelowCrown = 0.162, kHead = 0.19, kAgree = 0.005;
 constexpr double kUprightLean = 23 * kDegree;
 
@@ -194,9 +193,9 @@ Neck find_neck(const BodyShape& body, const Trunk& trunk) {
   // 2. The girth is the least one round the middle of the neck's base, a given way below that corner.
   neck.origin = thinnest.origin;
   for (int pass = 0; pass < 3; ++pass) {
-    const Vector3d anchor = corner >= 0
-                                ? along(front, corner, plane_below_corner(girth) * s)
-                                : Vector3d(front.points[deepest] + Vector3d(0, 0, kPlaneAboveNotch * s));
+    const Vector3d anchor =
+        corner >= 0 ? along(front, corner, plane_below_corner(girth) * s)
+                    : along(front, deepest, (plane_below_corner(girth) - notch_below_corner(girth)) * s);
     const double base = base_lean(lean, girth);
     const Vector3d axis = NeckPlanes::normal_of(base);
     neck.origin += axis.dot(anchor - neck.origin) * axis;

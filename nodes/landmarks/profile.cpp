@@ -88,7 +88,8 @@ Profile cut_profile(const BodyShape& body, const std::vector<int>& triangles, co
     longest = drop;
     profile.points = loop.points;
   }
-  if (!profile.points.empty()) profile.points = smoothed(in_even_steps(profile.points));
+  // Noise makes a way longer: even steps are taken again where it is smoothed away.
+  if (!profile.points.empty()) profile.points = in_even_steps(smoothed(in_even_steps(profile.points)));
   return profile;
 }
 

@@ -218,7 +218,8 @@ TEST(Landmarks, OfTheUpperTrunkGoAlongWithAStoop) {
     for (const char* name : {"shoulder_L", "shoulder_R"})
       EXPECT_LT((bent.landmark(name) - stooped(upright.landmark(name), angle * kDegree)).norm(), 0.028)
           << name << " at " << angle;
-    EXPECT_NEAR(girth(bent, "neck"), girth(upright, "neck"), 0.004) << angle;
+    // A throat without a clear notch: 1 mm further along the neck is 1 to 2 mm of girth.
+    EXPECT_NEAR(girth(bent, "neck"), girth(upright, "neck"), 0.007) << angle;
   }
 }
 
