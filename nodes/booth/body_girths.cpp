@@ -86,10 +86,11 @@ double largest_girth_height(const Tape& tape, double low, double high) {
 }
 
 // The least girth in between, where it is so much less than at both ends that no two tapes disagree.
-std::optional<double> waist_height(const Tape& tape, double low, double high) {
+std::optional<double> waist_height(const Tape& tape, double middle, double low, double high) {
   const std::vector<double> heights = levels(low, high, 0.005);
-  std::vector<double> girths;
-  for (const double z : heights) girths.push_back(length(tape.round_trunk(z)));
+  std::vector<double> girths;  // breasts that hang down to the waist are not part of it
+  for (const double z : heights)
+    girths.push_back(length(tape.round_nearest({middle, 0, z}, Vector3d::UnitZ(), Part::trunk)));
   std::optional<std::size_t> least;
   for (std::size_t i = 1; i + 1 < girths.size(); ++i)
     if (girths[i] < girths[i - 1] && girths[i] <= girths[i + 1] && (!least || girths[i] < girths[*least]))
@@ -120,7 +121,8 @@ std::string measure_girths(const BodyShape& shape, const geometry::TriangleMesh&
   const double underbust = height("underbust", std::min(z_of("fold_lowest_L"), z_of("fold_lowest_R")));
   const double hip = height("hip", (z_of("buttock_L") + z_of("buttock_R")) / 2);
   const double crotch = height("crotch", z_of("crotch"));
-  const std::optional<double> narrowest = waist_height(tape, hip + 0.10, underbust - 0.015);
+  const std::optional<double> narrowest =
+      waist_height(tape, shape.posed({0.05, 0, 1.10}).x(), hip + 0.10, underbust - 0.015);
   const double ruler = height("waist_ruler", z_of("navel"));
   const double waist = height("waist", narrowest.value_or(ruler));
   const double hip_max = height("hip_max_girth", largest_girth_height(tape, crotch, waist));

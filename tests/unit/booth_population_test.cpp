@@ -71,6 +71,40 @@ TEST(PopulationTest, BreastsWithoutFirmnessHangOverTheirFolds) {
   EXPECT_LT(fold.x(), tip.x() - 0.04);  // the fold is on the chest behind
 }
 
+TEST(PopulationTest, HeavyThighsTouchBelowThePerineumAndStayTwo) {
+  // Half the way between the thighs, 20 mm below the crotch
+  const auto half_gap = [](const VirtualBody& body) {
+    double least = 1;
+    for (const Vector3d& p : body.mesh.vertices)
+      if (std::abs(p.z() - (body.truth.height("crotch") - 0.020)) < 0.005)
+        least = std::min(least, std::abs(p.y()));
+    return least;
+  };
+  BodyParameters parameters;
+  const VirtualBody slim = booth::make_body(parameters);
+  EXPECT_GT(half_gap(slim), 0.008);
+  parameters.build = 1.4;
+  parameters.hip = 1.1;
+  parameters.arm_angle = 0.6;
+  const VirtualBody heavy = booth::make_body(parameters);
+  EXPECT_NEAR(half_gap(heavy), 0.0008, 0.0002);  // flat against each other
+  // One closed surface without a handle, so nothing has grown together
+  EXPECT_EQ(heavy.mesh.vertices.size(), heavy.mesh.triangles.size() / 2 + 2);
+  // The perineum is a bone's breadth of skin: fat does not lower it
+  EXPECT_NEAR(heavy.truth.height("crotch"), slim.truth.height("crotch"), 0.008);
+}
+
+TEST(PopulationTest, CollarbonesDoNotGrowWithWeight) {
+  const auto collarbone = [](const VirtualBody& body) {
+    return body.truth.landmark("shoulder_L").y() - body.truth.landmark("neck_side_L").y();
+  };
+  BodyParameters parameters;
+  const double slim = collarbone(booth::make_body(parameters));
+  parameters.build = 1.4;
+  parameters.arm_angle = 0.6;
+  EXPECT_NEAR(collarbone(booth::make_body(parameters)), slim, 0.015);  // what lies on the bone grows a little
+}
+
 TEST(PopulationTest, AStoopCarriesTheChestForwardAndDown) {
   BodyParameters parameters;
   const VirtualBody upright = booth::make_body(parameters);
