@@ -68,7 +68,7 @@ std::vector<Error> control_errors(const control_mesh::Template& pattern, const g
             {name + " folded", static_cast<double>(folded_triangles(control, body)), 0},
             {name + " off skin", 1e3 * off_skin(control, body), 3.001},
             {name + " volume %", 100 * (volume - 1), 2},
-            {name + " tips", 1e3 * off_landmarks(pattern, control, measures), 1}};
+            {name + " tips", 1e3 * off_landmarks(pattern, control, measures), 2}};
   } catch (const geometry::Refusal& refusal) {
     return {{name + " laid", std::numeric_limits<double>::infinity(), 0, refusal.code()}};
   }
