@@ -16,6 +16,7 @@ constexpr int kLevels = 340;  // 5 mm apart on a person of 1.70 m
 constexpr double kCrotchShare =
     0.468;  // of stature, adult women (crotch height in anthropometric tables 0.45 to 0.49)
 constexpr double kSmallestLegShare = 0.2;     // of the trunk's area just above; a hand has 0.05
+constexpr double kSmallestChange = 0.1;       // of an area, a level on; less is a shred between the thighs
 constexpr double kTrunkShareOfHeight = 0.58;  // between crotch and shoulders, with and without a head
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -35,6 +36,7 @@ int follow(const Outline& from, const std::vector<Outline>& to) {
   int best = -1;
   double best_distance = std::max((from.high - from.low).norm() / 2, 0.03);
   for (std::size_t i = 0; i < to.size(); ++i) {
+    if (to[i].area < kSmallestChange * from.area) continue;
     if (contains(to[i], from.centroid)) return static_cast<int>(i);
     const double distance = (to[i].centroid - from.centroid).norm();
     if (distance < best_distance) {
