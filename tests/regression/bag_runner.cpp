@@ -1,0 +1,127 @@
+#include "bag_runner.hpp"
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "geometry/status.hpp"
+#include "ros/control_mesh_handler.hpp"
+#include "ros/landmarks_handler.hpp"
+#include "ros/reconstruction_handler.hpp"
+#include "ros/tensegric_handler.hpp"
+#include "ros/tffd_handler.hpp"
+
+namespace tensegric_fit::regression {
+namespace {
+
+// Of this process since the last call, MiB; 0 where the kernel does not say.
+double peak_mebibytes() {
+  double kibibytes = 0;
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (word == "VmHWM:") status >> kibibytes;
+  std::ofstream("/proc/self/clear_refs") << "5";  // the peak starts anew
+  return kibibytes / 1024;
+}
+
+class Chain {
+ public:
+  Chain(const YAML::Node& pipeline, bool measure_only)
+      : pipeline_(pipeline),
+        reconstruction_(parameters("reconstruction")),
+        landmarks_(parameters("landmarks")),
+        control_mesh_(parameters("control_mesh")),
+        tensegric_(parameters("tensegric")),
+        tffd_(parameters("tffd")),
+        measure_only_(measure_only) {}
+
+  void feed(const sensor_msgs::PointCloud2& scan) {
+    const node::ScanTag tag = node::tag_of(scan);
+    recording.scan_id = tag.scan_id;
+    run("reconstruction", [&] { recording.body = reconstruction_.handle(scan, tag).mesh; });
+    if (!recording.body) return;
+    run("landmarks", [&] { recording.landmarks = landmarks_.handle(*recording.body).landmarks; });
+    if (measure_only_) return;
+    control_mesh_.add(recording.body);
+    tffd_.add(recording.body);
+    const auto early = tensegric_.add(recording.body);
+    if (early) throw std::logic_error("a fit before the control mesh");
+    if (recording.landmarks) feed(recording.landmarks);
+  }
+
+  void feed(const Garment& garment) {
+    std::optional<node::TensegricHandler::Input> input;
+    run("tensegric", [&] { input = tensegric_.put_on(garment); });
+    fit(input);
+  }
+
+  Recording recording;
+
+ private:
+  node::Parameters parameters(const std::string& stage) const { return {pipeline_[stage], stage}; }
+
+  void feed(const Landmarks::ConstPtr& landmarks) {
+    tensegric_.add(landmarks);
+    tffd_.add(landmarks);
+    if (const auto input = control_mesh_.add(landmarks))
+      run("control_mesh", [&] { recording.control = control_mesh_.handle(*input).control; });
+    if (!recording.control) return;
+    tffd_.add(recording.control);
+    fit(tensegric_.add(recording.control));
+  }
+
+  void fit(const std::optional<node::TensegricHandler::Input>& input) {
+    if (!input) return;
+    const std::size_t fits = recording.fits.size();
+    run("tensegric", [&] {
+      const auto output = tensegric_.handle(
+          *input, [] { return true; }, [](const FitState&) {});
+      recording.fits.push_back(output->fit);
+    });
+    if (recording.fits.size() == fits) return;
+    if (const auto joined = tffd_.add(recording.fits.back()))
+      run("tffd", [&] { recording.deformed.push_back(tffd_.handle(*joined).scan.deformed); });
+  }
+
+  template <typename Work>
+  void run(const std::string& stage, const Work& work) {
+    peak_mebibytes();
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      work();
+    } catch (const geometry::Refusal& refusal) {
+      recording.refused_by = stage;
+      recording.refusal = refusal.code();
+    }
+    recording.milliseconds[stage] =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    recording.peak_mebibytes[stage] = peak_mebibytes();
+  }
+
+  const YAML::Node pipeline_;
+  const node::ReconstructionHandler reconstruction_;
+  const node::LandmarksHandler landmarks_;
+  node::ControlMeshHandler control_mesh_;
+  node::TensegricHandler tensegric_;
+  node::TffdHandler tffd_;
+  const bool measure_only_;
+};
+
+}  // namespace
+
+Recording run_bag(const std::string& path, const YAML::Node& pipeline, bool measure_only) {
+  Chain chain(pipeline, measure_only);
+  const rosbag::Bag bag(path);
+  rosbag::View view(bag);
+  for (const rosbag::MessageInstance& message : view) {
+    if (const auto scan = message.instantiate<sensor_msgs::PointCloud2>()) chain.feed(*scan);
+    if (const auto garment = message.instantiate<Garment>()) chain.feed(*garment);
+  }
+  if (chain.recording.scan_id.empty())
+    throw geometry::Refusal(geometry::refusal::kBrokenFile, path + ": holds no scan");
+  return chain.recording;
+}
+
+}  // namespace tensegric_fit::regression

@@ -1,0 +1,149 @@
+#include "case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "geometry/checked_yaml.hpp"
+#include "geometry/shipped_files.hpp"
+#include "ros/wardrobe.hpp"
+
+namespace tensegric_fit::regression {
+namespace {
+
+namespace fs = std::filesystem;
+using geometry::Refusal;
+
+Value value_in(const YAML::Node& node, const std::string& where) {
+  if (!node.IsScalar()) throw Refusal(kBadCase, where + ": is neither a number nor a word");
+  double number = 0;
+  if (!YAML::convert<double>::decode(node, number)) return node.Scalar();
+  if (!std::isfinite(number)) throw Refusal(kBadCase, where + ": is not finite");
+  return number;
+}
+
+Expectation read_expectation(const std::string& metric, const YAML::Node& map, const std::string& where) {
+  geometry::check_keys(map, {"expected", "golden", "tolerance", "reason"}, where, kBadCase);
+  if (bool(map["expected"]) == bool(map["golden"]))
+    throw Refusal(kBadCase, where + ": needs either 'expected' or 'golden'");
+  Expectation expectation;
+  expectation.metric = metric;
+  expectation.golden = bool(map["golden"]);
+  const YAML::Node value = expectation.golden ? map["golden"] : map["expected"];
+  if (!value.IsNull()) expectation.value = value_in(value, where);
+  if (!expectation.golden && !expectation.value) throw Refusal(kBadCase, where + ": 'expected' is empty");
+  expectation.tolerance = geometry::optional(map, "tolerance", 0.0, where, kBadCase);
+  if (!(expectation.tolerance >= 0)) throw Refusal(kBadCase, where + ": 'tolerance' is negative");
+  expectation.reason = geometry::required<std::string>(map, "reason", where, kBadCase);
+  return expectation;
+}
+
+// Those of one file replace earlier ones of the same name.
+void add_expectations(const YAML::Node& metrics, const std::string& where, std::vector<Expectation>& all) {
+  if (!metrics) return;
+  if (!metrics.IsMap()) throw Refusal(kBadCase, where + ": 'metrics' must be a map");
+  for (const auto& entry : metrics) {
+    const std::string name = entry.first.Scalar();
+    const Expectation expectation = read_expectation(name, entry.second, where + ": " + name);
+    const auto same = [&](const Expectation& e) { return e.metric == name; };
+    const auto known = std::find_if(all.begin(), all.end(), same);
+    if (known == all.end())
+      all.push_back(expectation);
+    else
+      *known = expectation;
+  }
+}
+
+Garment read_garment(const YAML::Node& node, const std::string& where) {
+  const node::Wardrobe wardrobe(geometry::shipped_folder("garments"));
+  if (node.IsScalar()) return node::to_message({}, wardrobe.take(node.Scalar()));
+  geometry::check_keys(node, {"name", "ratio", "ratios", "stiffness"}, where, kBadCase);
+  node::GarmentRequest request =
+      wardrobe.take(geometry::required<std::string>(node, "name", where, kBadCase));
+  if (node["ratio"])
+    tensegric::set_ratio(request.garment, "", geometry::required<double>(node, "ratio", where, kBadCase));
+  using Ratios = std::map<std::string, double>;
+  for (const auto& [line, ratio] : geometry::optional(node, "ratios", Ratios(), where, kBadCase))
+    tensegric::set_ratio(request.garment, line, ratio);
+  Garment garment = node::to_message({}, request);
+  if (node["stiffness"])
+    for (GarmentLine& line : garment.lines) {
+      line.law = GarmentLine::STIFFNESS;
+      line.stiffness = geometry::required<double>(node, "stiffness", where, kBadCase);
+    }
+  return garment;
+}
+
+void read_garments(const YAML::Node& root, Case& read) {
+  const std::string where = read.file + ": garments";
+  if (!root["garments"]) return;
+  if (!root["garments"].IsSequence()) throw Refusal(kBadCase, where + ": must be a list");
+  for (const YAML::Node& node : root["garments"]) {
+    read.garments.push_back(read_garment(node, where));
+    if (read.garments.size() > 1) read.garments.back().name += fmt::format(" #{}", read.garments.size());
+  }
+}
+
+void read_scene(const YAML::Node& root, Case& read) {
+  const auto scene = geometry::required<std::string>(root, "scene", read.file, kBadCase);
+  const bool known = scene == "measure" || scene == "bust" || scene == "hips" || scene == "bust+hips";
+  if (!known)
+    throw Refusal(kBadCase, read.file + ": scene '" + scene + "' is not measure, bust, hips or bust+hips");
+  if ((scene == "measure") != read.measure_only())
+    throw Refusal(kBadCase, read.file + ": a scene has garments, but for 'measure'");
+  if (scene != "measure") read.pipeline["control_mesh"]["template"] = scene;
+}
+
+}  // namespace
+
+std::string to_text(const Value& value) {
+  return std::holds_alternative<double>(value) ? fmt::format("{:.9g}", std::get<double>(value))
+                                               : std::get<std::string>(value);
+}
+
+Case load_case(const std::string& file) {
+  const YAML::Node root = geometry::load_yaml_map(file, kBadCase);
+  geometry::check_keys(
+      root, {"about", "booth", "bag", "scene", "pipeline", "garments", "expect", "metrics", "updates"}, file,
+      kBadCase);
+  Case read;
+  read.file = file;
+  read.name = fs::path(file).stem();
+  read.about = geometry::required<std::string>(root, "about", file, kBadCase);
+  if (bool(root["booth"]) == bool(root["bag"]))
+    throw Refusal(kBadCase, file + ": needs either 'booth' or 'bag'");
+  if (root["booth"]) read.booth = read_recipe(root["booth"], file + ": booth");
+  if (root["bag"])
+    read.bag = fs::path(file).parent_path() / geometry::required<std::string>(root, "bag", file, kBadCase);
+  read.pipeline = YAML::Clone(root["pipeline"] ? root["pipeline"] : YAML::Node(YAML::NodeType::Map));
+  geometry::check_keys(read.pipeline, {"reconstruction", "landmarks", "control_mesh", "tensegric", "tffd"},
+                       file + ": pipeline", kBadCase);
+  read_garments(root, read);
+  read_scene(root, read);
+  for (const std::string& set :
+       geometry::optional(root, "expect", std::vector<std::string>(), file, kBadCase)) {
+    const std::string path = fs::path(file).parent_path() / "expect" / (set + ".yaml");
+    add_expectations(geometry::load_yaml_map(path, kBadCase), path, read.expectations);
+  }
+  add_expectations(root["metrics"], file, read.expectations);
+  if (read.expectations.empty()) throw Refusal(kBadCase, file + ": nothing is expected");
+  read.updates = geometry::optional(root, "updates", std::vector<std::string>(), file, kBadCase);
+  return read;
+}
+
+std::vector<Case> load_cases(const std::string& folder, const std::vector<std::string>& names) {
+  std::vector<std::string> files;
+  for (const std::string& name : names) files.push_back(geometry::yaml_file(folder, name, kBadCase));
+  if (names.empty())
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<Case> cases;
+  for (const std::string& file : files) cases.push_back(load_case(file));
+  return cases;
+}
+
+}  // namespace tensegric_fit::regression

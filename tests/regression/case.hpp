@@ -1,0 +1,54 @@
+/// Cases of the regression harness: what goes in, and what is expected to come out (cases/*.yaml).
+#pragma once
+
+#include <tensegric_fit/Garment.h>
+#include <yaml-cpp/yaml.h>
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "recipe.hpp"
+
+namespace tensegric_fit::regression {
+
+inline constexpr char kBadCase[] = "bad_case";  ///< code of all refusals of case files
+
+/// A number, or a word (a status, a refusal's code).
+using Value = std::variant<double, std::string>;
+std::string to_text(const Value& value);
+
+/// What one metric must be.
+struct Expectation {
+  std::string metric;
+  std::optional<Value> value;  ///< none: never recorded so far
+  double tolerance = 0;        ///< of numbers, either way
+  std::string reason;          ///< why this value and this tolerance
+  bool golden = false;         ///< recorded from a run, so that --update may replace it; else it is asked for
+};
+
+struct Case {
+  std::string name;  ///< the file's, without its ending
+  std::string file;
+  std::string about;  ///< a sentence for people
+  std::string bag;    ///< a recorded scan; empty: by the recipe
+  Recipe booth;
+  YAML::Node pipeline;            ///< parameters by stage, over those of launch/config/pipeline.yaml
+  std::vector<Garment> garments;  ///< worn one after the other; none: measured only. No two have one name
+  std::vector<Expectation> expectations;
+  std::vector<std::string> updates;  ///< why golden values were replaced, oldest first
+
+  bool measure_only() const { return garments.empty(); }
+};
+
+/// Keys: about, booth or bag, scene (bust, hips, bust+hips; measure), pipeline, garments (names of shipped
+/// garments, or maps of name, ratio, ratios, stiffness), expect (names of files in cases/expect with further
+/// metrics), metrics (name: {expected or golden, tolerance, reason}), updates. \throw Refusal bad_case naming
+/// file and key; bad_garment, unknown_line
+Case load_case(const std::string& file);
+
+/// All cases of a folder by name, or only those named. \throw Refusal bad_case: no such case
+std::vector<Case> load_cases(const std::string& folder, const std::vector<std::string>& names);
+
+}  // namespace tensegric_fit::regression

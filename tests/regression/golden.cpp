@@ -1,0 +1,75 @@
+#include "golden.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::regression {
+namespace {
+
+namespace fs = std::filesystem;
+using geometry::Refusal;
+
+std::string old_of(const Row& row) {
+  return row.expectation.value ? to_text(*row.expectation.value) : "none";
+}
+
+std::string escaped(const std::string& text) {
+  return std::regex_replace(text, std::regex(R"([.^$|()\[\]{}*+?\\])"), R"(\$&)");
+}
+
+std::string quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char letter : text) quoted += letter == '\'' ? "''" : std::string(1, letter);
+  return quoted + "'";
+}
+
+std::string with_golden(const std::string& text, const Row& row, const std::string& file) {
+  const std::string& metric = row.expectation.metric;
+  const std::regex line("(\n +" + escaped(metric) + R"(: *\{ *golden: *)([^,}\n]*))");
+  std::smatch match;
+  if (!row.found) throw Refusal(kBadCase, file + ": " + metric + ": was not found in the run");
+  if (!std::regex_search(text, match, line))
+    throw Refusal(kBadCase, file + ": " + metric + ": no line '" + metric + ": {golden: ...'");
+  return match.prefix().str() + match[1].str() + to_text(*row.found) + match.suffix().str();
+}
+
+}  // namespace
+
+std::string update_table(const Case& asked, const Verdict& verdict) {
+  std::string table = fmt::format("{}\n  {:<36} {:>16} {:>16} {:>12} {:>10}\n", asked.name, "metric", "old",
+                                  "new", "difference", "tolerance");
+  for (const Row& row : verdict.rows) {
+    if (!row.expectation.golden) continue;
+    const auto difference = row.difference();
+    table += fmt::format("  {:<36} {:>16} {:>16} {:>12} {:>10.3g}{}\n", row.expectation.metric, old_of(row),
+                         row.found ? to_text(*row.found) : "not found",
+                         difference ? fmt::format("{:+.3g}", *difference) : "", row.expectation.tolerance,
+                         row.holds ? "" : "  *");
+  }
+  return table;
+}
+
+void update_goldens(const Case& asked, const Verdict& verdict, const std::string& reason) {
+  std::ifstream in(asked.file);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  for (const Row& row : verdict.rows)
+    if (row.expectation.golden) text = with_golden(text, row, asked.file);
+  if (text.back() != '\n') text += '\n';
+  if (asked.updates.empty()) text += "updates:\n";
+  text += "  - " + quoted(reason) + "\n";
+
+  const std::string unfinished = asked.file + ".new";
+  std::ofstream out(unfinished);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(unfinished + ": cannot be written");
+  fs::rename(unfinished, asked.file);
+}
+
+}  // namespace tensegric_fit::regression

@@ -1,0 +1,18 @@
+/// Golden values are replaced on purpose only.
+#pragma once
+
+#include <string>
+
+#include "comparison.hpp"
+
+namespace tensegric_fit::regression {
+
+/// Old, new, difference and tolerance of every golden value of a case: a table for people.
+std::string update_table(const Case& asked, const Verdict& verdict);
+
+/// Writes the new values and the reason into the case's file; everything else stays as it is, letter for
+/// letter. \throw Refusal bad_case: a golden value does not stand on one line with its metric's name, or was
+/// not found in the run
+void update_goldens(const Case& asked, const Verdict& verdict, const std::string& reason);
+
+}  // namespace tensegric_fit::regression

@@ -1,0 +1,162 @@
+/// The harness itself: a case is read to the letter, a difference is seen, a golden value is replaced on
+/// purpose only.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "geometry/status.hpp"
+#include "golden.hpp"
+#include "report.hpp"
+
+namespace tensegric_fit::regression {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kGood = R"(about: A body.
+booth: {seed: 3, points: 20000}
+scene: bust
+garments: [B1]
+metrics:
+  girth/bust: {golden: 0.9, tolerance: 0.001, reason: "recorded, \"twice\""}  # a word
+  girth/hip: {expected: 1, tolerance: 0.01, reason: asked}
+  fit/status: {golden: converged, reason: recorded}
+)";
+
+class HarnessTest : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  Case read(const std::string& text) const {
+    std::ofstream(file_) << text;
+    return load_case(file_);
+  }
+  std::string refusal_of(const std::string& text) const {
+    try {
+      read(text);
+    } catch (const geometry::Refusal& refusal) {
+      EXPECT_EQ(std::string(refusal.what()).find(file_), 0u) << refusal.what();
+      return std::string(refusal.what()).substr(file_.size());
+    }
+    return "accepted";
+  }
+  static std::string with(const std::string& what, const std::string& in_place_of) {
+    std::string text = kGood;
+    return text.replace(text.find(in_place_of), in_place_of.size(), what);
+  }
+  static Metrics metrics(double bust) {
+    return {
+        {"girth/bust", bust}, {"error/girth/bust", 0.002}, {"girth/hip", 1.005}, {"fit/status", "capped"}};
+  }
+
+  const fs::path folder_ = fs::temp_directory_path() / ("harness_test." + std::to_string(getpid()));
+  const std::string file_ = folder_ / "one.yaml";
+};
+
+TEST_F(HarnessTest, ACaseIsReadToTheLetter) {
+  const Case asked = read(kGood);
+  EXPECT_EQ(asked.name, "one");
+  EXPECT_EQ(asked.booth.scanner.seed, 3u);
+  EXPECT_EQ(asked.booth.scanner.points, 20000);
+  ASSERT_EQ(asked.garments.size(), 1u);
+  EXPECT_EQ(asked.garments[0].name, "B1");
+  EXPECT_EQ(asked.pipeline["control_mesh"]["template"].as<std::string>(), "bust");
+  ASSERT_EQ(asked.expectations.size(), 3u);
+  EXPECT_TRUE(asked.expectations[0].golden);
+  EXPECT_FALSE(asked.expectations[1].golden);
+  EXPECT_EQ(std::get<std::string>(*asked.expectations[2].value), "converged");
+}
+
+TEST_F(HarnessTest, WhatACaseFileMayNotSayIsNamed) {
+  EXPECT_EQ(refusal_of(with("abuot:", "about:")), ": unknown key 'abuot'");
+  EXPECT_EQ(refusal_of(with("sead: 3", "seed: 3")), ": booth: unknown key 'sead'");
+  EXPECT_EQ(refusal_of(with("seed: x", "seed: 3")), ": booth: the value of 'seed' has the wrong type");
+  EXPECT_EQ(refusal_of(with("scene: chest", "scene: bust")),
+            ": scene 'chest' is not measure, bust, hips or bust+hips");
+  EXPECT_EQ(refusal_of(with("scene: measure", "scene: bust")), ": a scene has garments, but for 'measure'");
+  EXPECT_EQ(refusal_of(with("tolerence: 0.01", "tolerance: 0.01")), ": girth/hip: unknown key 'tolerence'");
+  EXPECT_EQ(refusal_of(with("tolerance: -1", "tolerance: 0.01")), ": girth/hip: 'tolerance' is negative");
+  EXPECT_EQ(refusal_of(with("", ", reason: asked")), ": girth/hip: key 'reason' is missing");
+  EXPECT_EQ(refusal_of(with("expected: 1, golden: 1", "expected: 1")),
+            ": girth/hip: needs either 'expected' or 'golden'");
+  EXPECT_EQ(refusal_of(with("pipeline: {tfdd: {}}\nscene", "scene")), ": pipeline: unknown key 'tfdd'");
+}
+
+TEST_F(HarnessTest, NumbersHoldWithinTheirToleranceWordsWhereTheyAreTheSame) {
+  const Verdict verdict = judge(read(kGood), "bag", metrics(0.9009));
+  ASSERT_EQ(verdict.rows.size(), 3u);
+  EXPECT_TRUE(verdict.rows[0].holds);
+  EXPECT_NEAR(*verdict.rows[0].difference(), 0.0009, 1e-12);  // rounding
+  EXPECT_EQ(verdict.rows[0].error, 0.002);
+  EXPECT_TRUE(verdict.rows[1].holds);
+  EXPECT_FALSE(verdict.rows[1].error);
+  EXPECT_FALSE(verdict.rows[2].holds);
+  EXPECT_EQ(verdict.failures(), 1);
+  EXPECT_FALSE(judge(read(kGood), "bag", metrics(0.8989)).rows[0].holds);
+  EXPECT_EQ(judge(read(kGood), "bag", {}).failures(), 3);  // no message is a failure
+}
+
+TEST_F(HarnessTest, OnlyGoldenValuesAreReplacedAndTheReasonIsKept) {
+  const auto text = [this] {
+    std::ifstream in(file_);
+    return std::string{std::istreambuf_iterator<char>(in), {}};
+  };
+  Case asked = read(kGood);
+  Verdict verdict = judge(asked, "bag", metrics(0.95));
+  EXPECT_NE(update_table(asked, verdict).find("+0.05"), std::string::npos);
+  update_goldens(asked, verdict, "the neck's landmarks moved");
+  std::string wanted = with("golden: 0.95,", "golden: 0.9,");
+  wanted.replace(wanted.find("converged"), 9, "capped");
+  EXPECT_EQ(text(), wanted + "updates:\n  - 'the neck''s landmarks moved'\n");
+
+  asked = load_case(file_);
+  EXPECT_EQ(asked.updates, std::vector<std::string>{"the neck's landmarks moved"});
+  verdict = judge(asked, "bag", metrics(0.95));
+  EXPECT_TRUE(verdict.holds());
+  update_goldens(asked, verdict, "again");
+  EXPECT_EQ(load_case(file_).updates.size(), 2u);
+  EXPECT_THROW(update_goldens(asked, judge(asked, "bag", {}), "nothing came"), geometry::Refusal);
+}
+
+TEST_F(HarnessTest, PayloadsAreComparedByTopic) {
+  EXPECT_TRUE(differences({{"a", "1"}, {"b", "2"}}, {{"a", "1"}, {"b", "2"}}).empty());
+  EXPECT_EQ(differences({{"a", "1"}, {"b", "2"}}, {{"a", "1"}, {"b", "3"}}),
+            std::vector<std::string>{"b: other bits"});
+  EXPECT_EQ(differences({{"a", "1"}}, {}), std::vector<std::string>{"a: nothing came in one of the runs"});
+
+  Recording one, other;
+  const auto mesh = boost::make_shared<TriangleMesh>();
+  mesh->vertices = {1, 2, 3};
+  one.body = boost::make_shared<TriangleMesh>(*mesh);
+  mesh->header.seq = 7;  // the transport's
+  other.body = boost::make_shared<TriangleMesh>(*mesh);
+  EXPECT_TRUE(differences(hashes_of(one), hashes_of(other)).empty());
+  mesh->vertices[0] += 1e-7f;
+  other.body = mesh;
+  EXPECT_EQ(differences(hashes_of(one), hashes_of(other)).size(), 1u);
+}
+
+TEST_F(HarnessTest, ReportsAreWholeAndSafe) {
+  Outcome outcome;
+  outcome.asked = read(with("about: A <body> & more.", "about: A body."));
+  outcome.verdicts = {judge(outcome.asked, "bag", metrics(0.9))};
+  outcome.verdicts[0].faults = {"a \"fault\" < 1"};
+  const std::string xml = junit_xml({outcome}), page = html_page({outcome}), lines = json_lines({outcome});
+  EXPECT_NE(xml.find("tests=\"1\" failures=\"1\""), std::string::npos);
+  EXPECT_NE(xml.find("a &quot;fault&quot; &lt; 1"), std::string::npos);
+  EXPECT_NE(xml.find("fit/status: capped, expected converged"), std::string::npos);
+  EXPECT_NE(page.find("1 of 1 cases fail"), std::string::npos);
+  EXPECT_NE(page.find("A &lt;body&gt; &amp; more."), std::string::npos);
+  EXPECT_EQ(page.find("http"), std::string::npos) << "needs a network";
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 4);  // a line a metric
+}
+
+}  // namespace
+}  // namespace tensegric_fit::regression

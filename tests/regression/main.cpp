@@ -1,0 +1,122 @@
+/// regression: runs cases, compares them with what is expected of them, writes reports.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "geometry/status.hpp"
+#include "golden.hpp"
+#include "report.hpp"
+
+namespace {
+
+using namespace tensegric_fit;
+namespace fs = std::filesystem;
+
+constexpr int kFails = 1, kUsage = 2, kRefused = 3;
+
+struct CommandLine {
+  std::vector<std::string> names;
+  std::string cases = TENSEGRIC_FIT_CASES, runner = "both", out = "regression_out", reason;
+  int repeat = 1;
+  bool update = false;
+};
+
+void say(const regression::Outcome& outcome) {
+  std::cout << fmt::format("{:<28} {:5.1f} s", outcome.asked.name, outcome.seconds);
+  for (const regression::Verdict& verdict : outcome.verdicts)
+    std::cout << fmt::format("  {} {}", verdict.runner, verdict.holds() ? "holds" : "FAILS");
+  std::cout << '\n';
+  for (const regression::Verdict& verdict : outcome.verdicts) {
+    for (const std::string& fault : verdict.faults)
+      std::cout << fmt::format("  {}: {}\n", verdict.runner, fault);
+    for (const regression::Row& row : verdict.rows) {
+      if (row.holds) continue;
+      const auto difference = row.difference();
+      std::cout << fmt::format(
+          "  {}: {} is {}, expected {}{} ({})\n", verdict.runner, row.expectation.metric,
+          row.found ? regression::to_text(*row.found) : "not found",
+          row.expectation.value ? regression::to_text(*row.expectation.value) : "nothing so far",
+          difference ? fmt::format(" +- {:g}: off by {:+.3g}", row.expectation.tolerance, *difference) : "",
+          row.expectation.reason);
+    }
+  }
+  std::cout << std::flush;
+}
+
+void write(const fs::path& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+int run(const CommandLine& line) {
+  regression::HarnessOptions options;
+  options.bag = line.runner != "replay";
+  options.replay = line.runner != "bag";
+  options.repeat = line.repeat;
+  options.folder = line.out;
+  std::vector<regression::Outcome> outcomes;
+  bool holds = true;
+  for (const regression::Case& asked : regression::load_cases(line.cases, line.names)) {
+    outcomes.push_back(regression::run_case(asked, options));
+    holds = holds && outcomes.back().holds();
+    if (!line.update) say(outcomes.back());
+  }
+  if (line.update) {
+    for (const regression::Outcome& outcome : outcomes) {
+      std::cout << regression::update_table(outcome.asked, outcome.verdicts.front());
+      regression::update_goldens(outcome.asked, outcome.verdicts.front(), line.reason);
+    }
+    return 0;
+  }
+  write(fs::path(line.out) / "junit.xml", regression::junit_xml(outcomes));
+  write(fs::path(line.out) / "metrics.jsonl", regression::json_lines(outcomes));
+  write(fs::path(line.out) / "report.html", regression::html_page(outcomes));
+  std::cout << fmt::format("{}\n", (fs::path(line.out) / "report.html").string());
+  return holds ? 0 : kFails;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CommandLine line;
+  CLI::App app(
+      "Runs cases of the regression harness through the stages' handlers (bag) and through the launched "
+      "chain "
+      "(replay). Exit: 0 all hold, 1 some fail, 2 usage, 3 a case file or its input is refused.");
+  app.add_option("CASE", line.names, "cases by name; none: all");
+  app.add_option("--cases", line.cases, "folder of the case files")->capture_default_str();
+  app.add_option("--runner", line.runner, "bag, replay or both")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"bag", "replay", "both"}));
+  app.add_option("--repeat", line.repeat, "runs of the bag runner, which must all give the same bits")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--out", line.out, "folder for reports, bags and logs")->capture_default_str();
+  auto* update =
+      app.add_flag("--update", line.update, "replace the golden values of the cases that are named");
+  auto* reason = app.add_option("--reason", line.reason, "why they are replaced; kept in the case files");
+  update->needs(reason);
+  reason->needs(update);
+  try {
+    app.parse(argc, argv);
+    if (line.update && (line.names.empty() || line.reason.empty()))
+      throw CLI::ValidationError("--update", "needs the names of cases, and a reason");
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsage;
+  }
+  if (line.update) line.runner = "bag";
+  try {
+    return run(line);
+  } catch (const geometry::Refusal& refusal) {
+    std::cerr << "regression: " << refusal.code() << ": " << refusal.what() << '\n';
+    return kRefused;
+  } catch (const std::exception& error) {
+    std::cerr << "regression: " << error.what() << '\n';
+    return kFails;
+  }
+}

@@ -1,0 +1,135 @@
+#include "metrics.hpp"
+
+#include <algorithm>
+
+#include "control_mesh/skin.hpp"
+#include "ros/body_messages.hpp"
+#include "ros/flat.hpp"
+
+namespace tensegric_fit::regression {
+namespace {
+
+constexpr std::size_t kSampled = 4000;  // points of a surface or scan that distances are taken at
+
+double quantile(std::vector<double> values, double share) {
+  const auto place = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + static_cast<long>(place), values.end());
+  return values[place];
+}
+
+double largest_move(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to) {
+  double largest = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) largest = std::max(largest, (to.at(i) - from[i]).norm());
+  return largest;
+}
+
+void add_measures(const Recording& recording, Metrics& metrics) {
+  if (!recording.landmarks) return;
+  for (const Measure& height : recording.landmarks->heights) metrics["height/" + height.name] = height.value;
+  for (const Measure& girth : recording.landmarks->girths) metrics["girth/" + girth.name] = girth.value;
+  for (const Landmark& landmark : recording.landmarks->points)
+    for (int axis = 0; axis < 3; ++axis)
+      metrics["landmark/" + landmark.name + "/" + "xyz"[axis]] = landmark.position[axis];
+}
+
+void add_body(const TriangleMesh& body, Metrics& metrics) {
+  const geometry::TriangleMesh mesh = node::mesh_in(body);
+  metrics["body/triangles"] = static_cast<double>(mesh.triangles.size());
+  metrics["body/volume"] = geometry::cone_volume(mesh.vertices, mesh.triangles);
+  metrics["body/filled"] = static_cast<double>(std::count(body.filled.begin(), body.filled.end(), 1)) /
+                           static_cast<double>(body.filled.size());
+}
+
+void add_fit(const FitState& fit, const std::string& prefix, Metrics& metrics) {
+  metrics[prefix + "fit/status"] = fit.status;
+  metrics[prefix + "fit/solver"] = fit.solver;
+  metrics[prefix + "fit/iterations"] = static_cast<double>(fit.iteration);
+  metrics[prefix + "fit/residual"] = fit.residual;
+  for (const LineResult& line : fit.lines) {
+    metrics[prefix + "line/" + line.name + "/ratio"] = line.ratio;
+    metrics[prefix + "line/" + line.name + "/tension"] = line.tension;
+  }
+  for (const RegionResult& region : fit.regions) {
+    metrics[prefix + "region/" + region.name + "/volume"] = region.volume_before;
+    metrics[prefix + "region/" + region.name + "/volume_error"] =
+        region.volume_after / region.volume_before - 1;
+  }
+}
+
+void add_deformed(const DeformedMesh& deformed, const TriangleMesh& body, const std::string& prefix,
+                  Metrics& metrics) {
+  metrics[prefix + "body/volume_change"] = deformed.volume_after / deformed.volume_before - 1;
+  metrics[prefix + "body/largest_move"] =
+      largest_move(node::points_in(body.vertices), node::points_in(deformed.vertices));
+  // of the skin that the garment reaches: the rest has exactly 1
+  std::vector<double> moved;
+  for (const float value : deformed.distortion)
+    if (value != 1) moved.push_back(value);
+  if (moved.empty()) moved.push_back(1);
+  for (const auto& [name, share] :
+       {std::pair("least", 0.0), {"p05", 0.05}, {"median", 0.5}, {"p95", 0.95}, {"most", 1.0}})
+    metrics[prefix + "distortion/" + name] = quantile(moved, share);
+}
+
+std::vector<double> distances(const std::vector<Eigen::Vector3d>& points, const std::vector<char>& left_out,
+                              const geometry::TriangleMesh& surface) {
+  const control_mesh::Skin skin(surface);
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kSampled);
+  std::vector<double> all;
+  for (std::size_t i = 0; i < points.size(); i += step)
+    if (left_out.empty() || !left_out[i]) all.push_back((skin.nearest(points[i]) - points[i]).norm());
+  return all;
+}
+
+template <typename Measures>
+void add_errors(const std::string& kind, const Measures& measured,
+                const std::vector<geometry::Measure>& truth, Metrics& errors) {
+  for (const Measure& measure : measured)
+    for (const geometry::Measure& known : truth)
+      if (known.name == measure.name) errors["error/" + kind + known.name] = measure.value - known.metres;
+}
+
+}  // namespace
+
+Metrics metrics_of(const Recording& recording) {
+  Metrics metrics;
+  metrics["refusal"] = recording.refusal.empty() ? "none" : recording.refusal;
+  metrics["refused_by"] = recording.refused_by.empty() ? "none" : recording.refused_by;
+  add_measures(recording, metrics);
+  if (recording.body) add_body(*recording.body, metrics);
+  const bool several = recording.fits.size() > 1;
+  for (std::size_t i = 0; i < recording.fits.size(); ++i) {
+    const std::string prefix = several ? std::to_string(i + 1) + "/" : "";
+    add_fit(*recording.fits[i], prefix, metrics);
+    if (i < recording.deformed.size()) add_deformed(*recording.deformed[i], *recording.body, prefix, metrics);
+  }
+  for (const auto& [stage, value] : recording.milliseconds) metrics["time/" + stage] = value;
+  for (const auto& [stage, value] : recording.peak_mebibytes) metrics["memory/" + stage] = value;
+  return metrics;
+}
+
+Metrics errors_of(const Recording& recording, const Customer& customer) {
+  Metrics errors;
+  if (!recording.body) return errors;
+  const geometry::TriangleMesh body = node::mesh_in(*recording.body);
+  const geometry::TriangleMesh& skin = customer.body.mesh;
+  errors["error/body/volume"] = geometry::cone_volume(body.vertices, body.triangles) /
+                                    geometry::cone_volume(skin.vertices, skin.triangles) -
+                                1;
+  const std::vector<double> off = distances(body.vertices, node::filled_in(*recording.body), skin);
+  errors["error/surface/median"] = quantile(off, 0.5);
+  errors["error/surface/p95"] = quantile(off, 0.95);
+  errors["noise/median"] = quantile(distances(customer.scan.points, {}, body), 0.5);
+  if (!recording.landmarks) return errors;
+
+  const geometry::BodyMeasures& truth = customer.body.truth;
+  add_errors("height/", recording.landmarks->heights, truth.heights, errors);
+  add_errors("girth/", recording.landmarks->girths, truth.girths, errors);
+  for (const Landmark& landmark : recording.landmarks->points)
+    if (const geometry::Landmark* known = truth.find_landmark(landmark.name))
+      errors["error/landmark/" + landmark.name] =
+          (Eigen::Vector3d::Map(landmark.position.data()) - known->position).norm();
+  return errors;
+}
+
+}  // namespace tensegric_fit::regression

@@ -1,0 +1,34 @@
+/// Virtual customers of cases: who stands in the booth, and what it sees of her.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <limits>
+#include <string>
+
+#include "booth/virtual_body.hpp"
+#include "booth/virtual_scanner.hpp"
+
+namespace tensegric_fit::regression {
+
+struct Recipe {
+  int customer = -1;  ///< drawn by lot with this seed; -1: by the parameters below
+  booth::BodyParameters body;
+  booth::ScannerOptions scanner;
+  double crop_above = std::numeric_limits<double>::infinity();  ///< m above the floor: nothing there is seen
+  double unit = 1;                                              ///< of the scan's coordinates, metres
+};
+
+/// From a map whose keys are the fields of BodyParameters and ScannerOptions by name, or `customer` alone
+/// (virtual_booth --customer), beside `points`, `crop_above` and `unit`. \throw Refusal bad_case
+Recipe read_recipe(const YAML::Node& map, const std::string& where);
+
+struct Customer {
+  booth::VirtualBody body;  ///< the truth
+  geometry::PointCloud scan;
+};
+
+/// Same recipe, same bits. \throw Refusal bad_option
+Customer make_customer(const Recipe& recipe);
+
+}  // namespace tensegric_fit::regression

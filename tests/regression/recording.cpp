@@ -1,0 +1,105 @@
+#include "recording.hpp"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <fmt/format.h>
+#include <openssl/evp.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <memory>
+
+namespace tensegric_fit::regression {
+namespace {
+
+class Digest {
+ public:
+  Digest() { EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr); }
+
+  template <typename Message>
+  void add(Message message) {
+    message.header.seq = 0;
+    if constexpr (std::is_same_v<Message, FitState>) message.milliseconds = 0;
+    std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
+    ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+    ros::serialization::serialize(stream, message);
+    EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size());
+  }
+
+  std::string text() const {
+    unsigned char bytes[EVP_MAX_MD_SIZE];
+    unsigned int count = 0;
+    EVP_DigestFinal_ex(context_.get(), bytes, &count);
+    return fmt::format("{:02x}", fmt::join(bytes, bytes + count, ""));
+  }
+
+ private:
+  std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context_{EVP_MD_CTX_new(), EVP_MD_CTX_free};
+};
+
+template <typename Message>
+std::string hash_of(const std::vector<boost::shared_ptr<const Message>>& messages) {
+  Digest digest;
+  for (const auto& message : messages) digest.add(*message);
+  return digest.text();
+}
+
+template <typename Message>
+void keep(const rosbag::MessageInstance& instance, const std::string& scan_id,
+          std::vector<boost::shared_ptr<const Message>>& messages) {
+  const boost::shared_ptr<const Message> message = instance.instantiate<Message>();
+  if (message && message->scan_id == scan_id) messages.push_back(message);
+}
+
+template <typename Message>
+void keep(const rosbag::MessageInstance& instance, const std::string& scan_id,
+          boost::shared_ptr<const Message>& message) {
+  std::vector<boost::shared_ptr<const Message>> messages;
+  keep(instance, scan_id, messages);
+  if (!messages.empty()) message = messages.front();
+}
+
+void keep(const diagnostic_msgs::DiagnosticStatus& status, Recording& recording) {
+  std::map<std::string, std::string> facts;
+  for (const diagnostic_msgs::KeyValue& fact : status.values) facts[fact.key] = fact.value;
+  const std::string stage = status.name.substr(status.name.rfind(' ') + 1);
+  if (facts["last_error_scan_id"] == recording.scan_id) {
+    recording.refused_by = stage;
+    recording.refusal = facts["last_error"];
+  } else if (facts["scan_id"] == recording.scan_id && facts["state"] == "done") {
+    recording.milliseconds[stage] = std::stod(facts["milliseconds"]);
+    recording.peak_mebibytes[stage] = std::stod(facts["peak_mebibytes"]);
+  }
+}
+
+}  // namespace
+
+std::map<std::string, std::string> hashes_of(const Recording& recording) {
+  std::map<std::string, std::string> hashes;
+  if (recording.body) hashes["body/mesh"] = hash_of<TriangleMesh>({recording.body});
+  if (recording.landmarks) hashes["body/landmarks"] = hash_of<Landmarks>({recording.landmarks});
+  if (recording.control) hashes["control/mesh"] = hash_of<ControlMesh>({recording.control});
+  if (!recording.fits.empty()) hashes["control/deformed"] = hash_of(recording.fits);
+  if (!recording.deformed.empty()) hashes["body/deformed"] = hash_of(recording.deformed);
+  return hashes;
+}
+
+Recording recording_in(const std::string& path, const std::string& scan_id) {
+  Recording recording;
+  recording.scan_id = scan_id;
+  const rosbag::Bag bag(path);
+  rosbag::View view(bag);
+  for (const rosbag::MessageInstance& message : view) {
+    const std::string& topic = message.getTopic();
+    if (topic == "body/mesh") keep(message, scan_id, recording.body);
+    if (topic == "body/landmarks") keep(message, scan_id, recording.landmarks);
+    if (topic == "control/mesh") keep(message, scan_id, recording.control);
+    if (topic == "control/deformed") keep(message, scan_id, recording.fits);
+    if (topic == "body/deformed") keep(message, scan_id, recording.deformed);
+    const auto diagnostics = message.instantiate<diagnostic_msgs::DiagnosticArray>();
+    if (diagnostics)
+      for (const diagnostic_msgs::DiagnosticStatus& status : diagnostics->status) keep(status, recording);
+  }
+  return recording;
+}
+
+}  // namespace tensegric_fit::regression

@@ -1,0 +1,35 @@
+/// What came out of a chain for one scan, however it was run.
+#pragma once
+
+#include <tensegric_fit/ControlMesh.h>
+#include <tensegric_fit/DeformedMesh.h>
+#include <tensegric_fit/FitState.h>
+#include <tensegric_fit/Landmarks.h>
+#include <tensegric_fit/TriangleMesh.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tensegric_fit::regression {
+
+struct Recording {
+  std::string scan_id;
+  TriangleMesh::ConstPtr body;
+  Landmarks::ConstPtr landmarks;
+  ControlMesh::ConstPtr control;
+  std::vector<FitState::ConstPtr> fits;  ///< one a garment
+  std::vector<DeformedMesh::ConstPtr> deformed;
+  std::string refused_by, refusal;  ///< stage and code; empty: not refused
+  /// By stage, of its last work on this scan.
+  std::map<std::string, double> milliseconds, peak_mebibytes;
+};
+
+/// SHA-256 of what came on each topic, in hexadecimal digits: the messages as they travel, but for what is
+/// not the chain's: header.seq, which the transport counts, and the time that a fit took.
+std::map<std::string, std::string> hashes_of(const Recording& recording);
+
+/// From a bag that the replay node has written, what belongs to that scan. \throw rosbag::BagException
+Recording recording_in(const std::string& bag, const std::string& scan_id);
+
+}  // namespace tensegric_fit::regression
