@@ -140,6 +140,7 @@ std::vector<Case> load_cases(const std::string& folder, const std::vector<std::s
   if (names.empty())
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
       if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  if (files.empty()) throw Refusal(kBadCase, folder + ": holds no cases");
   std::sort(files.begin(), files.end());
   std::vector<Case> cases;
   for (const std::string& file : files) cases.push_back(load_case(file));

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPatience = 60;  // seconds that a launch may take; its nodes give up earlier
+constexpr int kPatience = 120;  // seconds that a launch may take; its nodes give up earlier
 
 int free_port() {
   const int socket_ = socket(AF_INET, SOCK_STREAM, 0);
@@ -29,19 +29,18 @@ int free_port() {
   return ntohs(address.sin_port);
 }
 
-// The last thing that the replay node said was wrong.
+// What a launch's log says went wrong, the gravest first; empty: nothing.
 std::string complaint_in(const std::string& log) {
-  std::string complaint;
-  std::ifstream in(log);
-  for (std::string line; std::getline(in, line);)
-    for (const char* word : {"FATAL", "ERROR", "TIMED OUT", "has died"}) {
-      const std::size_t at = line.find(word);
-      if (at == std::string::npos) continue;
-      const std::size_t text = line.find("replay: ", at);
-      complaint = line.substr(text == std::string::npos ? at : text);
-      break;
+  for (const char* word : {"FATAL", "TIMED OUT", "has died"}) {
+    std::ifstream in(log);
+    for (std::string line; std::getline(in, line);) {
+      if (line.find(word) == std::string::npos) continue;
+      const std::size_t text = line.find("replay: ");
+      if (text != std::string::npos) line = line.substr(text);
+      return line.substr(0, line.find('\033'));  // without colours
     }
-  return complaint.substr(0, complaint.find('\033'));  // without colours
+  }
+  return "";
 }
 
 }  // namespace
@@ -65,13 +64,11 @@ Replayed replay(const std::string& bag, const std::string& scan_id, const YAML::
   const std::string quoted = "bash -c \"" + command + "\"";
   const int status = std::system(quoted.c_str());
   Replayed replayed;
-  const std::string complaint = complaint_in(log);
-  if (!fs::exists(out))
-    replayed.fault =
-        complaint.empty() ? fmt::format("roslaunch ended with {} and wrote nothing", status) : complaint;
-  else
+  replayed.fault = complaint_in(log);
+  if (fs::exists(out))
     replayed.recording = recording_in(out, scan_id);
-  if (replayed.fault.empty() && complaint.find("TIMED OUT") != std::string::npos) replayed.fault = complaint;
+  else if (replayed.fault.empty())
+    replayed.fault = fmt::format("roslaunch ended with {} and wrote nothing: see {}", status, log.string());
   return replayed;
 }
 

@@ -16,7 +16,7 @@ struct Replayed {
 };
 
 /// Launches launch/replay.launch under a master of its own, on a free port, and waits for its end. Files go
-/// to `folder`: config.yaml, replayed.bag, launch.log. A stuck launch is ended after a minute.
+/// to `folder`: config.yaml, replayed.bag, launch.log. A stuck launch is ended after two minutes.
 Replayed replay(const std::string& bag, const std::string& scan_id, const YAML::Node& pipeline,
                 bool measure_only, const std::string& folder);
 
