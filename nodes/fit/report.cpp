@@ -48,6 +48,7 @@ void add_measures(const geometry::BodyMeasures& measures, Json& report) {
     for (const auto& m : list) {
       report[kind][m.name] = m.metres;
       Json entry{{"confidence", m.confidence}};
+      if (m.half_width > 0) entry["half_width"] = m.half_width;
       if (!m.reason.empty()) entry["reason"] = m.reason;
       report["confidence"][kind][m.name] = std::move(entry);
     }

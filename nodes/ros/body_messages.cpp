@@ -32,6 +32,7 @@ std::vector<Measure> measures_of(const std::vector<geometry::Measure>& measures)
     message.name = measure.name;
     message.value = measure.metres;
     message.confidence = measure.confidence;
+    message.half_width = measure.half_width;
     message.reason = measure.reason;
     messages.push_back(std::move(message));
   }
@@ -41,7 +42,7 @@ std::vector<Measure> measures_of(const std::vector<geometry::Measure>& measures)
 std::vector<geometry::Measure> measures_from(const std::vector<Measure>& messages) {
   std::vector<geometry::Measure> measures;
   for (const Measure& message : messages)
-    measures.push_back({message.name, message.value, message.confidence, message.reason});
+    measures.push_back({message.name, message.value, message.confidence, message.reason, message.half_width});
   return measures;
 }
 
@@ -84,6 +85,25 @@ std::vector<char> filled_in(const TriangleMesh& message) {
   if (!message.filled.empty() && 3 * message.filled.size() != message.vertices.size())
     throw Refusal(geometry::refusal::kBadMesh, "`filled` must be empty or have one entry a vertex");
   return flags_in(message.filled);
+}
+
+Fracture to_message(const geometry::Fracture& fracture) {
+  Fracture message;
+  for (int k = 0; k < 3; ++k) message.centre[k] = fracture.centre[k];
+  message.radius = fracture.radius;
+  message.area = fracture.area;
+  message.offset = fracture.offset;
+  return message;
+}
+
+std::vector<geometry::Fracture> fractures_in(const TriangleMesh& message) {
+  std::vector<geometry::Fracture> fractures;
+  for (const Fracture& fracture : message.fractures)
+    fractures.push_back({{fracture.centre[0], fracture.centre[1], fracture.centre[2]},
+                         fracture.radius,
+                         fracture.area,
+                         fracture.offset});
+  return fractures;
 }
 
 Landmarks to_message(const ScanTag& tag, const geometry::BodyMeasures& measures) {

@@ -9,6 +9,7 @@
 
 #include "geometry/body_measures.hpp"
 #include "geometry/control_mesh.hpp"
+#include "geometry/fracture.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "ros/scan_tag.hpp"
 
@@ -23,6 +24,9 @@ geometry::TriangleMesh mesh_in(const TriangleMesh& message);
 
 /// One flag a vertex, or empty. \throw Refusal bad_mesh: another number of flags
 std::vector<char> filled_in(const TriangleMesh& message);
+
+Fracture to_message(const geometry::Fracture& fracture);
+std::vector<geometry::Fracture> fractures_in(const TriangleMesh& message);
 
 Landmarks to_message(const ScanTag& tag, const geometry::BodyMeasures& measures);
 

@@ -38,6 +38,7 @@ LandmarksHandler::Output LandmarksHandler::handle(const TriangleMesh& message) c
   Output output;
   output.mesh = mesh_in(message);
   output.measures = landmarks::find_landmarks(output.mesh, filled_in(message), {});
+  geometry::doubt_fractured(fractures_in(message), output.measures);
   output.landmarks = boost::make_shared<Landmarks>(to_message(tag_in(message), output.measures));
   output.body_frame = transform_to(body_frame_, message.header, output.measures.body_from_scan);
   output.facts = {{"landmarks", std::to_string(output.measures.landmarks.size())}};

@@ -8,6 +8,17 @@
 #include "ros/body_messages.hpp"
 
 namespace tensegric_fit::node {
+namespace {
+
+Hole to_message(const reconstruction::Hole& hole) {
+  Hole message;
+  for (int k = 0; k < 3; ++k) message.centre[k] = hole.centre[k];
+  message.area = hole.area;
+  message.confidence = hole.confidence;
+  return message;
+}
+
+}  // namespace
 
 ReconstructionHandler::ReconstructionHandler(Parameters parameters) {
   reconstruction::Options& options = options_;
@@ -25,7 +36,11 @@ ReconstructionHandler::Output ReconstructionHandler::handle(const sensor_msgs::P
   pcl_conversions::toPCL(scan, cloud);
   const auto body = std::make_shared<const reconstruction::BodyMesh>(
       reconstruction::reconstruct(geometry::points_of(cloud), options_));
-  return {boost::make_shared<TriangleMesh>(to_message(tag, body->mesh, body->filled)),
+  const auto message = boost::make_shared<TriangleMesh>(node::to_message(tag, body->mesh, body->filled));
+  for (const reconstruction::Hole& hole : body->holes) message->holes.push_back(to_message(hole));
+  for (const geometry::Fracture& fracture : body->fractures)
+    message->fractures.push_back(node::to_message(fracture));
+  return {message,
           body,
           {{"points_used", std::to_string(body->points_used)},
            {"vertices", std::to_string(body->mesh.vertices.size())},
