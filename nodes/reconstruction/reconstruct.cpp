@@ -11,6 +11,7 @@
 #include "reconstruction/floor.hpp"
 #include "reconstruction/fractures.hpp"
 #include "reconstruction/handles.hpp"
+#include "reconstruction/noise.hpp"
 #include "reconstruction/normals.hpp"
 #include "reconstruction/poisson.hpp"
 #include "reconstruction/repair.hpp"
@@ -30,6 +31,7 @@ using geometry::PointCloud;
 using geometry::TriangleMesh;
 
 constexpr double kUnseenEdge = 0.005;  // m; the edge of a foot rounds off below what the sensors see of it
+constexpr double kDeepestPoint = 3;    // standard deviations, of the hundreds of points at the soles' edges
 constexpr double kDuplicate = 0.0005;  // m; closer points are one
 constexpr double kCoarsest = 0.005;    // m
 constexpr std::size_t kEnoughPoints = 400000;  // of a whole scan
@@ -97,7 +99,8 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
   Eigen::Isometry3d to_ground = resting_plane(body.points);
   const bool leans = to_ground.linear()(2, 2) < kFlatOnFloor;
   if (!floor || leans || lowest_of(body.points) > kOffTheFloor) {
-    to_ground.pretranslate(Eigen::Vector3d(0, 0, kUnseenEdge));
+    // The plane lies under the deepest point, which noise took that far down.
+    to_ground.pretranslate(Eigen::Vector3d(0, 0, kUnseenEdge - kDeepestPoint * noise_of(body.points)));
     transform(body, to_ground);
     from_scan = to_ground * from_scan;
   }

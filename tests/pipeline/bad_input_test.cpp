@@ -72,6 +72,7 @@ std::vector<BadScan> bad_scans() {
   sensor_msgs::PointCloud2 too_wide = booth_scan("a"), too_narrow = too_wide;
   ++too_wide.width;
   --too_narrow.width;
+  too_narrow.row_step -= too_narrow.point_step;  // else the last point would be padding
   sensor_msgs::PointCloud2 whole_numbers = cloud_of(Points(20000, {0, 0, 0}));
   for (sensor_msgs::PointField& field : whole_numbers.fields) field.datatype = sensor_msgs::PointField::INT32;
   return {{"no points", cloud_of({}), {"empty_cloud"}},
