@@ -90,6 +90,7 @@ Binding::Binding(const geometry::TriangleMesh& body, const geometry::ControlMesh
     return;
   }
   anchors_ = reach_of(body, control, frames, grid, beta);
+  untangle_ = Untangle(body, anchors_);
   const std::vector<Tie> ties = tie_needles(body, anchors_);
   weights_ = standard_weights(body, control, frames, kernel, anchors_, ties);
   if (options.truncation > 0) {
@@ -126,6 +127,7 @@ std::vector<Eigen::Vector3d> Binding::deform(const std::vector<Eigen::Vector3d>&
     move_by_normals(outer, moved);
   else
     move_by_weights(outer, inner, moved);
+  untangle_(vertices_, moved);
   return moved;
 }
 

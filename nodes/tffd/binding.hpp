@@ -8,6 +8,7 @@
 #include "geometry/posture.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "tffd/reach.hpp"
+#include "tffd/untangle.hpp"
 #include "tffd/weights.hpp"
 
 namespace tensegric_fit::tffd {
@@ -39,7 +40,8 @@ class Binding {
   /// the paper's setting, which has no constant M; bad_mesh: no control triangles, a flat one; non_finite
   Binding(const geometry::TriangleMesh& body, const geometry::ControlMesh& control, const Options& options);
 
-  /// Positions of all vertices for the control nodes at `outer` and `inner`. Vertices that are no anchors
+  /// Positions of all vertices for the control nodes at `outer` and `inner`: M's, but for corners of needles
+  /// that would turn over (untangle.hpp). Vertices that are no anchors
   /// stay, bit for bit, and with all nodes at rest every vertex does (paper: to rounding).
   /// \throw Refusal bad_mesh: another number of nodes than was bound; non_finite
   std::vector<Eigen::Vector3d> deform(const std::vector<Eigen::Vector3d>& outer,
@@ -78,6 +80,7 @@ class Binding {
   std::vector<Eigen::Vector3d> outer_, inner_;
   std::vector<Eigen::Vector3i> triangles_;
   std::vector<Anchor> anchors_;
+  Untangle untangle_;  // not in the paper's setting
   Weights weights_;
   std::vector<float> float_weights_;  // the entries of M in the fast precision, else empty
   NormalTerms terms_;                 // empty but in the paper's setting
