@@ -4,25 +4,13 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "booth/cloud_message.hpp"
+#include "ros/transform_message.hpp"
 
 namespace tensegric_fit::booth {
 namespace {
 
 std::string name_of(std::size_t sensor) {
   return "sensor_" + std::to_string(sensor);
-}
-
-geometry_msgs::Transform transform_of(const Eigen::Isometry3d& pose) {
-  const Eigen::Quaterniond turn(pose.linear());
-  geometry_msgs::Transform transform;
-  transform.translation.x = pose.translation().x();
-  transform.translation.y = pose.translation().y();
-  transform.translation.z = pose.translation().z();
-  transform.rotation.x = turn.x();
-  transform.rotation.y = turn.y();
-  transform.rotation.z = turn.z();
-  transform.rotation.w = turn.w();
-  return transform;
 }
 
 }  // namespace
@@ -36,7 +24,7 @@ void write_sensor_bag(const std::string& path, const std::vector<SensorScan>& sc
     pose.header.frame_id = frame_id;
     pose.header.stamp = stamp;
     pose.child_frame_id = name_of(sensor);
-    pose.transform = transform_of(scans[sensor].pose.booth_from_sensor);
+    pose.transform = node::transform_of(scans[sensor].pose.booth_from_sensor);
   }
   write_latched(bag, "/tf_static", stamp, poses);
   const ros::Duration apart(0.001);

@@ -1,7 +1,6 @@
 #include "booth/viewpoint_normals.hpp"
 
-#include <Eigen/Eigenvalues>
-
+#include "geometry/local_plane.hpp"
 #include "geometry/point_tree.hpp"
 
 namespace tensegric_fit::booth {
@@ -13,18 +12,9 @@ std::vector<Eigen::Vector3d> viewpoint_normals(const std::vector<Eigen::Vector3d
   if (points.empty()) return normals;
   const geometry::PointTree tree(points);
   std::vector<int> near;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
   for (std::size_t i = 0; i < points.size(); ++i) {
     tree.nearest(points[i], kNeighbours, near);
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-    for (int j : near) {
-      const Eigen::Vector3d d = points[j] - points[i];
-      sum += d;
-      products += d * d.transpose();
-    }
-    axes.computeDirect(products - sum * sum.transpose() / static_cast<double>(near.size()));
-    const Eigen::Vector3d normal = axes.eigenvectors().col(0);
+    const Eigen::Vector3d normal = geometry::local_plane(points, near).normal;
     normals[i] = normal.dot(viewpoint - points[i]) < 0 ? Eigen::Vector3d(-normal) : normal;
   }
   return normals;

@@ -1,6 +1,5 @@
 #include "reconstruction/normals.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <tuple>
 
 #include "geometry/halves.hpp"
+#include "geometry/local_plane.hpp"
 #include "geometry/point_tree.hpp"
 #include "reconstruction/visibility.hpp"
 
@@ -32,18 +32,9 @@ void plane_normals(const std::vector<Eigen::Vector3d>& points, const geometry::P
                    std::size_t begin, std::size_t end, std::vector<Eigen::Vector3d>& normals,
                    std::vector<Link>& links) {
   std::vector<int> near;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
   for (std::size_t i = begin; i < end; ++i) {
     tree.nearest(points[i], kNeighbours, near);
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-    for (int j : near) {
-      const Eigen::Vector3d d = points[j] - points[i];
-      sum += d;
-      products += d * d.transpose();
-    }
-    axes.computeDirect(products - sum * sum.transpose() / static_cast<double>(near.size()));
-    normals[i] = axes.eigenvectors().col(0);
+    normals[i] = geometry::local_plane(points, near).normal;
     for (int k = 0; k < std::min<int>(kLinks + 1, static_cast<int>(near.size())); ++k)
       if (near[k] > static_cast<int>(i) || k == kLinks) links.push_back({0, static_cast<int>(i), near[k]});
   }

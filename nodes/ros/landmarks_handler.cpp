@@ -3,6 +3,7 @@
 #include <boost/make_shared.hpp>
 
 #include "ros/body_messages.hpp"
+#include "ros/transform_message.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -14,16 +15,7 @@ tf2_msgs::TFMessage::ConstPtr transform_to(const std::string& body_frame, const 
   message->transforms.emplace_back();
   message->transforms.back().header = header;
   message->transforms.back().child_frame_id = body_frame;
-  const Eigen::Isometry3d scan_from_body = body_from_scan.inverse();
-  const Eigen::Quaterniond turn(scan_from_body.rotation());
-  geometry_msgs::Transform& transform = message->transforms.back().transform;
-  transform.translation.x = scan_from_body.translation().x();
-  transform.translation.y = scan_from_body.translation().y();
-  transform.translation.z = scan_from_body.translation().z();
-  transform.rotation.x = turn.x();
-  transform.rotation.y = turn.y();
-  transform.rotation.z = turn.z();
-  transform.rotation.w = turn.w();
+  message->transforms.back().transform = transform_of(body_from_scan.inverse());
   return message;
 }
 
