@@ -8,7 +8,9 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <memory>
 
+#include "booth/assembler.hpp"
 #include "booth/random_body.hpp"
 #include "booth/virtual_body.hpp"
 #include "booth/virtual_scanner.hpp"
@@ -29,14 +31,38 @@ struct Result {
   std::string refusal;
 };
 
-Result measure(const booth::VirtualBody& body, int seed, bool mesh_only,
+/// What of a customer is measured.
+enum class Input { surface, merged_scan, assembled_scan };
+
+// As the assembler node has it: each sensor's cloud in its own frame.
+geometry::PointCloud assembled(const booth::VirtualScan& scan, int sensors_per_column) {
+  booth::Capture capture{0, 0, {}};
+  std::vector<Eigen::Isometry3d> booth_from_sensor;
+  for (booth::SensorScan& sensor : booth::by_sensor(scan)) {
+    booth_from_sensor.push_back(sensor.pose.booth_from_sensor);
+    for (Eigen::Vector3d& p : sensor.cloud.points) p = booth_from_sensor.back().inverse() * p;
+    const auto cloud = std::make_shared<booth::SensorCloud>();
+    cloud->cloud = std::move(sensor.cloud);
+    capture.clouds.push_back(cloud);
+  }
+  booth::AssemblerOptions options;
+  options.sensors_per_column = sensors_per_column;
+  return booth::assemble(capture, booth_from_sensor, options).cloud;
+}
+
+fit::Body measured_body(const booth::VirtualBody& body, int seed, Input input) {
+  fit::StageTimes times;
+  if (input == Input::surface) return fit::measure_mesh(body.mesh, {}, times);
+  const booth::ScannerOptions scanner = booth::random_scanner(seed, body);
+  const booth::VirtualScan scan = booth::scan_body(body.mesh, scanner);
+  return fit::measure_scan(
+      input == Input::merged_scan ? scan.cloud : assembled(scan, scanner.sensors_per_column), {}, times);
+}
+
+Result measure(const booth::VirtualBody& body, int seed, Input input,
                const std::vector<control_mesh::Template>& patterns) {
   try {
-    fit::StageTimes times;
-    const fit::Body measured =
-        mesh_only ? fit::measure_mesh(body.mesh, {}, times)
-                  : fit::measure_scan(booth::scan_body(body.mesh, booth::random_scanner(seed, body)).cloud,
-                                      {}, times);
+    const fit::Body measured = measured_body(body, seed, input);
     const bool has_waist = body.waist_method.find("ruler") == std::string::npos;
     Result result{population::errors_of(measured.measures, body.truth, has_waist), ""};
     for (const control_mesh::Template& pattern : patterns)
@@ -53,7 +79,7 @@ Result measure(const booth::VirtualBody& body, int seed, bool mesh_only,
 void tell_scan_from_shape(const booth::VirtualBody& body, int seed, Result& result) {
   const auto fails = [](const population::Error& error) { return !error.within(); };
   if (std::none_of(result.errors.begin(), result.errors.end(), fails)) return;
-  const Result on_surface = measure(body, seed, true, {});
+  const Result on_surface = measure(body, seed, Input::surface, {});
   for (population::Error& error : result.errors) {
     if (!fails(error)) continue;
     for (const population::Error& same : on_surface.errors)
@@ -82,7 +108,7 @@ std::string failures(const std::vector<population::Error>& errors) {
   return text.empty() ? "; all within" : text;
 }
 
-int run(int first, int count, bool mesh_only) {
+int run(int first, int count, Input input) {
   std::vector<control_mesh::Template> patterns;
   for (const char* name : {"bust", "hips"})
     patterns.push_back(
@@ -93,8 +119,8 @@ int run(int first, int count, bool mesh_only) {
   for (int seed = first; seed < first + count; ++seed) {
     const booth::BodyParameters parameters = booth::random_body(seed);
     const booth::VirtualBody body = booth::make_body(parameters);
-    Result result = measure(body, seed, mesh_only, patterns);
-    if (!mesh_only) tell_scan_from_shape(body, seed, result);
+    Result result = measure(body, seed, input, patterns);
+    if (input != Input::surface) tell_scan_from_shape(body, seed, result);
     std::cout << fmt::format("{} {}{}\n", seed, description(parameters, body),
                              result.refusal.empty() ? failures(result.errors) : "; " + result.refusal)
               << std::flush;
@@ -127,12 +153,14 @@ int run(int first, int count, bool mesh_only) {
 
 int main(int argc, char** argv) {
   int first = 1, count = 20;
-  bool mesh_only = false;
+  bool mesh_only = false, merged = false;
   CLI::App app("Measures bodies drawn by lot and compares with their truth.");
   app.option_defaults()->always_capture_default();
   app.add_option("--first", first, "first seed")->check(CLI::NonNegativeNumber);
   app.add_option("--bodies", count, "how many")->check(CLI::PositiveNumber);
-  app.add_flag("--mesh-only", mesh_only, "measure the true surface: what landmarks alone do wrong");
+  auto* surface = app.add_flag("--mesh-only", mesh_only, "the true surface: what landmarks alone do wrong");
+  app.add_flag("--merged", merged, "clouds as they come, columns not moved onto each other")
+      ->excludes(surface);
   CLI11_PARSE(app, argc, argv);
-  return run(first, count, mesh_only);
+  return run(first, count, mesh_only ? Input::surface : merged ? Input::merged_scan : Input::assembled_scan);
 }
