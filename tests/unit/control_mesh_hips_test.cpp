@@ -2,20 +2,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include "booth/virtual_body.hpp"
 #include "control_mesh/fit_template.hpp"
 #include "control_mesh/grid.hpp"
 #include "control_mesh/skin.hpp"
+#include "control_mesh_changed_template.hpp"
 #include "geometry/status.hpp"
 #include "landmarks/find_landmarks.hpp"
 
 namespace {
 
 using namespace tensegric_fit;
+using control_mesh::refusal_with;
 using Eigen::Vector3d;
 
 const std::string kTemplates = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/templates/";
@@ -143,39 +143,20 @@ TEST(HipsTemplate, SymmetricBodyGivesSymmetricControlMesh) {
   }
 }
 
-/// The hips template with the first `what` replaced, read back; the refusal's message, or "" where it was
-/// accepted.
-std::string refusal_with(const std::string& what, const std::string& by) {
-  std::ifstream in(kHips);
-  std::stringstream text;
-  text << in.rdbuf();
-  std::string changed = text.str();
-  const std::size_t at = changed.find(what);
-  if (at == std::string::npos) return "the template does not contain " + what;
-  changed.replace(at, what.size(), by);
-  const std::string path = testing::TempDir() + "changed_hips.yaml";
-  std::ofstream(path) << changed;
-  try {
-    control_mesh::load_template(path);
-  } catch (const geometry::Refusal& refusal) {
-    EXPECT_EQ(refusal.code(), "bad_template");
-    return refusal.what();
-  }
-  return "";
-}
-
 TEST(HipsTemplate, RefusesWhatDoesNotFit) {
-  EXPECT_EQ(refusal_with("rows: 7", "rows: 7"), "");
+  EXPECT_EQ(refusal_with(kHips, "rows: 7", "rows: 7"), "");
   // A row in two pieces, a character that means nothing, a node where no cell is, ends of columns not placed.
-  EXPECT_NE(refusal_with("'/////\\/'\n  - '////// '", "'//  /\\/'\n  - '//  // '").find("'diagonals'"),
+  EXPECT_NE(refusal_with(kHips, "'/////\\/'\n  - '////// '", "'//  /\\/'\n  - '//  // '").find("'diagonals'"),
             std::string::npos);
-  EXPECT_NE(refusal_with("'/////\\/'", "'/////\\x'").find("'diagonals'"), std::string::npos);
-  EXPECT_NE(refusal_with("{row: 4, column: 7,", "{row: 5, column: 7,").find("no cell"), std::string::npos);
-  EXPECT_NE(refusal_with("{row: 6, column: 6,", "{row: 6, column: 4,").find("row 6, column 1"),
+  EXPECT_NE(refusal_with(kHips, "'/////\\/'", "'/////\\x'").find("'diagonals'"), std::string::npos);
+  EXPECT_NE(refusal_with(kHips, "{row: 4, column: 7,", "{row: 5, column: 7,").find("no cell"),
             std::string::npos);
-  EXPECT_NE(refusal_with("axis: [hip_side_L, crotch]", "axis: []").find("'axis'"), std::string::npos);
-  EXPECT_NE(refusal_with("landmark: buttock_L}\n", "landmark: buttock_L, axis: [crotch]}\n").find("'axis'"),
+  EXPECT_NE(refusal_with(kHips, "{row: 6, column: 6,", "{row: 6, column: 4,").find("row 6, column 1"),
             std::string::npos);
+  EXPECT_NE(refusal_with(kHips, "axis: [hip_side_L, crotch]", "axis: []").find("'axis'"), std::string::npos);
+  EXPECT_NE(
+      refusal_with(kHips, "landmark: buttock_L}\n", "landmark: buttock_L, axis: [crotch]}\n").find("'axis'"),
+      std::string::npos);
 }
 
 }  // namespace

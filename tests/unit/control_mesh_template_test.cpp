@@ -2,40 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "control_mesh/grid.hpp"
 #include "control_mesh/template.hpp"
+#include "control_mesh_changed_template.hpp"
 #include "geometry/status.hpp"
 
 namespace {
 
 using namespace tensegric_fit;
+using control_mesh::refusal_with;
 const std::string kBust = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/templates/bust.yaml";
-
-/// The bust template with the first `what` replaced, read back; the refusal's message, or "" where it was
-/// accepted.
-std::string refusal_with(const std::string& what, const std::string& by) {
-  std::ifstream in(kBust);
-  std::stringstream text;
-  text << in.rdbuf();
-  std::string changed = text.str();
-  const std::size_t at = changed.find(what);
-  if (at == std::string::npos) return "the template does not contain " + what;
-  changed.replace(at, what.size(), by);
-  const std::string path = testing::TempDir() + "changed_template.yaml";
-  std::ofstream(path) << changed;
-  try {
-    control_mesh::load_template(path);
-  } catch (const geometry::Refusal& refusal) {
-    EXPECT_EQ(refusal.code(), "bad_template");
-    EXPECT_NE(std::string(refusal.what()).find(path), std::string::npos) << "the file is not named";
-    return refusal.what();
-  }
-  return "";
-}
 
 TEST(BustTemplate, HasTheSizeOfThePapers) {
   const auto grid = control_mesh::grid_of(control_mesh::load_template(kBust));
@@ -91,22 +69,24 @@ TEST(BustTemplate, GridIsItsOwnMirrorImage) {
 }
 
 TEST(BustTemplate, RefusesUnknownKeysByName) {
-  EXPECT_NE(refusal_with("inner_fixed:", "iner_fixed:").find("'iner_fixed'"), std::string::npos);
-  EXPECT_NE(refusal_with("offset: -20", "ofset: -20").find("'ofset'"), std::string::npos);
-  EXPECT_NE(refusal_with("{name: bust, rows", "{name: bust, colour: red, rows").find("'colour'"),
+  EXPECT_NE(refusal_with(kBust, "inner_fixed:", "iner_fixed:").find("'iner_fixed'"), std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "offset: -20", "ofset: -20").find("'ofset'"), std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "{name: bust, rows", "{name: bust, colour: red, rows").find("'colour'"),
             std::string::npos);
 }
 
 TEST(BustTemplate, RefusesWhatDoesNotFit) {
-  EXPECT_NE(refusal_with("columns: 11", "columns: 10").find("'columns'"), std::string::npos);
-  EXPECT_NE(refusal_with("rows: 7", "rows: seven").find("'rows'"), std::string::npos);
-  EXPECT_NE(refusal_with("row: 3, column: 3", "row: 3, column: 6").find("'column'"), std::string::npos);
-  EXPECT_NE(refusal_with("'######'", "'#####'").find("'fixed'"), std::string::npos);
-  EXPECT_NE(refusal_with("0.045", "4.5").find("'thickness'"), std::string::npos);
-  EXPECT_NE(refusal_with("through: [axilla_L", "through: [armpit_L").find("'armpit_L'"), std::string::npos);
-  EXPECT_NE(refusal_with("rows: [0, 6]", "rows: [0, 7]").find("'rows'"), std::string::npos);
-  EXPECT_NE(refusal_with("name: sternum", "name: sternum_L").find("'name'"), std::string::npos);
-  EXPECT_NE(refusal_with("row: 0, column: 0", "row: 1, column: 2").find("row 0, column 0"),
+  EXPECT_NE(refusal_with(kBust, "columns: 11", "columns: 10").find("'columns'"), std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "rows: 7", "rows: seven").find("'rows'"), std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "row: 3, column: 3", "row: 3, column: 6").find("'column'"),
+            std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "'######'", "'#####'").find("'fixed'"), std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "0.045", "4.5").find("'thickness'"), std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "through: [axilla_L", "through: [armpit_L").find("'armpit_L'"),
+            std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "rows: [0, 6]", "rows: [0, 7]").find("'rows'"), std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "name: sternum", "name: sternum_L").find("'name'"), std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "row: 0, column: 0", "row: 1, column: 2").find("row 0, column 0"),
             std::string::npos);
 }
 
