@@ -1,0 +1,60 @@
+/// Bra sizes of EN 13402-3.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "geometry/bra_size.hpp"
+
+namespace tensegric_fit::geometry {
+namespace {
+
+std::string label(double bust_cm, double underbust_cm) {
+  const auto size = bra_size(bust_cm / 100, underbust_cm / 100);
+  return size ? size->label() : "none";
+}
+
+TEST(BraSizeTest, ExamplesOfTheStandardsTables) {
+  EXPECT_EQ(label(107, 87), "85D");
+  EXPECT_EQ(label(108, 89), "90D");
+  EXPECT_EQ(label(100, 82), "80C");
+}
+
+TEST(BraSizeTest, TwelveToFourteenIsOverTwelveUpToFourteen) {
+  EXPECT_EQ(label(85.1, 75), "75AA");
+  EXPECT_EQ(label(87, 75), "75AA");
+  EXPECT_EQ(label(87.1, 75), "75A");
+  EXPECT_EQ(label(89, 75), "75A");
+  EXPECT_EQ(label(89.1, 75), "75B");
+  EXPECT_EQ(label(103, 75), "75H");
+  EXPECT_EQ(label(139, 75), "75Z");
+}
+
+TEST(BraSizeTest, BandsAreTheNearestMultipleOfFive) {
+  EXPECT_EQ(label(87.4, 72.4), "70B");
+  EXPECT_EQ(label(87.5, 72.5), "75B");
+  EXPECT_EQ(label(92.4, 77.4), "75B");
+}
+
+TEST(BraSizeTest, DecimalGirthsAreNotPushedOverALimitByBinaryOnes) {
+  for (int millimetres = 580; millimetres < 1400; ++millimetres) {
+    const auto size = bra_size(millimetres / 1000.0 + 0.14, millimetres / 1000.0);
+    ASSERT_TRUE(size) << millimetres;
+    EXPECT_EQ(size->cup, "A") << millimetres;  // 14 cm is the end of A
+  }
+}
+
+TEST(BraSizeTest, GirthsThatNoSizeIsMadeForHaveNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(label(85, 75), "none");
+  EXPECT_EQ(label(75, 85), "none");
+  EXPECT_EQ(label(139.1, 75), "none");
+  EXPECT_EQ(label(72, 57), "none");
+  EXPECT_EQ(label(170, 143), "none");
+  EXPECT_EQ(label(nan, 75), "none");
+  EXPECT_EQ(label(90, nan), "none");
+  EXPECT_EQ(label(std::numeric_limits<double>::infinity(), 75), "none");
+}
+
+}  // namespace
+}  // namespace tensegric_fit::geometry
