@@ -1,23 +1,15 @@
 #include "fit/effects.hpp"
 
 #include <algorithm>
-#include <limits>
+
+#include "geometry/moved_skin.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
 
-// Where a point of the skin went, in the body frame: along with the nearest vertex.
+// Where a point of the skin went, in the body frame.
 Eigen::Vector3d carried(const Eigen::Vector3d& point, const Body& body, const Fit& fit) {
-  const auto& vertices = body.mesh.mesh.vertices;
-  std::size_t nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    const double distance = (vertices[v] - point).squaredNorm();
-    if (distance >= least) continue;
-    least = distance;
-    nearest = v;
-  }
-  return body.measures.body_from_scan * (point + fit.deformed[nearest] - vertices[nearest]);
+  return body.measures.body_from_scan * geometry::carried(point, {body.mesh.mesh, fit.deformed});
 }
 
 }  // namespace

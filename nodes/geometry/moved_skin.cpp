@@ -1,0 +1,153 @@
+#include "geometry/moved_skin.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "geometry/section.hpp"
+
+namespace tensegric_fit::geometry {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kOnTape = 1e-4;    // m
+constexpr double kSteepest = 0.5;   // of the trunk: how much wider it is by how much higher or lower
+constexpr double kSmallest = 1e-8;  // m^2; a loop round less has no plane
+
+/// A tape in its own plane.
+class FlatTape {
+ public:
+  /// Without a plane where the loop has none.
+  explicit FlatTape(const std::vector<Vector3d>& loop) {
+    if (loop.size() < 3) return;
+    for (const Vector3d& p : loop) origin_ += p / static_cast<double>(loop.size());
+    Vector3d area = Vector3d::Zero();  // twice the loop's
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      area += (loop[i] - origin_).cross(loop[(i + 1) % loop.size()] - origin_);
+    if (!(area.norm() > kSmallest)) return;
+    normal = area.normalized();
+    across_ = normal.unitOrthogonal();
+    std::vector<Vector2d> flat;
+    for (const Vector3d& p : loop) flat.push_back(flattened(p));
+    hull_ = convex_hull(std::move(flat));
+  }
+
+  bool has_plane() const { return hull_.size() >= 3; }
+  double above(const Vector3d& p) const { return normal.dot(p - origin_); }
+
+  /// How far beyond the tape a point lies in its plane; negative inside.
+  double outside(const Vector3d& p) const {
+    const Vector2d at = flattened(p);
+    double farthest = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < hull_.size(); ++i) {
+      const Vector2d along = (hull_[(i + 1) % hull_.size()] - hull_[i]).normalized();
+      farthest = std::max(farthest, Vector2d(along.y(), -along.x()).dot(at - hull_[i]));
+    }
+    return farthest;
+  }
+
+  Vector3d normal = Vector3d::Zero();
+
+ private:
+  Vector2d flattened(const Vector3d& p) const {
+    return {across_.dot(p - origin_), normal.cross(across_).dot(p - origin_)};
+  }
+
+  Vector3d origin_ = Vector3d::Zero(), across_ = Vector3d::Zero();
+  std::vector<Vector2d> hull_;
+};
+
+std::optional<double> girth_change(const MovedSkin& skin, const std::vector<Vector3d>& loop) {
+  const std::vector<Vector3d> before = tape_after({skin.before, skin.before.vertices}, loop);
+  const std::vector<Vector3d> after = tape_after(skin, loop);
+  if (before.empty() || after.empty()) return std::nullopt;
+  return length_of(after, true) - length_of(before, true);
+}
+
+/// Mean rise along the body's z of those landmarks that there are.
+std::optional<double> rise(const std::vector<std::string>& names, const BodyMeasures& measures,
+                           const MovedSkin& skin) {
+  double sum = 0;
+  int found = 0;
+  for (const std::string& name : names) {
+    const Landmark* landmark = measures.find_landmark(name);
+    if (landmark == nullptr) continue;
+    sum += (measures.body_from_scan.linear() * (carried(landmark->position, skin) - landmark->position)).z();
+    ++found;
+  }
+  return found == 0 ? std::nullopt : std::optional<double>(sum / found);
+}
+
+double top(const std::vector<Vector3d>& vertices, const Eigen::Isometry3d& body_from_scan) {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const Vector3d& p : vertices) highest = std::max(highest, (body_from_scan * p).z());
+  return highest;
+}
+
+}  // namespace
+
+Vector3d carried(const Vector3d& point, const MovedSkin& skin) {
+  const std::vector<Vector3d>& vertices = skin.before.vertices;
+  const auto nearest = std::min_element(vertices.begin(), vertices.end(), [&](const auto& a, const auto& b) {
+    return (a - point).squaredNorm() < (b - point).squaredNorm();
+  });
+  return point + skin.after[nearest - vertices.begin()] - *nearest;
+}
+
+std::vector<Vector3d> tape_after(const MovedSkin& skin, const std::vector<Vector3d>& loop) {
+  const FlatTape before(loop);
+  if (!before.has_plane()) return {};
+  std::vector<double> height(skin.after.size());
+  for (std::size_t v = 0; v < height.size(); ++v) height[v] = before.above(skin.after[v]);
+  std::vector<Vector3d> section;
+  for (const Eigen::Vector3i& triangle : skin.before.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangle[k], b = triangle[(k + 1) % 3];
+      if (height[a] < 0 || height[b] >= 0) continue;  // each edge once: its other triangle runs it upwards
+      const double u = height[a] / (height[a] - height[b]);
+      const Vector3d was = (1 - u) * skin.before.vertices[a] + u * skin.before.vertices[b];
+      if (before.outside(was) <= kOnTape + kSteepest * std::abs(before.above(was)))
+        section.push_back((1 - u) * skin.after[a] + u * skin.after[b]);
+    }
+  }
+  if (section.size() < 3) return {};
+  return tape(section, before.normal);
+}
+
+std::vector<ChangedMeasure> girths_after(const BodyMeasures& measures, const MovedSkin& skin) {
+  std::vector<ChangedMeasure> changed;
+  for (const Measure& girth : measures.girths) {
+    changed.push_back({girth, std::nullopt});
+    for (const GirthLoop& loop : measures.loops)
+      if (loop.name == girth.name)
+        if (const auto change = girth_change(skin, loop.points))
+          changed.back().after = girth.metres + *change;
+  }
+  return changed;
+}
+
+std::vector<ChangedMeasure> heights_after(const BodyMeasures& measures, const MovedSkin& skin) {
+  static const std::map<std::string, std::vector<std::string>> kLandmarks = {
+      {"bust", {"bust_point_L", "bust_point_R"}},
+      {"underbust", {"underbust_L", "underbust_R"}},
+      {"waist", {"waist_side_L", "waist_side_R"}},
+      {"hip", {"buttock_L", "buttock_R"}},
+      {"crotch", {"crotch"}},
+      {"neck", {"neck_front", "neck_back"}}};
+  std::vector<ChangedMeasure> changed;
+  for (const Measure& height : measures.heights) {
+    changed.push_back({height, std::nullopt});
+    const auto landmarks = kLandmarks.find(height.name);
+    std::optional<double> change;
+    if (landmarks != kLandmarks.end()) change = rise(landmarks->second, measures, skin);
+    if (height.name == "stature")
+      change = top(skin.after, measures.body_from_scan) - top(skin.before.vertices, measures.body_from_scan);
+    if (change) changed.back().after = height.metres + *change;
+  }
+  return changed;
+}
+
+}  // namespace tensegric_fit::geometry
