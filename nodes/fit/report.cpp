@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "fit/effects.hpp"
+#include "geometry/csv.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -105,14 +106,6 @@ void add_fit(const Body& body, const Fitting& fitting, const Fit& fit, const Set
   report["distortion"] = {{"min", *low}, {"max", *high}, {"over_constricted", std::move(tight)}};
 }
 
-// A heading of a CSV column (RFC 4180): quoted where it would read as more than one.
-std::string heading(const std::string& name) {
-  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
-  std::string quoted = "\"";
-  for (char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 }  // namespace
 
 Json report_of(const Source& source, const Body& body, const Fitting* fitting, const Fit* fit,
@@ -151,8 +144,9 @@ Json report_of(const Source& source, const geometry::Refusal& refusal) {
 
 std::string history_csv(const Body& body, const Fitting& fitting, const tensegric::Solution& solution) {
   std::string text = "iteration";
-  for (const auto& line : solution.lines) text += "," + heading("ratio_" + line.name);
-  for (const auto& region : solution.regions) text += "," + heading("volume_error_" + region.name);
+  for (const auto& line : solution.lines) text += "," + geometry::csv_field("ratio_" + line.name);
+  for (const auto& region : solution.regions)
+    text += "," + geometry::csv_field("volume_error_" + region.name);
   for (int node : tracked_nodes(fitting.control)) text += ",height_" + fitting.control.names[node];
   text += ",residual\n";
   for (const auto& row : solution.history) {

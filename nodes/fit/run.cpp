@@ -132,8 +132,13 @@ class Run {
   }
 
   void save_pictures(const Fitting& fitting, const Fit& fit) const {
-    inspect::FitScene scene{
-        body_.mesh.mesh, fit.deformed, fit.distortion, body_.measures, parts_of(fitting.control), {}, {}};
+    inspect::FitScene scene{body_.mesh.mesh,
+                            fit.deformed,
+                            fit.distortion,
+                            body_.measures,
+                            inspect::parts_of(fitting.control, body_.measures.body_from_scan),
+                            {},
+                            {}};
     for (const auto& line : fit.solution.lines) {
       scene.lines_before.push_back(line.course_at_rest);
       scene.lines_after.push_back(line.course);
@@ -150,22 +155,6 @@ class Run {
   cv::Mat beside_measured(const cv::Mat& measured, const cv::Mat& pictures) const {
     if (line_.is_shape()) return pictures;
     return inspect::side_by_side(inspect::with_caption(measured, "measured"), pictures);
-  }
-
-  // One a region; from behind where most of its skin faces backwards.
-  std::vector<inspect::Part> parts_of(const geometry::ControlMesh& control) const {
-    std::vector<inspect::Part> parts;
-    for (const geometry::ControlRegion& region : control.regions) {
-      inspect::Part part;
-      Eigen::Vector3d faced = Eigen::Vector3d::Zero();
-      for (const Eigen::Vector3i& t : geometry::region_triangles(control, region)) {
-        faced += geometry::area_vector(control.outer[t[0]], control.outer[t[1]], control.outer[t[2]]);
-        for (int k = 0; k < 3; ++k) part.nodes.push_back(control.outer[t[k]]);
-      }
-      part.behind = (body_.measures.body_from_scan.linear() * faced).x() < 0;
-      parts.push_back(std::move(part));
-    }
-    return parts;
   }
 
   void write_fit(const Fitting& fitting, const Fit& fit) {

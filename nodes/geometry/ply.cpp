@@ -67,33 +67,41 @@ TriangleMesh read_ply_mesh(const std::string& path) {
   return mesh;
 }
 
-void write_ply_mesh(const std::string& path, const TriangleMesh& mesh,
-                    const std::vector<std::array<std::uint8_t, 3>>& colours, Coordinates coordinates) {
+std::string ply_bytes(const TriangleMesh& mesh, const std::vector<std::array<std::uint8_t, 3>>& colours,
+                      Coordinates coordinates) {
   const bool exact = coordinates == Coordinates::float64;
   const std::string type = exact ? "double" : "float";
   const bool coloured = colours.size() == mesh.vertices.size() && !colours.empty();
+  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment tensegric_fit, metres\nelement vertex " +
+                      std::to_string(mesh.vertices.size()) + "\n";
+  for (const char* axis : {"x", "y", "z"}) bytes += "property " + type + " " + axis + "\n";
+  if (coloured) bytes += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  bytes += "element face " + std::to_string(mesh.triangles.size()) +
+           "\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto append = [&bytes](const auto* values, std::size_t count) {
+    bytes.append(reinterpret_cast<const char*>(values), count * sizeof *values);
+  };
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Eigen::Vector3f p = mesh.vertices[v].cast<float>();
+    if (exact)
+      append(mesh.vertices[v].data(), 3);
+    else
+      append(p.data(), 3);
+    if (coloured) append(colours[v].data(), 3);
+  }
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    bytes += '\3';
+    append(t.data(), 3);
+  }
+  return bytes;
+}
+
+void write_ply_mesh(const std::string& path, const TriangleMesh& mesh,
+                    const std::vector<std::array<std::uint8_t, 3>>& colours, Coordinates coordinates) {
   const std::string unfinished = path + ".part";
   {
     std::ofstream file(unfinished, std::ios::binary | std::ios::trunc);
-    file << "ply\nformat binary_little_endian 1.0\ncomment tensegric_fit, metres\nelement vertex "
-         << mesh.vertices.size() << "\n";
-    for (const char* axis : {"x", "y", "z"}) file << "property " << type << " " << axis << "\n";
-    if (coloured) file << "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-    file << "element face " << mesh.triangles.size()
-         << "\nproperty list uchar int vertex_indices\nend_header\n";
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-      const Eigen::Vector3f p = mesh.vertices[v].cast<float>();
-      if (exact)
-        file.write(reinterpret_cast<const char*>(mesh.vertices[v].data()), 3 * sizeof(double));
-      else
-        file.write(reinterpret_cast<const char*>(p.data()), 3 * sizeof(float));
-      if (coloured) file.write(reinterpret_cast<const char*>(colours[v].data()), 3);
-    }
-    for (const Eigen::Vector3i& t : mesh.triangles) {
-      file.put(3);
-      file.write(reinterpret_cast<const char*>(t.data()), 3 * sizeof(int));
-    }
-    file.flush();
+    file << ply_bytes(mesh, colours, coordinates) << std::flush;
     if (!file) {
       std::remove(unfinished.c_str());
       throw std::runtime_error(path + ": cannot be written");

@@ -26,8 +26,12 @@ TriangleMesh read_ply_mesh(const std::string& path);
 /// Bodies are written as float32, control meshes as float64: they are what exactness is checked on.
 enum class Coordinates { float32, float64 };
 
-/// Writes binary little-endian; `colours` is empty or has one RGB triple a vertex.
-/// The file appears whole or not at all. \throw std::runtime_error where it cannot be written
+/// A file's bytes: binary little-endian; `colours` is empty or has one RGB triple a vertex.
+std::string ply_bytes(const TriangleMesh& mesh, const std::vector<std::array<std::uint8_t, 3>>& colours = {},
+                      Coordinates coordinates = Coordinates::float32);
+
+/// The file of ply_bytes(). It appears whole or not at all. \throw std::runtime_error where it cannot be
+/// written
 void write_ply_mesh(const std::string& path, const TriangleMesh& mesh,
                     const std::vector<std::array<std::uint8_t, 3>>& colours = {},
                     Coordinates coordinates = Coordinates::float32);

@@ -23,11 +23,15 @@ inline constexpr char kUnknownLine[] =
     "unknown_line";  ///< a line or node that the control mesh does not have
 inline constexpr char kBadTemplate[] = "bad_template";      ///< control mesh template YAML
 inline constexpr char kBadOption[] = "bad_option";          ///< an option or parameter out of range
+inline constexpr char kCannotWrite[] = "cannot_write";      ///< a folder that is read-only, full, not there
 inline constexpr char kMissingSensor[] = "missing_sensor";  ///< a sensor of the booth sent nothing in time
 inline constexpr char kLateCloud[] = "late_cloud";      ///< a sensor's cloud came after its capture had left
 inline constexpr char kNoStamp[] = "no_stamp";          ///< a sensor's cloud without a time
 inline constexpr char kNoTransform[] = "no_transform";  ///< tf does not know where a sensor stands
-inline constexpr char kNothingYet[] = "nothing_yet";    ///< asked for a result before there is one
+inline constexpr char kTriggerFailed[] = "trigger_failed";  ///< the booth could not be told to scan
+inline constexpr char kTimedOut[] = "timed_out";      ///< a capture that did not come to its end in time
+inline constexpr char kSuperseded[] = "superseded";   ///< a newer scan came before this one was through
+inline constexpr char kNothingYet[] = "nothing_yet";  ///< asked for a result before there is one
 }  // namespace refusal
 
 /// Bad input, refused by name. Thrown by the cores; `fit` turns it into exit code 3 and `reason`, a node into

@@ -35,6 +35,21 @@ cv::Mat before_and_after(const FitScene& scene, MakeView make) {
 
 }  // namespace
 
+std::vector<Part> parts_of(const geometry::ControlMesh& control, const Eigen::Isometry3d& body_from_scan) {
+  std::vector<Part> parts;
+  for (const geometry::ControlRegion& region : control.regions) {
+    Part part;
+    Eigen::Vector3d faced = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3i& t : geometry::region_triangles(control, region)) {
+      faced += geometry::area_vector(control.outer[t[0]], control.outer[t[1]], control.outer[t[2]]);
+      for (int k = 0; k < 3; ++k) part.nodes.push_back(control.outer[t[k]]);
+    }
+    part.behind = (body_from_scan.linear() * faced).x() < 0;
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
 cv::Mat front_picture(const FitScene& scene) {
   return before_and_after(scene, front_view);
 }

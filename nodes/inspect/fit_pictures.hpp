@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/body_measures.hpp"
+#include "geometry/control_mesh.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "inspect/measured_picture.hpp"
 #include "inspect/picture.hpp"
@@ -17,6 +18,9 @@ struct Part {
   std::vector<Eigen::Vector3d> nodes;  ///< what the pictures are to show of it
   bool behind = false;                 ///< it is seen from behind
 };
+
+/// One a region of the control mesh; behind where most of its skin faces backwards.
+std::vector<Part> parts_of(const geometry::ControlMesh& control, const Eigen::Isometry3d& body_from_scan);
 
 /// A body before and after. Only borrowed: the meshes and measures must outlive the scene.
 struct FitScene {

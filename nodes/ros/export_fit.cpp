@@ -1,121 +1,133 @@
 #include "ros/export_fit.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
 
 #include "geometry/ply.hpp"
 #include "geometry/status.hpp"
-#include "inspect/picture.hpp"
-#include "ros/body_messages.hpp"
-#include "ros/flat.hpp"
+#include "geometry/whole_folder.hpp"
+#include "inspect/fit_pictures.hpp"
+#include "ros/fit_document.hpp"
+#include "ros/fit_sheet.hpp"
 
 namespace tensegric_fit::node {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::ordered_json;
+using geometry::FileContent;
+using geometry::Refusal;
 
-[[noreturn]] void refuse(const char* code, const std::string& message) {
-  throw geometry::Refusal(code, message);
+constexpr std::array<const char*, 10> kFiles = {
+    kFitDocument,           "measurements.csv", "body.ply", "deformed.ply",   "control.ply",
+    "control_deformed.ply", "front.png",        "side.png", "distortion.png", "fit.html"};
+
+FileContent png(const std::string& name, const cv::Mat& picture) {
+  std::vector<unsigned char> bytes;
+  cv::imencode(".png", picture, bytes);
+  return {name, {bytes.begin(), bytes.end()}};
 }
 
-ordered_json by_name(const std::vector<Measure>& measures) {
-  ordered_json object = ordered_json::object();
-  for (const Measure& measure : measures) object[measure.name] = measure.value;
-  return object;
+inspect::FitScene scene_of(const FitFigures& figures) {
+  inspect::FitScene scene{figures.body,
+                          figures.deformed,
+                          figures.distortion,
+                          figures.measures,
+                          inspect::parts_of(figures.control, figures.measures.body_from_scan),
+                          {},
+                          {}};
+  for (const LineResult& line : figures.scan.fit->lines) {
+    scene.lines_before.emplace_back();
+    scene.lines_after.emplace_back();
+    for (const std::uint32_t node : line.nodes) {
+      scene.lines_before.back().push_back(figures.control.outer[node]);
+      scene.lines_after.back().push_back(figures.control_deformed[node]);
+    }
+  }
+  return scene;
 }
 
-ordered_json landmarks_of(const Landmarks& landmarks) {
-  ordered_json object = ordered_json::object();
-  for (const Landmark& point : landmarks.points)
-    object[point.name] = {{"position", point.position}, {"confidence", point.confidence}};
-  return object;
+std::vector<FileContent> contents_of(const FitFigures& figures) {
+  const geometry::TriangleMesh deformed{figures.deformed, figures.body.triangles};
+  const auto& cells = figures.control.triangles;
+  constexpr auto kExact = geometry::Coordinates::float64;
+  const inspect::FitScene scene = scene_of(figures);
+  const FileContent front = png("front.png", inspect::front_picture(scene)),
+                    side = png("side.png", inspect::side_picture(scene)),
+                    distortion = png("distortion.png", inspect::distortion_picture(scene));
+  return {{kFitDocument, fit_json(figures, {kFiles.begin(), kFiles.end()})},
+          {"measurements.csv", measurements_csv(figures)},
+          {"body.ply", geometry::ply_bytes(figures.body)},
+          {"deformed.ply", geometry::ply_bytes(deformed, inspect::distortion_colours(figures.distortion))},
+          {"control.ply", geometry::ply_bytes({figures.control.outer, cells}, {}, kExact)},
+          {"control_deformed.ply", geometry::ply_bytes({figures.control_deformed, cells}, {}, kExact)},
+          front,
+          side,
+          distortion,
+          {"fit.html", fit_sheet(figures, {{front, "From the front: before and after"},
+                                           {side, "From the side: before and after"},
+                                           {distortion,
+                                            "Where the skin is pressed together (tighter) and "
+                                            "where it is stretched (looser)"}})}};
 }
 
-ordered_json report_of(const FittedScan& scan) {
-  ordered_json lines = ordered_json::array();
-  for (const LineResult& line : scan.fit->lines)
-    lines.push_back({{"name", line.name},
-                     {"initial", line.initial},
-                     {"neutral", line.neutral},
-                     {"final", line.final},
-                     {"request", line.request},
-                     {"ratio", line.ratio},
-                     {"tension", line.tension}});
-  ordered_json regions = ordered_json::array();
-  for (const RegionResult& region : scan.fit->regions)
-    regions.push_back(
-        {{"name", region.name}, {"control_volume", {region.volume_before, region.volume_after}}});
-
-  ordered_json report;
-  report["scan"] = {{"scan_id", scan.body->scan_id}, {"frame", scan.body->header.frame_id}};
-  report["garment"] = scan.fit->garment;
-  report["landmarks"] = landmarks_of(*scan.landmarks);
-  report["heights"] = by_name(scan.landmarks->heights);
-  report["girths"] = by_name(scan.landmarks->girths);
-  report["solver"] = {{"name", scan.fit->solver},
-                      {"status", scan.fit->status},
-                      {"iterations", scan.fit->iteration},
-                      {"residual", scan.fit->residual},
-                      {"ms", scan.fit->milliseconds}};
-  report["lines"] = lines;
-  report["regions"] = regions;
-  report["body"] = {{"vertices", scan.body->vertices.size() / 3},
-                    {"triangles", scan.body->triangles.size() / 3},
-                    {"volume", {scan.deformed->volume_before, scan.deformed->volume_after}}};
-  return report;
+/// The folder's scan, where it is an export.
+std::optional<std::string> exported_scan(const fs::path& folder) {
+  if (fs::symlink_status(folder).type() != fs::file_type::directory) return std::nullopt;
+  std::ifstream file(folder / kFitDocument);
+  return scan_id_in({std::istreambuf_iterator<char>(file), {}});
 }
 
-void write_files(const FittedScan& scan, const fs::path& folder) {
-  const geometry::TriangleMesh body = mesh_in(*scan.body);
-  const geometry::ControlMesh control = control_in(*scan.control);
-  const std::vector<double> distortion(scan.deformed->distortion.begin(), scan.deformed->distortion.end());
-  geometry::write_ply_mesh(folder / "body.ply", body);
-  geometry::write_ply_mesh(folder / "control.ply", {control.outer, control.triangles}, {},
-                           geometry::Coordinates::float64);
-  geometry::write_ply_mesh(folder / "control_deformed.ply", {points_in(scan.fit->outer), control.triangles},
-                           {}, geometry::Coordinates::float64);
-  geometry::write_ply_mesh(folder / "deformed.ply", {points_in(scan.deformed->vertices), body.triangles},
-                           inspect::distortion_colours(distortion));
-  std::ofstream report(folder / "report.json");
-  // names may come from any publisher: what is no UTF-8 is replaced, not thrown at
-  report << report_of(scan).dump(2, ' ', false, ordered_json::error_handler_t::replace) << '\n';
-  report.close();
-  if (!report) throw std::runtime_error("cannot write " + (folder / "report.json").string());
+void check_nothing_else_in(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_regular_file() || std::find(kFiles.begin(), kFiles.end(), name) == kFiles.end())
+      throw Refusal(
+          geometry::refusal::kBadOption,
+          fmt::format("'{}' is no part of an export: its folder was not deleted", entry.path().string()));
+  }
+}
+
+std::vector<fs::path> exports_of(const fs::path& directory, const std::string& scan_id) {
+  std::vector<fs::path> folders;
+  if (exported_scan(directory) == scan_id) return {directory};
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory))
+    if (exported_scan(entry.path()) == scan_id) folders.push_back(entry.path());
+  std::sort(folders.begin(), folders.end());
+  return folders;
 }
 
 }  // namespace
 
 std::vector<std::string> export_fit(const FittedScan& scan, const std::string& directory) {
-  fs::path wanted = fs::path(directory).lexically_normal();
-  if (!wanted.has_filename()) wanted = wanted.parent_path();  // a slash at the end
-  if (!wanted.is_absolute() || !wanted.has_filename())
-    refuse(geometry::refusal::kBadOption, fmt::format("directory '{}' is not an absolute path", directory));
-  std::error_code ignored;  // a path that cannot be looked at cannot be written either, which says why
-  if (fs::exists(wanted, ignored) && !fs::is_empty(wanted, ignored))
-    refuse(geometry::refusal::kBadOption,
-           fmt::format("'{}' is there already and is not overwritten", wanted.string()));
+  return geometry::write_whole_folder(directory, contents_of(figures_of(scan)));
+}
 
-  const fs::path folder = wanted.parent_path() / fmt::format(".{}.{}", wanted.filename().string(), getpid());
+std::vector<std::string> delete_exports(const std::string& directory, const std::string& scan_id) {
+  fs::path place = fs::path(directory).lexically_normal();
+  if (!place.has_filename()) place = place.parent_path();  // a slash at the end
+  if (!place.is_absolute() || scan_id.empty())
+    throw Refusal(geometry::refusal::kBadOption, "which scan is to be deleted from which absolute path?");
+  std::vector<std::string> gone;
   try {
-    fs::create_directories(folder);
-    write_files(scan, folder);
-    fs::rename(folder, wanted);  // fails where a filled directory has come up meanwhile
-  } catch (const std::runtime_error& error) {
-    fs::remove_all(folder, ignored);
-    refuse(geometry::refusal::kBrokenFile,
-           fmt::format("cannot export to '{}': {}", wanted.string(), error.what()));
+    for (const fs::path& folder : exports_of(place, scan_id)) {
+      check_nothing_else_in(folder);
+      geometry::delete_whole_folder(folder);
+      gone.push_back(folder);
+    }
+  } catch (const fs::filesystem_error& error) {
+    throw Refusal(geometry::refusal::kCannotWrite,
+                  fmt::format("'{}' cannot be looked at: {}", place.string(), error.code().message()));
   }
-  std::vector<std::string> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(wanted))
-    files.push_back(entry.path().string());
-  std::sort(files.begin(), files.end());
-  return files;
+  if (gone.empty())
+    throw Refusal(geometry::refusal::kNothingYet,
+                  fmt::format("no export of scan {} in '{}'", scan_id, place.string()));
+  return gone;
 }
 
 }  // namespace tensegric_fit::node

@@ -1,31 +1,21 @@
 /// A fit as files, for the garment's maker.
 #pragma once
 
-#include <tensegric_fit/ControlMesh.h>
-#include <tensegric_fit/DeformedMesh.h>
-#include <tensegric_fit/FitState.h>
-#include <tensegric_fit/Landmarks.h>
-#include <tensegric_fit/TriangleMesh.h>
-
 #include <string>
 #include <vector>
 
+#include "ros/fit_figures.hpp"
+
 namespace tensegric_fit::node {
 
-/// Everything about the fit of one scan. \pre all of one scan
-struct FittedScan {
-  TriangleMesh::ConstPtr body;
-  Landmarks::ConstPtr landmarks;
-  ControlMesh::ConstPtr control;
-  FitState::ConstPtr fit;
-  DeformedMesh::ConstPtr deformed;
-};
-
-/// Writes body.ply, control.ply, control_deformed.ply, deformed.ply (coloured by distortion) and report.json
-/// (measurements and fit parameters, with the field names of the `fit` program). They are written into a
-/// folder beside `directory` which then takes its name: the export appears whole or not at all, and none is
-/// ever overwritten. Returns the files' paths. \throw Refusal bad_option: the path is relative, or there is
-/// something already; broken_file: it cannot be written
+/// Writes fit.json, measurements.csv, body.ply, deformed.ply (coloured by distortion), control.ply,
+/// control_deformed.ply, front.png, side.png, distortion.png and fit.html, as a whole folder: none is ever
+/// overwritten. Returns the files' paths. \throw Refusal as write_whole_folder and figures_of
 std::vector<std::string> export_fit(const FittedScan& scan, const std::string& directory);
+
+/// Deletes the exports of that scan: `directory` itself, or the folders in it. What is no export, or holds
+/// anything else, is left alone. Returns the folders that are gone. \throw Refusal bad_option: a relative
+/// path, or no scan; nothing_yet: there is no export of it; cannot_write
+std::vector<std::string> delete_exports(const std::string& directory, const std::string& scan_id);
 
 }  // namespace tensegric_fit::node

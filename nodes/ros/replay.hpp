@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/export_fit.hpp"
+#include "ros/fit_figures.hpp"
 
 namespace tensegric_fit::node {
 

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "geometry/posture.hpp"
-#include "ros/export_fit.hpp"
 #include "ros/facts.hpp"
+#include "ros/fit_figures.hpp"
 #include "ros/parameters.hpp"
 #include "ros/scan_join.hpp"
 #include "tffd/binding.hpp"

@@ -1,10 +1,7 @@
 /// body/mesh + body/landmarks + control/mesh + control/deformed -> body/deformed
-#include <tensegric_fit/ExportFit.h>
-
-#include <mutex>
-
 #include "inspect/markers.hpp"
 #include "ros/display.hpp"
+#include "ros/export_desk.hpp"
 #include "ros/flat.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
@@ -19,12 +16,12 @@ class TffdNode {
       : handler_(Parameters(private_node)),
         deformed_(node.advertise<DeformedMesh>("body/deformed", 1, true)),
         display_(private_node),
+        exports_(node),
         stage_("tffd", node) {
     subscribers_ = {node.subscribe("body/mesh", 2, &TffdNode::on_body, this, kPrompt),
                     node.subscribe("body/landmarks", 2, &TffdNode::on<Landmarks>, this, kPrompt),
                     node.subscribe("control/mesh", 2, &TffdNode::on<ControlMesh>, this, kPrompt),
                     node.subscribe("control/deformed", 8, &TffdNode::on<FitState>, this, kPrompt)};
-    export_ = node.advertiseService("export_fit", &TffdNode::on_export, this);
   }
 
  private:
@@ -49,8 +46,7 @@ class TffdNode {
   void publish(const Output& output) {
     deformed_.publish(output.scan.deformed);
     show(output.scan.deformed, output.bound);
-    std::lock_guard<std::mutex> lock(mutex_);
-    fitted_ = output.scan;
+    exports_.keep(output.scan);
   }
 
   void show(const DeformedMesh::ConstPtr& deformed, const std::shared_ptr<const BoundBody>& bound) {
@@ -73,32 +69,11 @@ class TffdNode {
         [=] { return front_image(header, shape(), distortion(), {}, bound->body_from_scan); });
   }
 
-  bool on_export(ExportFit::Request& request, ExportFit::Response& response) {
-    try {
-      FittedScan scan;
-      {
-        std::lock_guard<std::mutex> lock(mutex_);
-        scan = fitted_;
-      }
-      if (!scan.deformed) throw geometry::Refusal(geometry::refusal::kNothingYet, "no fit has ended so far");
-      response.files = export_fit(scan, request.directory);
-      response.exported = true;
-      response.message = "wrote scan " + scan.body->scan_id + ", garment " + scan.fit->garment;
-    } catch (const geometry::Refusal& refusal) {
-      response.exported = false;
-      response.code = refusal.code();
-      response.message = refusal.what();
-    }
-    return true;
-  }
-
   TffdHandler handler_;
-  std::mutex mutex_;
-  FittedScan fitted_;
   ros::Publisher deformed_;
   Display display_;
+  ExportDesk exports_;
   std::vector<ros::Subscriber> subscribers_;
-  ros::ServiceServer export_;
   Stage stage_;  // last: its worker uses all of the above
 };
 

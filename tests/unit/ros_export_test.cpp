@@ -2,9 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <boost/make_shared.hpp>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "geometry/ply.hpp"
 #include "geometry/status.hpp"
@@ -15,39 +20,117 @@ namespace tensegric_fit::node {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// A trunk: a tube of 0.15 m, open above and below.
+geometry::TriangleMesh tube() {
+  constexpr int kAround = 60, kLevels = 21;
+  geometry::TriangleMesh mesh;
+  for (int level = 0; level < kLevels; ++level) {
+    for (int i = 0; i < kAround; ++i) {
+      const double angle = 2 * kPi * i / kAround;
+      mesh.vertices.emplace_back(0.15 * std::cos(angle), 0.15 * std::sin(angle), 1 + 0.02 * level);
+      if (level == 0) continue;
+      const int here = level * kAround + i, next = level * kAround + (i + 1) % kAround;
+      mesh.triangles.emplace_back(here - kAround, next - kAround, next);
+      mesh.triangles.emplace_back(here - kAround, next, here);
+    }
+  }
+  return mesh;
+}
+
+geometry::GirthLoop loop_at(const std::string& name, double height) {
+  geometry::GirthLoop loop{name, {}};
+  for (int i = 0; i < 60; ++i)
+    loop.points.emplace_back(0.15 * std::cos(2 * kPi * i / 60), 0.15 * std::sin(2 * kPi * i / 60), height);
+  return loop;
+}
 
 class ExportFitTest : public testing::Test {
  protected:
   void SetUp() override {
     fs::remove_all(root_);
-    const ScanTag tag{std_msgs::Header(), "1.000000000-00000001"};
-    const geometry::TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    scan_ = fitted("1.000000000-00000001");
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  /// The whole trunk at nine tenths of its width.
+  static FittedScan fitted(const std::string& scan_id) {
+    const ScanTag tag{std_msgs::Header(), scan_id};
+    const geometry::TriangleMesh mesh = tube();
     geometry::ControlMesh control;
-    control.outer = mesh.vertices;
-    control.inner = {{0, 0, -0.1}, {1, 0, -0.1}, {0, 1, -0.1}};
-    control.triangles = mesh.triangles;
+    control.outer = {{0.15, 0, 1.1}, {0, 0.15, 1.1}, {0.1, 0.1, 1.3}};
+    control.inner = {{0.1, 0, 1.1}, {0, 0.1, 1.1}, {0.07, 0.07, 1.3}};
+    control.triangles = {{0, 1, 2}};
     control.outer_fixed = control.inner_fixed = {1, 1, 0};
     control.names = {"", "", ""};
     control.regions = {{"bust", {0}}};
     geometry::BodyMeasures measures;
-    measures.landmarks = {{"navel", {0.1, 0.2, 0.3}, 0.9, ""}};
-    measures.girths = {{"waist", 0.7, 1, ""}};
+    measures.landmarks = {{"bust_point_L", {0.15, 0, 1.2}, 0.9, ""},
+                          {"navel", {0.1, 0.2, 0.3}, 0.4, "by proportion"}};
+    measures.girths = {{"bust", 0.942, 0.9, "", 0.004}, {"underbust", 0.75, 0.4, "hair, <b>long</b>"}};
+    measures.heights = {{"bust", 1.2, 0.9, ""}, {"stature", 1.7, 1, ""}};
+    measures.loops = {loop_at("bust", 1.21)};
+    measures.missing = {{"neck", "no head"}};
 
     const auto fit = boost::make_shared<FitState>();
     fit->garment = "B1\xff";  // no UTF-8: anyone may publish a garment
-    fit->outer = {0, 0, 0, 1, 0, 0, 0, 1, 0.25};
+    fit->solver = "equilibrium";
+    fit->status = FitState::CONVERGED;
+    fit->outer = flat(0.9, control.outer);
+    fit->lines.resize(1);
+    LineResult& line = fit->lines[0];
+    line.name = "chest";
+    line.nodes = {0, 2, 1};
+    line.initial = 0.4;
+    line.neutral = line.final = 0.36;
+    line.request = line.ratio = 0.9;
+    fit->regions.resize(1);
+    fit->regions[0].name = "bust";
+    fit->regions[0].volume_before = fit->regions[0].volume_after = 0.001;
     const auto deformed = boost::make_shared<DeformedMesh>();
-    deformed->vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0.25};
-    deformed->distortion = {1, 1, 0.8F};
-    scan_ = {boost::make_shared<TriangleMesh>(to_message(tag, mesh, {})),
-             boost::make_shared<Landmarks>(to_message(tag, measures)),
-             boost::make_shared<ControlMesh>(to_message(tag, control)), fit, deformed};
+    for (const double value : flat(0.9, mesh.vertices))
+      deformed->vertices.push_back(static_cast<float>(value));
+    deformed->distortion.assign(mesh.vertices.size(), 0.9F);
+    return {boost::make_shared<TriangleMesh>(to_message(tag, mesh, {})),
+            boost::make_shared<Landmarks>(to_message(tag, measures)),
+            boost::make_shared<ControlMesh>(to_message(tag, control)), fit, deformed};
   }
-  void TearDown() override { fs::remove_all(root_); }
 
-  std::string refused(const std::string& directory) const {
+  static std::vector<double> flat(double width, const std::vector<Eigen::Vector3d>& points) {
+    std::vector<double> values;
+    for (const Eigen::Vector3d& p : points)
+      for (const double value : {width * p.x(), width * p.y(), p.z()}) values.push_back(value);
+    return values;
+  }
+
+  static std::string text_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  /// Whether a validator that is not ours accepts it.
+  static bool is_valid(const fs::path& document) {
+    const std::string schema = TENSEGRIC_FIT_SOURCE_DIR "/launch/schemas/fit.schema.json";
+    return std::system(
+               ("/usr/bin/python3 -m jsonschema -i '" + document.string() + "' '" + schema + "' 2>/dev/null")
+                   .c_str()) == 0;
+  }
+
+  std::string refused(const FittedScan& scan, const std::string& directory) const {
     try {
-      export_fit(scan_, directory);
+      export_fit(scan, directory);
+    } catch (const geometry::Refusal& refusal) {
+      return refusal.code();
+    }
+    return "";
+  }
+
+  std::string not_deleted(const std::string& directory, const std::string& scan_id) const {
+    try {
+      delete_exports(directory, scan_id);
     } catch (const geometry::Refusal& refusal) {
       return refusal.code();
     }
@@ -58,36 +141,115 @@ class ExportFitTest : public testing::Test {
   FittedScan scan_;
 };
 
-TEST_F(ExportFitTest, WritesMeshesMeasuresAndParameters) {
+TEST_F(ExportFitTest, WritesMeshesMeasuresPicturesAndParameters) {
   const fs::path folder = root_ / "one";
-  EXPECT_EQ(export_fit(scan_, folder.string() + "/").size(), 5u);  // a slash at the end does not matter
+  EXPECT_EQ(export_fit(scan_, folder).size(), 10u);
   const geometry::TriangleMesh deformed = geometry::read_ply_mesh(folder / "deformed.ply");
   EXPECT_EQ(deformed.triangles, geometry::read_ply_mesh(folder / "body.ply").triangles);
-  EXPECT_EQ(deformed.vertices.at(2), Eigen::Vector3d(0, 1, 0.25));
-  EXPECT_EQ(geometry::read_ply_mesh(folder / "control_deformed.ply").vertices.at(2),
-            Eigen::Vector3d(0, 1, 0.25));
-  const nlohmann::json report = nlohmann::json::parse(std::ifstream(folder / "report.json"));
-  EXPECT_EQ(report["scan"]["scan_id"], "1.000000000-00000001");
-  EXPECT_EQ(report["garment"], "B1\uFFFD");
-  EXPECT_EQ(report["girths"]["waist"], 0.7);
-  EXPECT_EQ(report["landmarks"]["navel"]["position"][2], 0.3);
+  EXPECT_NEAR(deformed.vertices.at(0).x(), 0.135, 1e-7);  // float32
+  EXPECT_TRUE(geometry::read_ply_mesh(folder / "control_deformed.ply")
+                  .vertices.at(2)
+                  .isApprox(Eigen::Vector3d(0.09, 0.09, 1.3), 1e-15));
+  for (const char* name : {"front.png", "side.png", "distortion.png"})
+    EXPECT_GT(cv::imread((folder / name).string()).cols, 1000) << name;
+
+  const json fit = json::parse(text_of(folder / "fit.json"));
+  EXPECT_EQ(fit["scan"]["scan_id"], "1.000000000-00000001");
+  EXPECT_EQ(fit["garment"]["name"], "B1\uFFFD");
+  EXPECT_EQ(fit["garment"]["lines"][0]["neutral_mm"], 360);
+  EXPECT_EQ(fit["body"]["girths"][0]["before_mm"], 942);
+  // a tenth of the 60-cornered tape
+  EXPECT_NEAR(fit["body"]["girths"][0]["after_mm"], 942 - 100 * 0.15 * 120 * std::sin(kPi / 60), 1e-3);
+  EXPECT_TRUE(fit["body"]["girths"][1]["after_mm"].is_null());
+  EXPECT_EQ(fit["body"]["bra_size"]["before"], "75D");
+  EXPECT_TRUE(fit["body"]["bra_size"]["after"].is_null());
+  EXPECT_NEAR(fit["body"]["landmarks"][0]["after_mm"][0], 135, 1e-3);
+  EXPECT_EQ(fit["files"].size(), 10u);
+  for (const std::string name : fit["files"]) EXPECT_GT(fs::file_size(folder / name), 0u) << name;
 }
 
-TEST_F(ExportFitTest, OverwritesNothingAndLeavesNothingHalfDone) {
-  const fs::path folder = root_ / "one";
-  fs::create_directories(folder);
-  std::ofstream(folder / "precious") << "mine";
-  EXPECT_EQ(refused(folder), "bad_option");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
-  EXPECT_EQ(refused("relative/path"), "bad_option");
-  EXPECT_EQ(refused(""), "bad_option");
+TEST_F(ExportFitTest, TheDocumentIsWhatItsSchemaSays) {
+  export_fit(scan_, root_ / "one");
+  EXPECT_TRUE(is_valid(root_ / "one" / "fit.json"));
+  const json good = json::parse(text_of(root_ / "one" / "fit.json"));
+  const auto accepts = [&](const json::json_pointer& where, const json& value) {
+    json other = good;
+    other[where] = value;
+    std::ofstream(root_ / "other.json") << other;
+    return is_valid(root_ / "other.json");
+  };
+  EXPECT_TRUE(accepts("/garment/name"_json_pointer, "B2"));
+  EXPECT_FALSE(accepts("/version"_json_pointer, 2));
+  EXPECT_FALSE(accepts("/garment/lines/0/neutral_mm"_json_pointer, nullptr));
+  EXPECT_FALSE(accepts("/body/bra_size/before"_json_pointer, "large"));
+  EXPECT_FALSE(accepts("/body/girths/0/confidence"_json_pointer, 1.5));
+}
 
-  EXPECT_EQ(refused(root_ / std::string(300, 'x')), "broken_file");  // a longer name than folders have
+TEST_F(ExportFitTest, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
+  export_fit(scan_, root_ / "one");
+  const std::string page = text_of(root_ / "one" / "fit.html");
+  EXPECT_NE(page.find("<td>bust girth</td><td>94.2</td><td>84.8</td><td>-9.4</td>"), std::string::npos);
+  EXPECT_NE(page.find("<b>75D</b>"), std::string::npos);
+  EXPECT_NE(page.find("hair, &lt;b&gt;long&lt;/b&gt;"), std::string::npos);
+  std::size_t pictures = 0;
+  for (std::size_t at = page.find("src="); at != std::string::npos;
+       at = page.find("src=", at + 1), ++pictures)
+    EXPECT_EQ(page.compare(at, 27, "src=\"data:image/png;base64,"), 0);
+  EXPECT_EQ(pictures, 3u);
+  EXPECT_EQ(page.find("href="), std::string::npos);
+  EXPECT_EQ(text_of(root_ / "one" / "measurements.csv"),
+            "kind,name,before_mm,after_mm,confidence,half_width_mm,reason\r\n"
+            "height,bust,1200.0,1200.0,0.90,,\r\n"
+            "height,stature,1700.0,1700.0,1.00,,\r\n"
+            "girth,bust,942.0,847.8,0.90,4.0,\r\n"
+            "girth,underbust,750.0,,0.40,,\"hair, <b>long</b>\"\r\n");
+}
 
-  std::ofstream(root_ / "file") << "no folder";
-  EXPECT_EQ(refused(root_ / "file" / "below"), "broken_file");
-  EXPECT_EQ(std::distance(fs::directory_iterator(root_), {}),
-            2);  // "one" and "file": no temporary folder stays
+TEST_F(ExportFitTest, WhatDoesNotFitTogetherOrIsNoNumberIsNotExported) {
+  const auto spoilt = [this](const auto& spoil) {
+    FittedScan scan = fitted("2.000000000-00000002");
+    const auto fit = boost::make_shared<FitState>(*scan.fit);
+    const auto deformed = boost::make_shared<DeformedMesh>(*scan.deformed);
+    spoil(*fit, *deformed);
+    scan.fit = fit;
+    scan.deformed = deformed;
+    const std::string code = refused(scan, root_ / "spoilt");
+    EXPECT_FALSE(fs::exists(root_ / "spoilt"));
+    return code;
+  };
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(spoilt([](FitState& fit, DeformedMesh&) { fit.lines[0].neutral = kNan; }), "non_finite");
+  EXPECT_EQ(spoilt([](FitState& fit, DeformedMesh&) { fit.lines[0].nodes[0] = 99; }), "bad_mesh");
+  EXPECT_EQ(spoilt([](FitState& fit, DeformedMesh&) { fit.outer.resize(6); }), "bad_mesh");
+  EXPECT_EQ(spoilt([](FitState&, DeformedMesh& deformed) { deformed.vertices.resize(9); }), "bad_mesh");
+  EXPECT_EQ(spoilt([](FitState&, DeformedMesh& deformed) { deformed.distortion.clear(); }), "bad_mesh");
+}
+
+TEST_F(ExportFitTest, ExportsAreDeletedByScanAndNothingElseIs) {
+  const std::string id = scan_.body->scan_id;
+  for (const char* name : {"one", "two"}) export_fit(scan_, root_ / name);
+  export_fit(fitted("3.000000000-00000003"), root_ / "other");
+  fs::create_directories(root_ / "no_export");
+  std::ofstream(root_ / "no_export" / "fit.json") << R"({"scan": {"scan_id": ")" << id << "\"}}";
+  fs::create_directories(root_ / "elsewhere");
+  fs::create_directory_symlink(root_ / "one", root_ / "elsewhere" / "link");
+
+  EXPECT_EQ(not_deleted(root_ / "elsewhere", id), "nothing_yet");  // links are not followed
+  EXPECT_EQ(not_deleted("relative", id), "bad_option");
+  EXPECT_EQ(not_deleted(root_, ""), "bad_option");
+  EXPECT_EQ(not_deleted(root_ / "nowhere", id), "cannot_write");
+  EXPECT_EQ(delete_exports(root_.string() + "/", id),
+            (std::vector<std::string>{root_ / "one", root_ / "two"}));
+  EXPECT_EQ(not_deleted(root_, id), "nothing_yet");
+  EXPECT_TRUE(fs::exists(root_ / "other" / "fit.json"));
+  EXPECT_TRUE(fs::exists(root_ / "no_export" / "fit.json"));
+
+  std::ofstream(root_ / "other" / "precious") << "mine";
+  EXPECT_EQ(not_deleted(root_, "3.000000000-00000003"), "bad_option");
+  EXPECT_EQ(std::distance(fs::directory_iterator(root_ / "other"), {}), 11);
+  fs::remove(root_ / "other" / "precious");
+  EXPECT_EQ(not_deleted(root_ / "other", "3.000000000-00000003"), "");  // the export itself
+  EXPECT_FALSE(fs::exists(root_ / "other"));
 }
 
 }  // namespace

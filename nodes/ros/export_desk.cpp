@@ -1,0 +1,69 @@
+#include "ros/export_desk.hpp"
+
+#include <fmt/format.h>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+/// What went wrong goes into the response. True: nothing did.
+template <typename Response, typename Work>
+bool answered(Response& response, const Work& work) {
+  try {
+    work();
+    return true;
+  } catch (const geometry::Refusal& refusal) {
+    response.code = refusal.code();
+    response.message = refusal.what();
+  } catch (const std::exception& error) {
+    response.code = "internal_error";
+    response.message = error.what();
+  }
+  ROS_ERROR("export: %s: %s", response.code.c_str(), response.message.c_str());
+  return false;
+}
+
+}  // namespace
+
+ExportDesk::ExportDesk(const ros::NodeHandle& node) : spinner_(1, &queue_) {
+  ros::NodeHandle own(node);
+  own.setCallbackQueue(&queue_);
+  services_ = {own.advertiseService("export_fit", &ExportDesk::on_export, this),
+               own.advertiseService("delete_export", &ExportDesk::on_delete, this)};
+  spinner_.start();
+}
+
+void ExportDesk::keep(const FittedScan& scan) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  fitted_ = scan;
+}
+
+FittedScan ExportDesk::kept() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return fitted_;
+}
+
+bool ExportDesk::on_export(ExportFit::Request& request, ExportFit::Response& response) {
+  response.exported = answered(response, [&] {
+    const FittedScan scan = kept();
+    if (!scan.deformed) throw geometry::Refusal(geometry::refusal::kNothingYet, "no fit has ended so far");
+    if (!request.scan_id.empty() && request.scan_id != scan.body->scan_id)
+      throw geometry::Refusal(
+          geometry::refusal::kNothingYet,
+          fmt::format("no fit of scan {} is at hand, but one of {}", request.scan_id, scan.body->scan_id));
+    response.files = export_fit(scan, request.directory);
+    response.message = "wrote scan " + scan.body->scan_id + ", garment " + scan.fit->garment;
+  });
+  return true;
+}
+
+bool ExportDesk::on_delete(DeleteExport::Request& request, DeleteExport::Response& response) {
+  response.deleted = answered(response, [&] {
+    response.folders = delete_exports(request.directory, request.scan_id);
+    response.message = fmt::format("deleted {} exports of scan {}", response.folders.size(), request.scan_id);
+  });
+  return true;
+}
+
+}  // namespace tensegric_fit::node

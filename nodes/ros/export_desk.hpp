@@ -1,0 +1,35 @@
+/// The services export_fit and delete_export.
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <tensegric_fit/DeleteExport.h>
+#include <tensegric_fit/ExportFit.h>
+
+#include <mutex>
+
+#include "ros/export_fit.hpp"
+
+namespace tensegric_fit::node {
+
+/// Serves in a thread of its own: writing pictures and files holds nothing else up.
+class ExportDesk {
+ public:
+  explicit ExportDesk(const ros::NodeHandle& node);
+
+  /// What is exported from now on.
+  void keep(const FittedScan& scan);
+
+ private:
+  FittedScan kept();
+  bool on_export(ExportFit::Request& request, ExportFit::Response& response);
+  bool on_delete(DeleteExport::Request& request, DeleteExport::Response& response);
+
+  std::mutex mutex_;
+  FittedScan fitted_;
+  ros::CallbackQueue queue_;
+  std::vector<ros::ServiceServer> services_;
+  ros::AsyncSpinner spinner_;  // last: it uses all of the above
+};
+
+}  // namespace tensegric_fit::node

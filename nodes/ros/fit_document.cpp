@@ -1,0 +1,156 @@
+#include "ros/fit_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "geometry/csv.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+using geometry::ChangedMeasure;
+using nlohmann::ordered_json;
+
+constexpr char kFormat[] = "tensegric_fit/fit";
+constexpr int kVersion = 1;  // of the schema; counts up when a field changes its meaning or goes
+
+/// To the micrometre.
+double millimetres(double metres) {
+  return std::round(1e6 * metres) / 1e3;
+}
+
+ordered_json millimetres(const Eigen::Vector3d& point) {
+  return {millimetres(point.x()), millimetres(point.y()), millimetres(point.z())};
+}
+
+double cubic_centimetres(double cubic_metres) {
+  return std::round(1e9 * cubic_metres) / 1e3;
+}
+
+ordered_json garment_of(const FitState& fit) {
+  ordered_json lines = ordered_json::array();
+  for (const LineResult& line : fit.lines)
+    lines.push_back({{"name", line.name},
+                     {"rest_mm", millimetres(line.initial)},
+                     {"neutral_mm", millimetres(line.neutral)},
+                     {"worn_mm", millimetres(line.final)},
+                     {"request", line.request},
+                     {"ratio", line.ratio},
+                     {"tension", line.tension}});
+  return {{"name", fit.garment}, {"lines", std::move(lines)}};
+}
+
+ordered_json measure_of(const ChangedMeasure& measure) {
+  ordered_json object = {{"name", measure.before.name}, {"before_mm", millimetres(measure.before.metres)}};
+  object["after_mm"] = measure.after ? ordered_json(millimetres(*measure.after)) : ordered_json();
+  object["confidence"] = measure.before.confidence;
+  if (measure.before.half_width > 0) object["half_width_mm"] = millimetres(measure.before.half_width);
+  if (!measure.before.reason.empty()) object["reason"] = measure.before.reason;
+  return object;
+}
+
+ordered_json measures_of(const std::vector<ChangedMeasure>& measures) {
+  ordered_json list = ordered_json::array();
+  for (const ChangedMeasure& measure : measures) list.push_back(measure_of(measure));
+  return list;
+}
+
+ordered_json size_of(const std::optional<geometry::BraSize>& size) {
+  return size ? ordered_json(size->label()) : ordered_json();
+}
+
+ordered_json body_of(const FitFigures& figures) {
+  ordered_json landmarks = ordered_json::array(), missing = ordered_json::array();
+  for (const geometry::Landmark& landmark : figures.measures.landmarks)
+    landmarks.push_back(
+        {{"name", landmark.name},
+         {"before_mm", millimetres(landmark.position)},
+         {"after_mm", millimetres(geometry::carried(landmark.position, {figures.body, figures.deformed}))},
+         {"confidence", landmark.confidence}});
+  for (const geometry::Missing& part : figures.measures.missing)
+    missing.push_back({{"name", part.name}, {"reason", part.reason}});
+  return {{"bra_size",
+           {{"standard", "EN 13402-3"},
+            {"before", size_of(figures.size_before)},
+            {"after", size_of(figures.size_after)}}},
+          {"heights", measures_of(figures.heights)},
+          {"girths", measures_of(figures.girths)},
+          {"landmarks", std::move(landmarks)},
+          {"missing", std::move(missing)}};
+}
+
+ordered_json volumes_of(const FittedScan& scan) {
+  const auto volume = [](const std::string& name, double before, double after) -> ordered_json {
+    return {
+        {"name", name}, {"before_cm3", cubic_centimetres(before)}, {"after_cm3", cubic_centimetres(after)}};
+  };
+  ordered_json volumes = ordered_json::array();
+  volumes.push_back(volume("body", scan.deformed->volume_before, scan.deformed->volume_after));
+  for (const RegionResult& region : scan.fit->regions)
+    volumes.push_back(volume(region.name, region.volume_before, region.volume_after));
+  return volumes;
+}
+
+ordered_json rows_of(const Eigen::Isometry3d& transform) {
+  ordered_json rows = ordered_json::array();
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::RowVector4d row = transform.matrix().row(i);
+    rows.push_back({row[0], row[1], row[2], row[3]});
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::string fit_json(const FitFigures& figures, const std::vector<std::string>& files) {
+  const FitState& fit = *figures.scan.fit;
+  const auto [tightest, loosest] = std::minmax_element(figures.distortion.begin(), figures.distortion.end());
+  ordered_json document;
+  document["format"] = kFormat;
+  document["version"] = kVersion;
+  document["software"] = {{"name", "tensegric_fit"}, {"version", TENSEGRIC_FIT_VERSION}};
+  document["scan"] = {{"scan_id", figures.scan.body->scan_id},
+                      {"frame", figures.scan.body->header.frame_id},
+                      {"body_from_scan", rows_of(figures.measures.body_from_scan)}};
+  document["garment"] = garment_of(fit);
+  document["solver"] = {{"name", fit.solver},
+                        {"status", fit.status},
+                        {"note", fit.note},
+                        {"iterations", fit.iteration},
+                        {"residual", fit.residual}};
+  document["posture"] = {{"twist_rad", fit.twist}, {"side_lean_rad", fit.side_lean}};
+  document["body"] = body_of(figures);
+  document["volumes"] = volumes_of(figures.scan);
+  document["distortion"] = {{"min", *tightest}, {"max", *loosest}};
+  document["files"] = files;
+  // names may come from any publisher: what is no UTF-8 is replaced, not thrown at
+  return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::optional<std::string> scan_id_in(const std::string& fit_json) {
+  const nlohmann::json document = nlohmann::json::parse(fit_json, nullptr, false);
+  if (!document.is_object() || document.value("format", nlohmann::json()) != kFormat) return std::nullopt;
+  const nlohmann::json scan = document.value("scan", nlohmann::json());
+  const nlohmann::json id = scan.is_object() ? scan.value("scan_id", nlohmann::json()) : nlohmann::json();
+  return id.is_string() ? std::optional<std::string>(id) : std::nullopt;
+}
+
+std::string measurements_csv(const FitFigures& figures) {
+  std::string text = "kind,name,before_mm,after_mm,confidence,half_width_mm,reason\r\n";
+  for (const auto& [kind, measures] : {std::pair{"height", &figures.heights}, {"girth", &figures.girths}}) {
+    for (const ChangedMeasure& measure : *measures) {
+      const geometry::Measure& before = measure.before;
+      text += fmt::format("{},{},{:.1f},{},{:.2f},{},{}\r\n", kind, geometry::csv_field(before.name),
+                          1e3 * before.metres,
+                          measure.after ? fmt::format("{:.1f}", 1e3 * *measure.after) : "", before.confidence,
+                          before.half_width > 0 ? fmt::format("{:.1f}", 1e3 * before.half_width) : "",
+                          geometry::csv_field(before.reason));
+    }
+  }
+  return text;
+}
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,78 @@
+#include "ros/fit_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/status.hpp"
+#include "ros/body_messages.hpp"
+#include "ros/flat.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+using geometry::ChangedMeasure;
+using geometry::Refusal;
+
+void check_sizes(const FitFigures& figures) {
+  const auto& nodes = figures.control.outer;
+  bool fits = !figures.body.vertices.empty() && figures.deformed.size() == figures.body.vertices.size() &&
+              figures.distortion.size() == figures.body.vertices.size() &&
+              figures.control_deformed.size() == nodes.size();
+  for (const LineResult& line : figures.scan.fit->lines)
+    for (const std::uint32_t node : line.nodes) fits = fits && node < nodes.size();
+  if (!fits)
+    throw Refusal(geometry::refusal::kBadMesh, "the fit does not belong to this body and control mesh");
+}
+
+void check_finite(const FitFigures& figures) {
+  const auto check = [](std::initializer_list<double> values, const std::string& what) {
+    if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+      throw Refusal(geometry::refusal::kNonFinite, what + " is not finite");
+  };
+  const FittedScan& scan = figures.scan;
+  for (const auto* measures : {&figures.measures.heights, &figures.measures.girths})
+    for (const geometry::Measure& m : *measures) check({m.metres, m.confidence, m.half_width}, m.name);
+  for (const geometry::Landmark& landmark : figures.measures.landmarks)
+    check({landmark.confidence}, landmark.name);
+  for (const LineResult& line : scan.fit->lines)
+    check({line.initial, line.neutral, line.final, line.request, line.ratio, line.tension}, line.name);
+  for (const RegionResult& region : scan.fit->regions)
+    check({region.volume_before, region.volume_after}, region.name);
+  check({scan.fit->residual, scan.fit->twist, scan.fit->side_lean}, "the fit");
+  check({scan.deformed->volume_before, scan.deformed->volume_after}, "the body's volume");
+  for (const double distortion : figures.distortion) check({distortion}, "distortion");
+}
+
+std::optional<double> girth(const std::vector<ChangedMeasure>& girths, const std::string& name, bool after) {
+  for (const ChangedMeasure& girth : girths)
+    if (girth.before.name == name) return after ? girth.after : girth.before.metres;
+  return std::nullopt;
+}
+
+std::optional<geometry::BraSize> size_of(const std::vector<ChangedMeasure>& girths, bool after) {
+  const auto bust = girth(girths, "bust", after), underbust = girth(girths, "underbust", after);
+  return bust && underbust ? geometry::bra_size(*bust, *underbust) : std::nullopt;
+}
+
+}  // namespace
+
+FitFigures figures_of(const FittedScan& scan) {
+  FitFigures figures;
+  figures.scan = scan;
+  figures.body = mesh_in(*scan.body);
+  figures.deformed = points_in(scan.deformed->vertices);
+  figures.distortion.assign(scan.deformed->distortion.begin(), scan.deformed->distortion.end());
+  figures.control = control_in(*scan.control);
+  figures.control_deformed = points_in(scan.fit->outer);
+  figures.measures = measures_in(*scan.landmarks);
+  check_sizes(figures);
+  check_finite(figures);
+  const geometry::MovedSkin skin{figures.body, figures.deformed};
+  figures.heights = geometry::heights_after(figures.measures, skin);
+  figures.girths = geometry::girths_after(figures.measures, skin);
+  figures.size_before = size_of(figures.girths, false);
+  figures.size_after = size_of(figures.girths, true);
+  return figures;
+}
+
+}  // namespace tensegric_fit::node

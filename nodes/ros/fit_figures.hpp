@@ -1,0 +1,47 @@
+/// What an exported fit says in figures.
+#pragma once
+
+#include <tensegric_fit/ControlMesh.h>
+#include <tensegric_fit/DeformedMesh.h>
+#include <tensegric_fit/FitState.h>
+#include <tensegric_fit/Landmarks.h>
+#include <tensegric_fit/TriangleMesh.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/body_measures.hpp"
+#include "geometry/bra_size.hpp"
+#include "geometry/control_mesh.hpp"
+#include "geometry/moved_skin.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::node {
+
+/// Everything about the fit of one scan. \pre all of one scan
+struct FittedScan {
+  TriangleMesh::ConstPtr body;
+  Landmarks::ConstPtr landmarks;
+  ControlMesh::ConstPtr control;
+  FitState::ConstPtr fit;
+  DeformedMesh::ConstPtr deformed;
+};
+
+/// The same as core types, and what follows from it. Metres.
+struct FitFigures {
+  FittedScan scan;
+  geometry::TriangleMesh body;
+  std::vector<Eigen::Vector3d> deformed;  ///< one a vertex of `body`
+  std::vector<double> distortion;         ///< one a vertex of `body`
+  geometry::ControlMesh control;
+  std::vector<Eigen::Vector3d> control_deformed;  ///< one an outer node
+  geometry::BodyMeasures measures;
+  std::vector<geometry::ChangedMeasure> heights, girths;
+  std::optional<geometry::BraSize> size_before, size_after;
+};
+
+/// \throw Refusal bad_mesh, non_finite: arrays that do not fit each other, or a number that is none
+FitFigures figures_of(const FittedScan& scan);
+
+}  // namespace tensegric_fit::node
