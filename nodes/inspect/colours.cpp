@@ -8,7 +8,8 @@ namespace tensegric_fit::inspect {
 namespace {
 
 constexpr Colour kTightColour{178, 24, 43}, kLooseColour{33, 94, 172};  // of equal lightness
-constexpr int kSteps = 256;                                             // from neutral to either end
+constexpr Colour kWayColour{98, 48, 148}, kForceless{120, 120, 120};
+constexpr int kSteps = 256;  // from neutral to an end
 
 cv::Vec3f lab(const Colour& colour) {
   cv::Mat3f pixel(1, 1, cv::Vec3f(colour[0] / 255.0F, colour[1] / 255.0F, colour[2] / 255.0F)), result;
@@ -16,29 +17,61 @@ cv::Vec3f lab(const Colour& colour) {
   return result(0, 0);
 }
 
-// From the tight end over neutral to the loose end, straight lines in CIE Lab.
-std::array<Colour, 2 * kSteps + 1> make_scale() {
-  const cv::Vec3f neutral = lab(kNeutral), tight = lab(kTightColour), loose = lab(kLooseColour);
-  cv::Mat3f colours(1, 2 * kSteps + 1), rgb;
-  for (int i = -kSteps; i <= kSteps; ++i) {
-    const float part = static_cast<float>(std::abs(i)) / kSteps;
-    colours(0, i + kSteps) = (1 - part) * neutral + part * (i < 0 ? tight : loose);
+using Ramp = std::array<Colour, kSteps + 1>;
+
+// From neutral to an end, a straight line in CIE Lab.
+Ramp ramp_to(const Colour& end) {
+  const cv::Vec3f from = lab(kNeutral), to = lab(end);
+  cv::Mat3f colours(1, kSteps + 1), rgb;
+  for (int i = 0; i <= kSteps; ++i) {
+    const float part = static_cast<float>(i) / kSteps;
+    colours(0, i) = (1 - part) * from + part * to;
   }
   cv::cvtColor(colours, rgb, cv::COLOR_Lab2RGB);
-  std::array<Colour, 2 * kSteps + 1> scale;
-  for (int i = 0; i <= 2 * kSteps; ++i)
-    for (int c = 0; c < 3; ++c) scale[i][c] = cv::saturate_cast<std::uint8_t>(255 * rgb(0, i)[c]);
-  scale[kSteps] = kNeutral;  // no rounding on the way through Lab
-  return scale;
+  Ramp ramp;
+  for (int i = 0; i <= kSteps; ++i)
+    for (int c = 0; c < 3; ++c) ramp[i][c] = cv::saturate_cast<std::uint8_t>(255 * rgb(0, i)[c]);
+  ramp[0] = kNeutral;  // no rounding on the way through Lab
+  return ramp;
+}
+
+const Colour& at(const Ramp& ramp, double share) {
+  return ramp[std::lround(kSteps * std::clamp(share, 0.0, 1.0))];
+}
+
+Colour mixed(const Colour& from, const Colour& to, double share) {
+  Colour colour;
+  for (int c = 0; c < 3; ++c)
+    colour[c] = cv::saturate_cast<std::uint8_t>((1 - share) * from[c] + share * to[c]);
+  return colour;
 }
 
 }  // namespace
 
+Colour two_sided_colour(double share) {
+  static const Ramp tight = ramp_to(kTightColour), loose = ramp_to(kLooseColour);
+  return share < 0 ? at(tight, -share) : at(loose, share);
+}
+
+Colour way_colour(double share) {
+  static const Ramp way = ramp_to(kWayColour);
+  return at(way, share);
+}
+
 Colour distortion_colour(double distortion) {
-  static const std::array<Colour, 2 * kSteps + 1> scale = make_scale();
   if (!std::isfinite(distortion)) return kNeutral;
-  const double span = distortion < 1 ? 1 - kTightest : kLoosest - 1;
-  return scale[kSteps + std::lround(kSteps * std::clamp((distortion - 1) / span, -1.0, 1.0))];
+  return two_sided_colour((distortion - 1) / (distortion < 1 ? 1 - kTightest : kLoosest - 1));
+}
+
+Colour tension_colour(double tension) {
+  const double share = std::max(0.0, tension) / (1 + std::max(0.0, tension));
+  const auto byte = [](double value) { return cv::saturate_cast<std::uint8_t>(255 * value); };
+  return {byte(2 * share), byte(3 * (1 - share) - 0.6), 30};
+}
+
+Colour member_colour(double force) {
+  const double size = std::abs(force);
+  return mixed(kForceless, force < 0 ? kLooseColour : kTightColour, size / (1 + size));
 }
 
 std::vector<Colour> distortion_colours(const std::vector<double>& distortion) {

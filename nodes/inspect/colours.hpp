@@ -15,6 +15,9 @@ using Colour = std::array<std::uint8_t, 3>;  ///< RGB
 /// One neutral colour for an undeformed body.
 inline constexpr Colour kNeutral{212, 205, 199};
 
+/// Landmarks and tapes: sure, and with a confidence below 0.5.
+inline constexpr Colour kSureColour{40, 110, 220}, kUnsureColour{240, 140, 20};
+
 /// The scale's ends: distortion below the first and above the second is shown as the end is.
 inline constexpr double kTightest = 0.7, kLoosest = 1.3;
 
@@ -23,6 +26,19 @@ Colour distortion_colour(double distortion);
 
 /// The same for many; a value that is not finite is neutral.
 std::vector<Colour> distortion_colours(const std::vector<double>& distortion);
+
+/// The scale under it: -1 is the tight end, 0 neutral, 1 the loose end. \pre finite
+Colour two_sided_colour(double share);
+
+/// From neutral at 0 to violet at 1: how far something went. \pre finite
+Colour way_colour(double share);
+
+/// Pull of a garment line: green at 0, yellow at 1, red from about 3 on: one fixed scale for all fits.
+Colour tension_colour(double tension);
+
+/// Force in a member over the mean pull at rest: grey without force, red where it pulls, blue where it is
+/// pressed.
+Colour member_colour(double force);
 
 /// The same colours with a light baked in: rviz draws coloured triangle lists unlit. `light_direction` is the
 /// way the light shines. It is soft: surfaces fade all the way to the side that faces away, and nothing is

@@ -4,8 +4,6 @@
 #include <pcl_conversions/pcl_conversions.h>
 #include <sensor_msgs/image_encodings.h>
 
-#include <algorithm>
-
 namespace tensegric_fit::inspect {
 namespace {
 
@@ -13,9 +11,7 @@ using visualization_msgs::Marker;
 
 constexpr double kDot = 0.012, kNode = 0.005, kEdge = 0.0015, kTape = 0.003, kBand = 0.006,
                  kLetter = 0.02;  // metres
-constexpr double kLift = 0.003;   // chords between nodes would sink into the skin: metres above it
-constexpr Colour kSure{40, 110, 220}, kUnsure{240, 140, 20}, kMesh{60, 60, 60}, kFixed{30, 30, 30},
-    kFree{250, 200, 40};
+constexpr Colour kFixed{30, 30, 30}, kFree{250, 200, 40};
 
 std_msgs::ColorRGBA rgba(const Colour& colour) {
   std_msgs::ColorRGBA result;
@@ -32,21 +28,6 @@ geometry_msgs::Point point_of(const Eigen::Vector3d& position) {
   point.y = position.y();
   point.z = position.z();
   return point;
-}
-
-// Green at 0, yellow at 1, red from about 3 on: one fixed scale for all fits.
-Colour heat(double tension) {
-  const double share = std::max(0.0, tension) / (1 + std::max(0.0, tension));
-  const auto byte = [](double value) { return static_cast<std::uint8_t>(255 * std::clamp(value, 0.0, 1.0)); };
-  return {byte(2 * share), byte(3 * (1 - share) - 0.6), 30};
-}
-
-std::vector<Eigen::Vector3d> lifted(const geometry::ControlMesh& control,
-                                    const std::vector<Eigen::Vector3d>& outer) {
-  const std::vector<Eigen::Vector3d> normals = geometry::vertex_normals(outer, control.triangles);
-  std::vector<Eigen::Vector3d> positions = outer;
-  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += kLift * normals[i];
-  return positions;
 }
 
 }  // namespace
@@ -89,7 +70,7 @@ Markers& Markers::landmarks(const geometry::BodyMeasures& measures) {
   Marker& dots = add("landmarks", Marker::SPHERE_LIST, kDot);
   for (const geometry::Landmark& landmark : measures.landmarks) {
     dots.points.push_back(point_of(landmark.position));
-    dots.colors.push_back(rgba(landmark.confidence < 0.5 ? kUnsure : kSure));
+    dots.colors.push_back(rgba(landmark.confidence < 0.5 ? kUnsureColour : kSureColour));
   }
   const Eigen::Vector3d up = measures.body_from_scan.linear().row(2);
   for (const geometry::Landmark& landmark : measures.landmarks) {
@@ -101,7 +82,7 @@ Markers& Markers::landmarks(const geometry::BodyMeasures& measures) {
   for (const geometry::GirthLoop& loop : measures.loops) {
     if (loop.points.empty()) continue;
     Marker& tape = add("girths", Marker::LINE_STRIP, kTape);
-    tape.color = rgba(kSure);
+    tape.color = rgba(kSureColour);
     for (const Eigen::Vector3d& position : loop.points) tape.points.push_back(point_of(position));
     tape.points.push_back(tape.points.front());
   }
@@ -110,13 +91,12 @@ Markers& Markers::landmarks(const geometry::BodyMeasures& measures) {
 
 Markers& Markers::control_mesh(const geometry::ControlMesh& control,
                                const std::vector<Eigen::Vector3d>& outer) {
-  const std::vector<Eigen::Vector3d> positions = lifted(control, outer);
   Marker& edges = add("control_mesh", Marker::LINE_LIST, kEdge);
-  edges.color = rgba(kMesh);
-  for (const geometry::Edge& edge : geometry::edges_of({outer, control.triangles})) {
-    edges.points.push_back(point_of(positions[edge.first]));
-    edges.points.push_back(point_of(positions[edge.second]));
+  for (const Stroke& edge : edge_strokes(control, outer)) {
+    edges.color = rgba(edge.colour);
+    for (const Eigen::Vector3d& end : edge.points) edges.points.push_back(point_of(end));
   }
+  const std::vector<Eigen::Vector3d> positions = lifted(outer, control.triangles);
   Marker& nodes = add("control_nodes", Marker::SPHERE_LIST, kNode);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     nodes.points.push_back(point_of(positions[i]));
@@ -127,12 +107,10 @@ Markers& Markers::control_mesh(const geometry::ControlMesh& control,
 
 Markers& Markers::lines(const geometry::ControlMesh& control, const std::vector<Eigen::Vector3d>& outer,
                         const std::vector<TenseLine>& lines) {
-  const std::vector<Eigen::Vector3d> positions = lifted(control, outer);
-  for (const TenseLine& line : lines) {
-    if (line.nodes.size() < 2) continue;
+  for (const Stroke& line : line_strokes(control, outer, lines)) {
     Marker& band = add("lines", Marker::LINE_STRIP, kBand);
-    band.color = rgba(heat(line.tension));
-    for (const int node : line.nodes) band.points.push_back(point_of(positions.at(node)));
+    band.color = rgba(line.colour);
+    for (const Eigen::Vector3d& point : line.points) band.points.push_back(point_of(point));
   }
   return *this;
 }

@@ -13,15 +13,10 @@
 #include "geometry/body_measures.hpp"
 #include "geometry/control_mesh.hpp"
 #include "geometry/triangle_mesh.hpp"
-#include "inspect/picture.hpp"
+#include "inspect/colours.hpp"
+#include "inspect/strokes.hpp"
 
 namespace tensegric_fit::inspect {
-
-/// A garment line over outer nodes of a control mesh, with the force along it.
-struct TenseLine {
-  std::vector<int> nodes;
-  double tension;  ///< pseudo force
-};
 
 /// The scene of one stage in one frame. Each scene first clears what the same topic showed before.
 class Markers {
@@ -37,7 +32,7 @@ class Markers {
   /// Edges over the outer nodes at `outer`; fixed nodes dark, free ones bright.
   Markers& control_mesh(const geometry::ControlMesh& control, const std::vector<Eigen::Vector3d>& outer);
 
-  /// From slack (green) over tension 1 (yellow) to tight (red).
+  /// Coloured by tension_colour.
   Markers& lines(const geometry::ControlMesh& control, const std::vector<Eigen::Vector3d>& outer,
                  const std::vector<TenseLine>& lines);
 

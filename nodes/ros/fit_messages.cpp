@@ -9,6 +9,7 @@
 
 #include "geometry/status.hpp"
 #include "ros/flat.hpp"
+#include "tensegric/members.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -182,6 +183,26 @@ FitState to_message(const FitName& name, const tensegric::Iterate& iterate,
   message.outer = flat<double>(outer);
   message.line_ratios = iterate.line_ratios;
   message.volume_errors = iterate.volume_errors;
+  return message;
+}
+
+MemberForces to_message(const ScanTag& tag, const std::string& garment, const tensegric::Model& model,
+                        const tensegric::Solution& solution) {
+  tensegric::Positions nodes = solution.outer;
+  nodes.insert(nodes.end(), solution.inner.begin(), solution.inner.end());
+  const double mean = model.mean_tension();
+  MemberForces message;
+  message.header = tag.header;
+  message.scan_id = tag.scan_id;
+  message.garment = garment;
+  message.nodes = flat<double>(nodes);
+  for (const tensegric::Member& member : model.members) {
+    message.ends.push_back(static_cast<std::uint32_t>(member.a));
+    message.ends.push_back(static_cast<std::uint32_t>(member.b));
+    message.struts.push_back(member.strut);
+    const double length = (nodes[member.b] - nodes[member.a]).norm();
+    message.forces.push_back(tensegric::tension(model, member, length) / mean);
+  }
   return message;
 }
 

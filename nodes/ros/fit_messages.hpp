@@ -4,12 +4,14 @@
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
 #include <tensegric_fit/Garment.h>
+#include <tensegric_fit/MemberForces.h>
 
 #include <string>
 #include <vector>
 
 #include "ros/scan_tag.hpp"
 #include "tensegric/garment.hpp"
+#include "tensegric/model.hpp"
 #include "tensegric/solver.hpp"
 
 namespace tensegric_fit::node {
@@ -39,5 +41,9 @@ FitState to_message(const FitName& name, const tensegric::Solution& solution, do
 /// A fit on its way: status `solving`.
 FitState to_message(const FitName& name, const tensegric::Iterate& iterate,
                     const std::vector<Eigen::Vector3d>& outer, double milliseconds);
+
+/// Forces of the model's members in a fit that has ended.
+MemberForces to_message(const ScanTag& tag, const std::string& garment, const tensegric::Model& model,
+                        const tensegric::Solution& solution);
 
 }  // namespace tensegric_fit::node

@@ -138,7 +138,7 @@ std::optional<TensegricHandler::Output> TensegricHandler::handle(
   message->twist = setup_.fitter.posture.twist;
   message->side_lean = setup_.fitter.posture.side_lean;
   return Output{message,
-                fitter_.model()->control,
+                fitter_.model(),
                 std::move(*solution),
                 {{"garment", message->garment},
                  {"solver", message->solver},

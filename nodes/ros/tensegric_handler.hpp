@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -46,7 +47,7 @@ class TensegricHandler {
 
   struct Output {
     FitState::ConstPtr fit;
-    geometry::ControlMesh control;
+    std::shared_ptr<const tensegric::Model> model;
     tensegric::Solution solution;
     Facts facts;
   };
@@ -58,7 +59,7 @@ class TensegricHandler {
  private:
   struct Setup {
     FitterOptions fitter;
-    double progress_period = 0.1;  ///< seconds
+    double progress_period = 0.05;  ///< seconds
     std::string garment = "B1";    ///< worn until another is asked for, and after a reset
     std::string kept;              ///< what it wore when it ended, where it was started again
     std::string garment_directory;

@@ -14,11 +14,12 @@ class TensegricNode {
  public:
   TensegricNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
       : handler_(Parameters(private_node)),
-        node_(node),
         private_node_(private_node),
         fit_(node.advertise<FitState>("control/deformed", 4, true)),
         progress_(node.advertise<FitState>("control/deformed", 4)),
+        garment_(node.advertise<Garment>("garment", 1, true)),
         display_(private_node),
+        members_(private_node, "members"),
         stage_("tensegric", node) {
     announce();
     subscribers_ = {node.subscribe("control/mesh", 2, &TensegricNode::on<ControlMesh>, this, kPrompt),
@@ -50,7 +51,7 @@ class TensegricNode {
     if (event.getPublisherName() == ros::this_node::getName()) return;
     try {
       put_on(handler_.put_on(*event.getMessage()));
-      garment_.shutdown();  // late joiners get theirs, not ours
+      announce();  // for late joiners: who asked for it may be gone by then
     } catch (const geometry::Refusal& refusal) {
       stage_.refuse("", refusal);
     }
@@ -84,14 +85,13 @@ class TensegricNode {
   }
 
   void put_on(const std::optional<Input>& input) {
-    private_node_.setParam("worn", handler_.kept());  // for the next life of this node
     fit(input);
+    private_node_.setParam("worn", handler_.kept());  // for the next life of this node
   }
 
   void announce() {
     std_msgs::Header header;
     header.stamp = ros::Time::now();
-    if (!garment_) garment_ = node_.advertise<Garment>("garment", 1, true);
     garment_.publish(to_message(header, handler_.worn()));
   }
 
@@ -115,20 +115,25 @@ class TensegricNode {
       for (const tensegric::LineResult& line : output->solution.lines)
         lines.push_back({line.nodes, line.tension});
       return inspect::Markers(header)
-          .control_mesh(output->control, output->solution.outer)
-          .lines(output->control, output->solution.outer, lines)
+          .control_mesh(output->model->control, output->solution.outer)
+          .lines(output->model->control, output->solution.outer, lines)
           .share();
     });
-    const geometry::TriangleMesh skin{output->solution.outer, output->control.triangles};
+    members_.offer([=] {
+      return boost::make_shared<MemberForces>(
+          to_message(tag_in(*output->fit), output->fit->garment, *output->model, output->solution));
+    });
+    const geometry::TriangleMesh skin{output->solution.outer, output->model->control.triangles};
     display_.polygon_mesh.offer([=] { return inspect::polygon_mesh(header, skin, {}); });
     display_.image.offer([=] { return front_image(header, skin, {}, {}, facing(skin)); });
   }
 
   TensegricHandler handler_;
-  ros::NodeHandle node_, private_node_;
+  ros::NodeHandle private_node_;
   ros::Publisher fit_, progress_;  // one topic: how a fit ended is kept for late joiners, how it went is not
   ros::Publisher garment_;
   Display display_;
+  KeptPublisher<MemberForces> members_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   Stage stage_;  // last: its worker uses all of the above

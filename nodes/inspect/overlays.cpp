@@ -1,0 +1,126 @@
+#include "inspect/overlays.hpp"
+
+#include <utility>
+
+#include "geometry/status.hpp"
+#include "geometry/surface_tree.hpp"
+
+namespace tensegric_fit::inspect {
+namespace {
+
+constexpr double kSure = 0.5;       // confidence
+constexpr double kDotLift = 0.005;  // metres: most of a dot is seen
+
+template <typename Held>
+bool is_of(const Held& held, const BodyView& body) {
+  return held && held->scan_id == body.scan_id();
+}
+
+std::vector<Eigen::Vector3d> between(const std::vector<Eigen::Vector3d>& rest,
+                                     const std::vector<Eigen::Vector3d>& worn, double blend) {
+  std::vector<Eigen::Vector3d> points(rest);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] += blend * (worn[i] - rest[i]);
+  return points;
+}
+
+}  // namespace
+
+void Overlays::take_measures(const std::string& scan_id, geometry::BodyMeasures measures) {
+  measures_ = {scan_id, std::move(measures)};
+  carried_.reset();
+}
+
+void Overlays::take_control(const std::string& scan_id, geometry::ControlMesh control) {
+  control_ = {scan_id, std::move(control)};
+}
+
+void Overlays::take_fit(const std::string& scan_id, std::vector<Eigen::Vector3d> outer,
+                        std::vector<TenseLine> lines) {
+  if (lines.empty() && fit_ && fit_->scan_id == scan_id) lines = std::move(fit_->value.lines);
+  fit_ = {scan_id, {std::move(outer), std::move(lines)}};
+}
+
+void Overlays::take_members(const std::string& scan_id, MemberPulls members) {
+  if (members.ends.size() != 2 * members.forces.size())
+    throw geometry::Refusal(geometry::refusal::kBadMesh, "members and forces do not fit each other");
+  for (const int end : members.ends)
+    if (end < 0 || end >= static_cast<int>(members.nodes.size()))
+      throw geometry::Refusal(geometry::refusal::kBadMesh, "a member ends at a node that is not there");
+  members_ = {scan_id, std::move(members)};
+}
+
+const geometry::BodyMeasures* Overlays::measures(const BodyView& body) const {
+  return is_of(measures_, body) ? &measures_->value : nullptr;
+}
+
+bool Overlays::carry(const BodyView& body) {
+  if (!is_of(measures_, body) || body.empty()) return false;
+  if (is_of(carried_, body)) return true;
+  const geometry::SurfaceTree skin(body.mesh());
+  const auto bound = [&](const std::vector<Eigen::Vector3d>& points) {
+    return CarriedPoints(body.mesh(), skin, points);
+  };
+  std::vector<Eigen::Vector3d> landmarks;
+  for (const auto& landmark : measures_->value.landmarks) landmarks.push_back(landmark.position);
+  carried_ = {body.scan_id(), bound(landmarks), {}};
+  for (const auto& loop : measures_->value.loops) carried_->loops.push_back(bound(loop.points));
+  return true;
+}
+
+std::vector<NamedDot> Overlays::dots(const BodyView& body, double blend) {
+  std::vector<NamedDot> dots;
+  if (!carry(body)) return dots;
+  const std::vector<Eigen::Vector3d> places = carried_->landmarks.at(body.vertices(blend), kDotLift);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const geometry::Landmark& landmark = measures_->value.landmarks[i];
+    dots.push_back({places[i], landmark.name, landmark.confidence < kSure ? kUnsureColour : kSureColour});
+  }
+  return dots;
+}
+
+std::vector<Stroke> Overlays::tapes(const BodyView& body, double blend) {
+  std::vector<Stroke> tapes;
+  if (!carry(body)) return tapes;
+  const std::vector<Eigen::Vector3d> vertices = body.vertices(blend);
+  for (const CarriedPoints& loop : carried_->loops) {
+    Stroke tape{loop.at(vertices), kSureColour};
+    if (tape.points.empty()) continue;
+    tape.points.push_back(tape.points.front());
+    tapes.push_back(std::move(tape));
+  }
+  return tapes;
+}
+
+std::optional<std::vector<Eigen::Vector3d>> Overlays::outer(const BodyView& body, double blend) const {
+  if (!is_of(control_, body)) return std::nullopt;
+  const std::vector<Eigen::Vector3d>& rest = control_->value.outer;
+  if (!is_of(fit_, body) || fit_->value.outer.size() != rest.size()) return rest;
+  return between(rest, fit_->value.outer, blend);
+}
+
+std::vector<Stroke> Overlays::edges(const BodyView& body, double blend) const {
+  const auto nodes = outer(body, blend);
+  return nodes ? edge_strokes(control_->value, *nodes) : std::vector<Stroke>{};
+}
+
+std::vector<Stroke> Overlays::lines(const BodyView& body, double blend) const {
+  const auto nodes = outer(body, blend);
+  return nodes && is_of(fit_, body) ? line_strokes(control_->value, *nodes, fit_->value.lines)
+                                    : std::vector<Stroke>{};
+}
+
+std::vector<Stroke> Overlays::members(const BodyView& body, double blend) const {
+  std::vector<Stroke> strokes;
+  if (!is_of(members_, body) || !is_of(control_, body)) return strokes;
+  const MemberPulls& pulls = members_->value;
+  std::vector<Eigen::Vector3d> nodes = control_->value.outer;
+  nodes.insert(nodes.end(), control_->value.inner.begin(), control_->value.inner.end());
+  if (nodes.size() != pulls.nodes.size()) return strokes;
+  nodes = between(nodes, pulls.nodes, blend);
+  for (std::size_t m = 0; m < pulls.forces.size(); ++m)
+    strokes.push_back(
+        {{nodes[pulls.ends[2 * m]], nodes[pulls.ends[2 * m + 1]]}, member_colour(pulls.forces[m])});
+  return strokes;
+}
+
+}  // namespace tensegric_fit::inspect

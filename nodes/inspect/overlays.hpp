@@ -1,0 +1,78 @@
+/// What is drawn over a body: landmarks, tapes, control mesh, members, garment lines.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/body_measures.hpp"
+#include "geometry/control_mesh.hpp"
+#include "inspect/body_view.hpp"
+#include "inspect/carried_points.hpp"
+#include "inspect/strokes.hpp"
+
+namespace tensegric_fit::inspect {
+
+/// A dot with its name.
+struct NamedDot {
+  Eigen::Vector3d position;
+  std::string name;
+  Colour colour;
+};
+
+/// Members of a tensegric model, numbered as the nodes: outer ones, then inner ones.
+struct MemberPulls {
+  std::vector<Eigen::Vector3d> nodes;
+  std::vector<int> ends;       ///< two a member
+  std::vector<double> forces;  ///< one a member, over the mean pull at rest
+};
+
+/// Everything is kept with the scan that it is of, and drawn over a body of that scan only. Landmarks and
+/// tapes go where the skin goes. Metres, scan frame. For one thread.
+class Overlays {
+ public:
+  void take_measures(const std::string& scan_id, geometry::BodyMeasures measures);
+  void take_control(const std::string& scan_id, geometry::ControlMesh control);
+  /// While a fit is on its way, `lines` is empty and those before stay.
+  void take_fit(const std::string& scan_id, std::vector<Eigen::Vector3d> outer, std::vector<TenseLine> lines);
+  /// \throw Refusal bad_mesh: arrays that do not fit each other
+  void take_members(const std::string& scan_id, MemberPulls members);
+
+  // `blend`: from rest (0) to worn (1). Empty where there is nothing of the body's scan.
+  std::vector<NamedDot> dots(const BodyView& body, double blend);
+  std::vector<Stroke> tapes(const BodyView& body, double blend);
+  std::vector<Stroke> edges(const BodyView& body, double blend) const;
+  std::vector<Stroke> lines(const BodyView& body, double blend) const;
+  std::vector<Stroke> members(const BodyView& body, double blend) const;
+
+  /// Of the body's scan, or null.
+  const geometry::BodyMeasures* measures(const BodyView& body) const;
+
+ private:
+  template <typename Value>
+  struct Of {
+    std::string scan_id;
+    Value value;
+  };
+  struct Fit {
+    std::vector<Eigen::Vector3d> outer;
+    std::vector<TenseLine> lines;
+  };
+  struct Carried {
+    std::string scan_id;
+    CarriedPoints landmarks;
+    std::vector<CarriedPoints> loops;
+  };
+
+  bool carry(const BodyView& body);
+  std::optional<std::vector<Eigen::Vector3d>> outer(const BodyView& body, double blend) const;
+
+  std::optional<Of<geometry::BodyMeasures>> measures_;
+  std::optional<Of<geometry::ControlMesh>> control_;
+  std::optional<Of<Fit>> fit_;
+  std::optional<Of<MemberPulls>> members_;
+  std::optional<Carried> carried_;
+};
+
+}  // namespace tensegric_fit::inspect

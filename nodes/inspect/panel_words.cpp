@@ -1,0 +1,108 @@
+#include "inspect/panel_words.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+namespace tensegric_fit::inspect::words {
+namespace {
+
+std::string stage_name(const std::string& stage) {
+  static const std::map<std::string, std::string> names{{"reconstruction", "surface of the body"},
+                                                        {"landmarks", "landmarks and girths"},
+                                                        {"control_mesh", "control mesh"},
+                                                        {"tensegric", "fit of the garment"},
+                                                        {"tffd", "shape of the body"}};
+  const auto found = names.find(stage);
+  return found == names.end() ? stage : found->second;
+}
+
+// Never -0.0.
+double shown(double value, double half_digit) {
+  return std::abs(value) < half_digit ? 0 : value;
+}
+
+std::string sentence(std::string words) {
+  if (!words.empty() && words.back() != '.') words += '.';
+  return words;
+}
+
+}  // namespace
+
+std::string silent(const std::string& stage) {
+  return fmt::format("No sign of life from: {}. What is shown is the last good state.", stage_name(stage));
+}
+
+std::string stage_refused(const std::string& stage, const std::string& message) {
+  return sentence(fmt::format("Refused ({}): {}", stage_name(stage), message));
+}
+
+std::string working(const std::string& stage) {
+  return fmt::format("Working: {} ...", stage_name(stage));
+}
+
+std::string solving(int iteration) {
+  return fmt::format("Fitting, step {} ...", iteration);
+}
+
+std::string not_accepted(const std::string& message) {
+  return sentence("Not put on: " + message);
+}
+
+std::string exported(int files, const std::string& folder) {
+  return fmt::format("Wrote {} files into {}", files, folder);
+}
+
+std::string not_exported(const std::string& message) {
+  return sentence("Nothing was exported: " + message);
+}
+
+std::string fit_ended(const std::string& garment, const std::string& status, const std::string& note,
+                      double milliseconds) {
+  static const std::map<std::string, std::string> said{
+      {"converged", "fits"},
+      {"infeasible", "cannot become as tight as asked; this is the nearest shape"},
+      {"capped", "the solver ran out of steps; this is the best so far"},
+      {"oscillating", "the solver swings and does not settle"},
+      {"diverged", "the solver gave up; ask for less"}};
+  const auto found = said.find(status);
+  std::string words =
+      fmt::format("{}: {} ({:.0f} ms).", garment, found == said.end() ? status : found->second, milliseconds);
+  if (!note.empty()) words += " " + sentence(note);
+  return words;
+}
+
+std::string line_warning(const LineOutcome& line) {
+  constexpr double kReached = 1e-3;
+  if (line.infeasible && line.ratio > line.request + kReached)
+    return fmt::format("Over-constricted: cannot become shorter than {} ({}).", centimetres(line.reachable),
+                       per_cent(line.ratio));
+  if (line.tension <= 0 && line.ratio < line.request - kReached) return "Slack: it does not pull.";
+  return "";
+}
+
+std::string over_constriction(double tightest, const std::string& landmark) {
+  if (tightest >= kOverConstricted) return "";
+  return fmt::format("Over-constricted{}: the skin is drawn together to {} of its area.",
+                     landmark.empty() ? "" : " near the " + landmark, per_cent(tightest));
+}
+
+std::string volume(const std::string& region, double before, double after) {
+  return fmt::format("{}: {:.2f} l, {:+.2f} %", region, 1e3 * before,
+                     shown(100 * (after / before - 1), 0.005));
+}
+
+std::string centimetres(double metres) {
+  return fmt::format("{:.1f} cm", 100 * metres);
+}
+
+std::string change(double metres) {
+  return fmt::format("{:+.1f} cm", shown(100 * metres, 0.05));
+}
+
+std::string per_cent(double ratio) {
+  return fmt::format("{:.1f} %", 100 * ratio);
+}
+
+}  // namespace tensegric_fit::inspect::words

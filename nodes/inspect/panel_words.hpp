@@ -1,0 +1,59 @@
+/// Everything that the panel says to a person, in one place with words.hpp, to be translated.
+#pragma once
+
+#include <string>
+
+namespace tensegric_fit::inspect::words {
+
+// Labels; an ampersand comes before the key that reaches it with Alt.
+inline constexpr char kGarment[] = "&Garment", kPutOn[] = "&Put on", kUndo[] = "&Undo", kReset[] = "&Reset",
+                      kCompare[] = "&Compare with the scan", kExport[] = "E&xport", kFolder[] = "&Folder",
+                      kBlendLabel[] = "&Scan to garment", kRegions[] = "Regions";
+inline constexpr char kLine[] = "Line", kNeutral[] = "neutral length", kNow[] = "now", kPull[] = "pull";
+inline constexpr char kGirth[] = "Girth", kScanned[] = "scan", kWornGirth[] = "worn", kChange[] = "change",
+                      kBraSize[] = "Bra size", kNoSize[] = "-", kVolume[] = "Volume";
+inline constexpr char kNoLines[] = "No garment is worn so far.";
+inline constexpr char kRegionHelp[] = "Without its lines nothing pulls there. One region stays on.";
+inline constexpr char kGarmentHelp[] = "A garment's name, several joined by + (B1+H4), or a garment file.";
+
+// How the pipeline stands.
+inline constexpr char kPipelineNotRunning[] =
+    "The fitting pipeline is not running. Start it: roslaunch tensegric_fit pipeline.launch",
+                      kReady[] = "Ready.", kWaitsForScan[] = "Waiting for a scan.";
+std::string silent(const std::string& stage);
+std::string stage_refused(const std::string& stage, const std::string& message);
+std::string working(const std::string& stage);
+
+// What became of a request.
+inline constexpr char kAsked[] = "Fitting ...",
+                      kNoAnswer[] = "The fitting pipeline does not answer; what is shown is the last fit.",
+                      kEmptyFolder[] = "Name a folder for the export.";
+std::string solving(int iteration);
+std::string not_accepted(const std::string& message);
+std::string exported(int files, const std::string& folder);
+std::string not_exported(const std::string& message);
+
+/// A fit that has ended: "B1: fits (12 ms)", or what is wrong with it.
+std::string fit_ended(const std::string& garment, const std::string& status, const std::string& note,
+                      double milliseconds);
+
+/// What a line does beyond its figures; empty where there is nothing to say. Lengths in metres.
+struct LineOutcome {
+  double request, ratio;  ///< asked and reached, over the length at rest
+  double tension;
+  double reachable;  ///< the shortest that it came to
+  bool infeasible;   ///< the fit
+};
+std::string line_warning(const LineOutcome& line);
+
+/// Skin area below which a garment constricts too much, after / before.
+inline constexpr double kOverConstricted = 0.8;
+/// "" where the tightest skin is not over-constricted.
+std::string over_constriction(double tightest, const std::string& landmark);
+
+std::string volume(const std::string& region, double before, double after);
+std::string centimetres(double metres);
+std::string change(double metres);
+std::string per_cent(double ratio);
+
+}  // namespace tensegric_fit::inspect::words

@@ -1,0 +1,70 @@
+/// The panel's way to the pipeline.
+#pragma once
+
+#include <QObject>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#ifndef Q_MOC_RUN
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/ros.h>
+#include <tensegric_fit/ControlMesh.h>
+#include <tensegric_fit/DeformedMesh.h>
+#include <tensegric_fit/FitState.h>
+#include <tensegric_fit/Garment.h>
+#include <tensegric_fit/Landmarks.h>
+#include <tensegric_fit/SetGarment.h>
+#include <tensegric_fit/TriangleMesh.h>
+#endif
+
+namespace tensegric_fit::inspect {
+
+/// Services are called in a thread of their own, so that a pipeline that hangs never stops rviz. Of garments
+/// asked for while a call is on its way only the newest is sent. Everything is told in the thread that made
+/// the client.
+class FitClient : public QObject {
+  Q_OBJECT
+ public:
+  FitClient();
+  ~FitClient() override;
+
+  void wear(const SetGarment::Request& request);
+  void reset();
+  void export_to(const std::string& folder);
+
+  // What came; set before use.
+  std::function<void(const Garment&)> on_garment;
+  std::function<void(const FitState&)> on_fit;
+  std::function<void(const DeformedMesh&)> on_deformed;
+  std::function<void(const TriangleMesh&)> on_body;
+  std::function<void(const Landmarks&)> on_landmarks;
+  std::function<void(const ControlMesh&)> on_control;
+  std::function<void(const diagnostic_msgs::DiagnosticStatus&)> on_diagnostics;
+  /// What the pipeline said to a call: whether it did it, and a sentence.
+  std::function<void(bool done, const std::string&words)> on_worn, on_exported;
+
+ private:
+  using Answer = std::function<void(bool, const std::string&)>;
+
+  void serve();
+  void post(const std::string& kind, std::function<void()> call);
+  void tell(const Answer& answer, bool done, const std::string& words);
+  template <typename Message>
+  void listen(const char* topic, std::function<void(const Message&)> FitClient::*told);
+
+  ros::NodeHandle node_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::ServiceClient wear_, reset_, export_;
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::map<std::string, std::function<void()>> waiting_;  // one of each kind: the newest
+  bool stopping_ = false;
+  std::thread worker_;  // last: it uses all of the above
+};
+
+}  // namespace tensegric_fit::inspect

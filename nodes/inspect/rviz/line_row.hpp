@@ -1,0 +1,43 @@
+/// A garment line on the panel: slider, per cent, centimetres, and what became of it.
+#pragma once
+
+#include <QDoubleSpinBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QObject>
+#include <QSlider>
+#include <string>
+
+namespace tensegric_fit::inspect {
+
+/// Fills two rows of a grid; the second has a sentence where there is something to say.
+class LineRow : public QObject {
+  Q_OBJECT
+ public:
+  /// Columns of the grid.
+  enum { kName, kSlider, kPerCent, kCentimetres, kNow, kPull, kColumns };
+
+  LineRow(const std::string& line, QGridLayout* grid, int row);
+
+  const std::string& line() const { return line_; }
+  bool is_held() const { return slider_->isSliderDown(); }
+
+  /// The length at rest in metres; 0: not known, and no centimetres.
+  void set_asked(double ratio, double length);
+  void set_outcome(double ratio, double tension, const std::string& warning);
+  void set_ratio_now(double ratio);
+  void set_enabled(bool enabled);
+
+ Q_SIGNALS:
+  void asked(const QString& line, double ratio);
+  void settled();
+
+ private:
+  const std::string line_;
+  double length_ = 0;
+  QSlider* slider_;
+  QDoubleSpinBox *per_cent_, *centimetres_;
+  QLabel *now_, *pull_, *warning_;
+};
+
+}  // namespace tensegric_fit::inspect

@@ -1,0 +1,61 @@
+#include "inspect/pipeline_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include "inspect/panel_words.hpp"
+
+namespace tensegric_fit::inspect {
+namespace {
+
+void all_say(PipelineWatch& watch, const std::string& state, double now) {
+  for (const char* stage : {"reconstruction", "landmarks", "control_mesh", "tensegric", "tffd"})
+    watch.hear({stage, state, "", "one"}, now);
+}
+
+TEST(PipelineWatch, NothingHeardMeansNotRunning) {
+  EXPECT_EQ(PipelineWatch().state(0).words, words::kPipelineNotRunning);
+  EXPECT_TRUE(PipelineWatch().state(0).trouble);
+}
+
+TEST(PipelineWatch, CountsTheStagesThatAreThroughWithTheNewestScan) {
+  PipelineWatch watch;
+  all_say(watch, "done", 0);
+  EXPECT_EQ(watch.state(1).done, 5);
+  EXPECT_EQ(watch.state(1).words, words::kReady);
+  watch.hear({"reconstruction", "working", "", "two"}, 1);
+  EXPECT_EQ(watch.state(1).done, 0);
+  EXPECT_TRUE(watch.state(1).working);
+  watch.hear({"reconstruction", "done", "", "two"}, 2);
+  EXPECT_EQ(watch.state(2).done, 1);
+}
+
+TEST(PipelineWatch, SlowIsNotDead) {
+  PipelineWatch watch;
+  all_say(watch, "done", 0);
+  watch.hear({"tensegric", "working", "", "one"}, 0);
+  all_say(watch, "working", 60);  // the heartbeat goes on while it works
+  EXPECT_FALSE(watch.state(60 + 0.9 * PipelineWatch::kSilence).trouble);
+  EXPECT_TRUE(watch.state(60 + 1.1 * PipelineWatch::kSilence).trouble);
+}
+
+TEST(PipelineWatch, NamesTheStageThatDied) {
+  PipelineWatch watch;
+  all_say(watch, "done", 0);
+  for (const char* stage : {"reconstruction", "landmarks", "control_mesh", "tffd"})
+    watch.hear({stage, "done", "", "one"}, 10);
+  EXPECT_EQ(watch.state(10).words, words::silent("tensegric"));
+  watch.hear({"tensegric", "done", "", "one"}, 11);
+  EXPECT_FALSE(watch.state(11).trouble);
+  EXPECT_EQ(watch.state(60).words, words::kPipelineNotRunning);
+}
+
+TEST(PipelineWatch, SaysWhatWasRefused) {
+  PipelineWatch watch;
+  all_say(watch, "done", 0);
+  watch.hear({"reconstruction", "refused", "empty_cloud: no points at all", "two"}, 0);
+  EXPECT_NE(watch.state(0).words.find("no points at all"), std::string::npos);
+  EXPECT_TRUE(watch.state(0).trouble);
+}
+
+}  // namespace
+}  // namespace tensegric_fit::inspect
