@@ -28,7 +28,7 @@ AssemblerSetup assembler_setup(Parameters parameters) {
   AssemblerSetup setup;
   setup.sensors = check_topics(parameters.texts("sensors"));
   const int count = static_cast<int>(setup.sensors.size());
-  setup.frame_id = parameters.text("frame_id", "booth");
+  setup.frame_id = parameters.frame("frame_id", "booth");
   setup.min_sensors = parameters.integer("min_sensors", count, 1, count);
   setup.capture.slop = parameters.number("slop", setup.capture.slop, 0, 60);
   setup.capture.timeout = parameters.number("timeout", setup.capture.timeout, 0.01, 600);

@@ -12,11 +12,24 @@
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::booth {
+namespace {
 
-pcl::PCLPointCloud2 read_scan(const std::string& path) {
+std::string ending_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+}  // namespace
+
+bool is_scan_name(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".ply" || ending == ".pcd" || ending == ".bag";
+}
+
+pcl::PCLPointCloud2 read_scan(const std::string& path) {
+  const std::string ending = ending_of(path);
   pcl::PCLPointCloud2 scan;
   if (ending == ".ply") {
     pcl::PolygonMesh file;

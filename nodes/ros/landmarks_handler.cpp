@@ -22,7 +22,7 @@ tf2_msgs::TFMessage::ConstPtr transform_to(const std::string& body_frame, const 
 }  // namespace
 
 LandmarksHandler::LandmarksHandler(Parameters parameters)
-    : body_frame_(parameters.text("body_frame", "body")) {
+    : body_frame_(parameters.frame("body_frame", "body")) {
   parameters.check_all_known();
 }
 

@@ -95,6 +95,14 @@ std::string Parameters::text(const std::string& name, const std::string& fallbac
   return static_cast<const std::string&>(*found);
 }
 
+std::string Parameters::frame(const std::string& name, const std::string& fallback) {
+  const std::string set = text(name, "");
+  if (!set.empty()) return set;
+  const std::size_t end =
+      prefix_.rfind('/', prefix_.size() - 2);  // before the node's name; tf takes no slash in front
+  return prefix_.substr(1, end) + fallback;
+}
+
 std::string Parameters::choice(const std::string& name, const std::string& fallback,
                                const std::vector<std::string>& words) {
   const std::string value = text(name, fallback);

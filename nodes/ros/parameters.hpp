@@ -28,6 +28,9 @@ class Parameters {
   double number(const std::string& name, double fallback, double low, double high);
   bool flag(const std::string& name, bool fallback);
   std::string text(const std::string& name, const std::string& fallback);
+  /// A tf frame. Where none is set, `fallback` within the node's own namespace ("left/body" for
+  /// /left/landmarks): two booths on one master share none.
+  std::string frame(const std::string& name, const std::string& fallback);
   std::string choice(const std::string& name, const std::string& fallback,
                      const std::vector<std::string>& words);
   Eigen::Vector3d vector(const std::string& name, const Eigen::Vector3d& fallback);

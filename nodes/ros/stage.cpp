@@ -103,15 +103,16 @@ void Stage::serve() {
 
 void Stage::run(const Job& job) {
   if (superseded(job.scan_id)) return;
+  const auto start = std::chrono::steady_clock::now();
   {
     std::lock_guard<std::mutex> lock(report_mutex_);
     state_.word = "working";
     state_.message = "working on scan " + job.scan_id;
     state_.scan_id = job.scan_id;
     state_.level = DiagnosticStatus::OK;
+    state_.working_since = start;
     report();
   }
-  const auto start = std::chrono::steady_clock::now();
   try {
     const Result result = job.work();
     finish(job, result, milliseconds_since(start));
@@ -133,6 +134,7 @@ void Stage::finish(const Job& job, const Result& result, double milliseconds) {
     state_.message = result.warning;
     ROS_WARN("%s: scan %s: %s", name_.c_str(), job.scan_id.c_str(), result.warning.c_str());
   }
+  state_.working_since.reset();
   state_.milliseconds = milliseconds;
   state_.facts = result.facts;
   report();
@@ -143,6 +145,7 @@ void Stage::finish(const Job& job, const Result& result, double milliseconds) {
 void Stage::fail(const std::string& scan_id, const std::string& word, const std::string& code,
                  const std::string& message) {
   std::lock_guard<std::mutex> lock(report_mutex_);
+  state_.working_since.reset();
   state_.word = word;
   state_.message = code + ": " + message;
   state_.scan_id = scan_id;
@@ -160,9 +163,15 @@ void Stage::report() {
   status.level = state_.level;
   status.name = ros::this_node::getName().substr(1) + ": " + name_;
   status.message = state_.message;
+  const double working = state_.working_since ? milliseconds_since(*state_.working_since) / 1000 : 0;
+  if (working > kSlow) {
+    status.level = DiagnosticStatus::WARN;
+    status.message = fmt::format("slow: {} for {:.0f} s", state_.message, working);
+  }
   status.hardware_id = "tensegric_fit";
   status.values = {fact("state", state_.word),
                    fact("scan_id", state_.scan_id),
+                   fact("working_seconds", fmt::format("{:.1f}", working)),
                    fact("milliseconds", fmt::format("{:.3f}", state_.milliseconds)),
                    fact("peak_mebibytes", fmt::format("{:.1f}", peak_mebibytes())),
                    fact("last_error", state_.last_error),

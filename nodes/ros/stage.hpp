@@ -4,6 +4,7 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <ros/ros.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -21,9 +22,12 @@ namespace tensegric_fit::node {
 /// Runs the work of a stage in a thread of its own. One piece of work waits at most: the newest. What a piece
 /// of work found is published only if no newer scan was begun meanwhile. A Refusal or another exception ends
 /// that piece of work alone: it is named on /diagnostics and in the log, and nothing is published.
+/// It reports every second whatever the worker does: one that is silent for longer is dead, one that reports
+/// `working_seconds` beyond kSlow is slow.
 class Stage {
  public:
   using Facts = node::Facts;
+  static constexpr double kSlow = 10;  ///< seconds; no stage takes half as long on two cores
 
   /// What work ends with: how to publish it (empty where it stopped half way), and what to say of it on
   /// /diagnostics. A warning is for what came out, but not as it should.
@@ -64,6 +68,7 @@ class Stage {
     std::string word = "waiting", message = "waiting for input", scan_id;
     std::uint8_t level = diagnostic_msgs::DiagnosticStatus::OK;
     std::string last_error, last_error_message, last_error_scan_id;
+    std::optional<std::chrono::steady_clock::time_point> working_since;
     double milliseconds = 0;
     Facts facts;
   };

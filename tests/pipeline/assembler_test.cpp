@@ -1,46 +1,16 @@
 /// The assembler as a booth's sensors meet it: clouds and tf in, scans out.
 #include <gtest/gtest.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
-#include <tf2_msgs/TFMessage.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "chain_client.hpp"
+#include "recorded_booth.hpp"
 
 namespace tensegric_fit::tests {
 namespace {
-
-constexpr int kSensors = 12;
-
-/// A virtual body as all sensors saw it. Its frames are named after it: the booth stands otherwise for each.
-struct Recording {
-  std::vector<sensor_msgs::PointCloud2> clouds;
-  tf2_msgs::TFMessage poses;
-};
-
-Recording recording_of(const std::string& body) {
-  rosbag::Bag bag(std::string(TENSEGRIC_FIT_SCANS) + "/" + body + "/sensors.bag");
-  Recording recording;
-  recording.clouds.resize(kSensors);
-  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
-    if (const auto poses = message.instantiate<tf2_msgs::TFMessage>()) recording.poses = *poses;
-    if (const auto cloud = message.instantiate<sensor_msgs::PointCloud2>())
-      recording.clouds.at(std::stoul(message.getTopic().substr(std::string("/sensors/").size()))) = *cloud;
-  }
-  for (auto& pose : recording.poses.transforms) pose.child_frame_id += body;
-  for (auto& cloud : recording.clouds) cloud.header.frame_id += body;
-  return recording;
-}
-
-const Recording& recorded(const std::string& body) {
-  static const std::map<std::string, Recording> recordings = {{"a", recording_of("a")},
-                                                              {"b", recording_of("b")}};
-  return recordings.at(body);
-}
 
 Eigen::Isometry3d pose_of(const Recording& recording, int sensor) {
   const auto& transform = recording.poses.transforms[sensor].transform;
@@ -62,44 +32,32 @@ std::vector<Eigen::Vector3d> seen_by(const std::string& body, int sensor) {
 /// A booth in a namespace, with an assembler.
 class Booth {
  public:
-  explicit Booth(const std::string& name) : node_(name), stage_(name + "/assembler: assembler") {
-    for (int sensor = 0; sensor < kSensors; ++sensor)
-      sensors_.push_back(
-          node_.advertise<sensor_msgs::PointCloud2>("sensors/" + std::to_string(sensor) + "/points", 8));
-    tf_ = node_.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  explicit Booth(const std::string& name)
+      : node_(name), stage_(name + "/assembler: assembler"), sensors_(name) {
     scan_ = node_.subscribe<sensor_msgs::PointCloud2>("scan/points", 8,
                                                       [this](const sensor_msgs::PointCloud2::ConstPtr& scan) {
                                                         if (scan->header.stamp >= since_)
                                                           scans.push_back(scan);
                                                       });
     said_ = node_.subscribe("/diagnostics", 1000, &Booth::on_diagnostics, this);
-    tf2_msgs::TFMessage poses;
-    for (const char* body : {"a", "b"})
-      for (const auto& pose : recorded(body).poses.transforms) poses.transforms.push_back(pose);
-    tf_.publish(poses);
   }
 
   bool ready() {
-    return wait_for([this] {
-      return scan_.getNumPublishers() == 1 && !facts.empty() && tf_.getNumSubscribers() != 0 &&
-             std::all_of(sensors_.begin(), sensors_.end(),
-                         [](const ros::Publisher& sensor) { return sensor.getNumSubscribers() != 0; });
-    });
+    return wait_for([this] { return scan_.getNumPublishers() == 1 && !facts.empty() && sensors_.heard(); });
   }
 
   void send(const std::string& body, int sensor, double stamp) {
-    sensor_msgs::PointCloud2 cloud = recorded(body).clouds[sensor];
-    cloud.header.stamp = ros::Time(stamp);
-    send(cloud, sensor);
+    since_ = std::min(since_, ros::Time(stamp));
+    sensors_.send(body, sensor, stamp);
   }
   void send(const sensor_msgs::PointCloud2& cloud, int sensor) {
     since_ = std::min(since_, cloud.header.stamp);
-    sensors_[sensor].publish(cloud);
+    sensors_.send(cloud, sensor);
   }
 
   void send_all(const std::string& body, double stamp, int but = -1) {
-    for (int sensor = 0; sensor < kSensors; ++sensor)
-      if (sensor != but) send(body, sensor, stamp + 0.005 * sensor);
+    since_ = std::min(since_, ros::Time(stamp));
+    sensors_.send_all(body, stamp, but);
   }
 
   bool scanned(std::size_t count) {
@@ -129,14 +87,12 @@ class Booth {
   ros::NodeHandle node_;
   std::string stage_;
   ros::Time since_ = ros::TIME_MAX;  // of the first cloud sent: latched scans of earlier ones do not count
-  std::vector<ros::Publisher> sensors_;
-  ros::Publisher tf_;
+  RecordedBooth sensors_;
   ros::Subscriber scan_, said_;
 };
 
 /// All points of the body's sensors but one, each where its sensor saw it, with a normal that looks back.
 void expect_scan(const sensor_msgs::PointCloud2& scan, const std::string& body, int but = -1) {
-  EXPECT_EQ(scan.header.frame_id, "booth");
   sensor_msgs::PointCloud2ConstIterator<float> at(scan, "x"), normal(scan, "normal_x");
   sensor_msgs::PointCloud2ConstIterator<std::uint8_t> sensor_at(scan, "sensor");
   std::size_t count = 0;
@@ -169,6 +125,7 @@ TEST_F(AssemblerTest, TwoCapturesInARow) {
   ASSERT_TRUE(booth_.scanned(2));
   expect_scan(*booth_.scans[0], "a");
   expect_scan(*booth_.scans[1], "b");
+  EXPECT_EQ(booth_.scans[0]->header.frame_id, "strict/booth");
   EXPECT_EQ(booth_.scans[0]->header.stamp, ros::Time(100));
   EXPECT_EQ(booth_.scans[1]->header.stamp, ros::Time(103));
   EXPECT_TRUE(wait_for([&] { return booth_.facts["state"] == "done"; }));
@@ -238,6 +195,7 @@ TEST(PlayedBagTest, ABagOfAllSensorsBecomesOneScan) {
   ros::NodeHandle node;
   const ros::Subscriber subscriber = node.subscribe<sensor_msgs::PointCloud2>("scan/points", 1, take);
   ASSERT_TRUE(wait_for([&] { return scan != nullptr; }));
+  EXPECT_EQ(scan->header.frame_id, "booth");
   EXPECT_EQ(scan->header.stamp, recorded("a").clouds[0].header.stamp);
   expect_scan(*scan, "a");
 }

@@ -3,6 +3,7 @@
 #include <pcl_msgs/PolygonMesh.h>
 #include <sensor_msgs/Image.h>
 #include <std_srvs/Trigger.h>
+#include <tensegric_fit/DeleteExport.h>
 #include <tensegric_fit/ExportFit.h>
 #include <tensegric_fit/Garment.h>
 #include <tensegric_fit/SetGarment.h>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
@@ -244,21 +246,39 @@ TEST_F(PipelineTest, ResetGoesBackToTheFirstGarment) {
   EXPECT_EQ(client_->deformed.back()->garment, "B1");
 }
 
-TEST_F(PipelineTest, AnExportIsWholeAndNeverOverwritten) {
+TEST_F(PipelineTest, AnExportIsWholeNeverOverwrittenAndDeletedByScan) {
   const fs::path folder = fs::path(TENSEGRIC_FIT_SCANS) / "exported";
   fs::remove_all(folder);
   ExportFit request;
   request.request.directory = folder.string();
+  request.request.scan_id = "of another customer";
+  ASSERT_TRUE(ros::service::call("export_fit", request));
+  EXPECT_EQ(request.response.code, "nothing_yet");
+  request.request.scan_id = scan_id_;
   ASSERT_TRUE(ros::service::call("export_fit", request));
   EXPECT_TRUE(request.response.exported) << request.response.message;
-  EXPECT_EQ(request.response.files.size(), 5u);
+  EXPECT_EQ(request.response.files.size(), 10u);
   for (const std::string& file : request.response.files) EXPECT_GT(fs::file_size(file), 0u) << file;
+  const std::string validate = "/usr/bin/python3 -m jsonschema -i '" + (folder / "fit.json").string() +
+                               "' '" TENSEGRIC_FIT_SOURCE_DIR "/launch/schemas/fit.schema.json'";
+  EXPECT_EQ(std::system(validate.c_str()), 0);
+
   ASSERT_TRUE(ros::service::call("export_fit", request));
   EXPECT_FALSE(request.response.exported);
   EXPECT_EQ(request.response.code, "bad_option");
   request.request.directory = "somewhere/relative";
   ASSERT_TRUE(ros::service::call("export_fit", request));
   EXPECT_EQ(request.response.code, "bad_option");
+
+  DeleteExport erase;
+  erase.request.directory = folder.parent_path().string();
+  erase.request.scan_id = scan_id_;
+  ASSERT_TRUE(ros::service::call("delete_export", erase));
+  EXPECT_TRUE(erase.response.deleted) << erase.response.message;
+  EXPECT_EQ(erase.response.folders, std::vector<std::string>{folder.string()});
+  EXPECT_FALSE(fs::exists(folder));
+  ASSERT_TRUE(ros::service::call("delete_export", erase));
+  EXPECT_EQ(erase.response.code, "nothing_yet");
 }
 
 TEST_F(PipelineTest, TwoScansInARowNeverMix) {
