@@ -7,6 +7,8 @@
 namespace tensegric_fit::node {
 namespace {
 
+constexpr double kFramePatience = 1;  // s; tf has a connection of its own, and says nothing of a scan in `body`
+
 std::string fact(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key) {
   for (const diagnostic_msgs::KeyValue& pair : status.values)
     if (pair.key == key) return pair.value;
@@ -26,7 +28,8 @@ Replay::Replay(ros::NodeHandle node, const Options& options)
       node_(node),
       scans_(node.advertise<sensor_msgs::PointCloud2>("scan/points", 1, true)),
       set_garment_(node.serviceClient<SetGarment>("set_garment")),
-      diagnostics_in_(node.subscribe("/diagnostics", 100, &Replay::on_diagnostics, this)) {
+      diagnostics_in_(node.subscribe("/diagnostics", 100, &Replay::on_diagnostics, this)),
+      body_frame_in_(node.subscribe("/tf_static", 100, &Replay::on_tf, this)) {
   keep("body/mesh", &FittedScan::body);
   keep("body/landmarks", &FittedScan::landmarks);
   last_stage_ = "landmarks";
@@ -55,8 +58,13 @@ void Replay::on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& me
   }
 }
 
-bool Replay::wait(const std::function<bool()>& condition) const {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(options_.timeout);
+void Replay::on_tf(const tf2_msgs::TFMessage::ConstPtr& message) {
+  if (!message->transforms.empty() && message->transforms.front().header.stamp == scan_stamp_)
+    body_frame_ = message;
+}
+
+bool Replay::wait(const std::function<bool()>& condition, double seconds) const {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
   while (ros::ok() && ros::WallTime::now() < end) {
     ros::spinOnce();
     if (condition()) return true;
@@ -92,6 +100,7 @@ void Replay::write_answer(const ros::Time& time, rosbag::Bag& out, bool whole) {
   if (whole) {
     write(out, "body/mesh", time, got_.body);
     write(out, "body/landmarks", time, got_.landmarks);
+    write(out, "/tf_static", time, body_frame_);
     write(out, "control/mesh", time, got_.control);
   }
   write(out, "control/deformed", time, got_.fit);
@@ -101,10 +110,13 @@ void Replay::write_answer(const ros::Time& time, rosbag::Bag& out, bool whole) {
 
 bool Replay::send(const sensor_msgs::PointCloud2& scan, const ros::Time& time, rosbag::Bag& out) {
   scan_id_ = tag_of(scan).scan_id;
+  scan_stamp_ = scan.header.stamp;
+  body_frame_ = nullptr;
   got_ = FittedScan();
   refused_ = false;
   scans_.publish(scan);
   const bool ended = wait([this] { return answered(); });
+  if (got_.landmarks) wait([this] { return body_frame_ != nullptr; }, kFramePatience);
   write_answer(time, out, true);
   ROS_INFO("replay: scan %s %s", scan_id_.c_str(),
            !ended     ? "TIMED OUT"

@@ -6,6 +6,7 @@
 #include <rosbag/bag.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tensegric_fit/Garment.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <functional>
 #include <map>
@@ -37,8 +38,10 @@ class Replay {
  private:
   template <typename Message>
   void keep(const std::string& topic, boost::shared_ptr<const Message> FittedScan::*slot);
+  void on_tf(const tf2_msgs::TFMessage::ConstPtr& message);
   void on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message);
-  bool wait(const std::function<bool()>& condition) const;
+  bool wait(const std::function<bool()>& condition) const { return wait(condition, options_.timeout); }
+  bool wait(const std::function<bool()>& condition, double seconds) const;
   bool answered() const;
   void write_answer(const ros::Time& time, rosbag::Bag& out, bool whole);
 
@@ -47,10 +50,12 @@ class Replay {
   ros::Publisher scans_;
   ros::ServiceClient set_garment_;
   std::vector<ros::Subscriber> subscribers_;
-  ros::Subscriber diagnostics_in_;
+  ros::Subscriber diagnostics_in_, body_frame_in_;
 
   std::string scan_id_, last_stage_;
+  ros::Time scan_stamp_;
   FittedScan got_;
+  tf2_msgs::TFMessage::ConstPtr body_frame_;
   bool refused_ = false;
   std::map<std::string, diagnostic_msgs::DiagnosticArray::ConstPtr> diagnostics_;  // newest of each stage
 };

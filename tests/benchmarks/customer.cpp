@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "booth/virtual_body.hpp"
+#include "booth/virtual_scanner.hpp"
 #include "control_mesh/fit_template.hpp"
 #include "geometry/decimate.hpp"
 #include "geometry/ply.hpp"
@@ -24,21 +24,32 @@ const auto& kept(std::map<Key, std::decay_t<std::result_of_t<Make()>>>& all, con
   return found->second;
 }
 
-const geometry::TriangleMesh& finest_body() {
-  static const geometry::TriangleMesh mesh =
-      body_file.empty() ? booth::make_body({}).mesh : geometry::read_ply_mesh(body_file);
-  return mesh;
-}
-
 }  // namespace
 
 void choose_body(const std::string& ply_file) {
   body_file = ply_file;
 }
 
+const booth::VirtualBody& customer() {
+  static const booth::VirtualBody one = body_file.empty()
+                                            ? booth::make_body({})
+                                            : booth::VirtualBody{geometry::read_ply_mesh(body_file), {}, {}};
+  return one;
+}
+
+const geometry::PointCloud& scan(int points) {
+  static std::map<int, geometry::PointCloud> all;
+  return kept(all, points, [&] {
+    booth::ScannerOptions options;
+    options.points = points;
+    options.misregistration = 0;
+    return booth::scan_body(customer().mesh, options).cloud;
+  });
+}
+
 const geometry::TriangleMesh& body(int triangles) {
   static std::map<int, geometry::TriangleMesh> all;
-  return kept(all, triangles, [&] { return geometry::with_triangles(finest_body(), triangles); });
+  return kept(all, triangles, [&] { return geometry::with_triangles(customer().mesh, triangles); });
 }
 
 const geometry::TriangleMesh& chest_skin(int triangles) {
@@ -59,7 +70,8 @@ const geometry::ControlMesh& bust_control(int triangles) {
   return kept(all, triangles, [&] {
     control_mesh::Options options;
     options.control_triangles = triangles;
-    const auto pattern = control_mesh::load_template(kLaunch + "/templates/bust.yaml");
+    const auto pattern = control_mesh::load_template(
+        triangles < 120 ? TENSEGRIC_FIT_BENCHMARKS "/bust_60.yaml" : kLaunch + "/templates/bust.yaml");
     return control_mesh::fit_template(pattern, body(62000), measures, options);
   });
 }

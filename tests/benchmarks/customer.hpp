@@ -3,7 +3,9 @@
 
 #include <string>
 
+#include "booth/virtual_body.hpp"
 #include "geometry/control_mesh.hpp"
+#include "geometry/point_cloud.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "tensegric/solver.hpp"
 
@@ -12,13 +14,19 @@ namespace tensegric_fit::benchmarks {
 /// A body mesh to use from now on; empty: the virtual booth's. To be called before everything else here.
 void choose_body(const std::string& ply_file);
 
-/// Each is made once and kept. The body with that many triangles, or one less.
+/// Each is made once and kept. The true body; one from a file has no measures.
+const booth::VirtualBody& customer();
+
+/// What the virtual booth sees of her, columns in register: what they are off is no matter of settings.
+const geometry::PointCloud& scan(int points);
+
+/// The body with that many triangles, or one less.
 const geometry::TriangleMesh& body(int triangles);
 
 /// Of the body only the skin that the bust's control mesh carries, cut finer to that many triangles.
 const geometry::TriangleMesh& chest_skin(int triangles);
 
-/// The bust's, with at least that many triangles.
+/// The bust's, with at least that many triangles: 60, or the shipped template's 120 and its subdivisions.
 const geometry::ControlMesh& bust_control(int triangles);
 
 const tensegric::Model& bust_model(int control_triangles);

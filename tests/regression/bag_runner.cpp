@@ -4,9 +4,10 @@
 #include <rosbag/view.h>
 
 #include <chrono>
-#include <fstream>
 
+#include "booth/assembler_handler.hpp"
 #include "geometry/status.hpp"
+#include "peak_memory.hpp"
 #include "ros/control_mesh_handler.hpp"
 #include "ros/landmarks_handler.hpp"
 #include "ros/reconstruction_handler.hpp"
@@ -15,16 +16,6 @@
 
 namespace tensegric_fit::regression {
 namespace {
-
-// Of this process since the last call, MiB; 0 where the kernel does not say.
-double peak_mebibytes() {
-  double kibibytes = 0;
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;)
-    if (word == "VmHWM:") status >> kibibytes;
-  std::ofstream("/proc/self/clear_refs") << "5";  // the peak starts anew
-  return kibibytes / 1024;
-}
 
 class Chain {
  public:
@@ -35,14 +26,36 @@ class Chain {
         control_mesh_(parameters("control_mesh")),
         tensegric_(parameters("tensegric")),
         tffd_(parameters("tffd")),
-        measure_only_(measure_only) {}
+        measure_only_(measure_only) {
+    if (pipeline["assembler"]) assembler_.emplace(parameters("assembler"));
+  }
+
+  void feed(const tf2_msgs::TFMessage& sensors) {
+    for (const auto& sensor : sensors.transforms) transforms_.setTransform(sensor, "bag", true);
+  }
+
+  void feed(const std::string& topic, const sensor_msgs::PointCloud2& cloud) {
+    if (!assembler_) return feed(cloud);
+    constexpr double kNow = 0;  // a capture is whole or waits for ever
+    const std::vector<std::string>& sensors = assembler_->setup().sensors;
+    for (std::size_t i = 0; i < sensors.size(); ++i)
+      if (topic == "/" + sensors[i]) assembler_->add(static_cast<int>(i), cloud, kNow);
+    while (const auto capture = assembler_->next(kNow)) {
+      run("assembler", [&] { recording.scan = assembler_->handle(*capture, transforms_).scan; });
+      if (recording.scan) feed(*recording.scan);
+    }
+  }
 
   void feed(const sensor_msgs::PointCloud2& scan) {
     const node::ScanTag tag = node::tag_of(scan);
     recording.scan_id = tag.scan_id;
     run("reconstruction", [&] { recording.body = reconstruction_.handle(scan, tag).mesh; });
     if (!recording.body) return;
-    run("landmarks", [&] { recording.landmarks = landmarks_.handle(*recording.body).landmarks; });
+    run("landmarks", [&] {
+      const auto output = landmarks_.handle(*recording.body);
+      recording.landmarks = output.landmarks;
+      recording.body_frame = output.body_frame;
+    });
     if (measure_only_) return;
     control_mesh_.add(recording.body);
     tffd_.add(recording.body);
@@ -79,6 +92,7 @@ class Chain {
       const auto output = tensegric_.handle(
           *input, [] { return true; }, [](const FitState&) {});
       recording.fits.push_back(output->fit);
+      recording.histories.push_back(output->solution.history);
     });
     if (recording.fits.size() == fits) return;
     if (const auto joined = tffd_.add(recording.fits.back()))
@@ -87,7 +101,7 @@ class Chain {
 
   template <typename Work>
   void run(const std::string& stage, const Work& work) {
-    peak_mebibytes();
+    gauge::forget_peak();
     const auto start = std::chrono::steady_clock::now();
     try {
       work();
@@ -97,10 +111,12 @@ class Chain {
     }
     recording.milliseconds[stage] =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    recording.peak_mebibytes[stage] = peak_mebibytes();
+    recording.peak_mebibytes[stage] = gauge::status_mebibytes("VmHWM");
   }
 
   const YAML::Node pipeline_;
+  std::optional<node::AssemblerHandler> assembler_;
+  tf2::BufferCore transforms_;
   const node::ReconstructionHandler reconstruction_;
   const node::LandmarksHandler landmarks_;
   node::ControlMeshHandler control_mesh_;
@@ -116,7 +132,9 @@ Recording run_bag(const std::string& path, const YAML::Node& pipeline, bool meas
   const rosbag::Bag bag(path);
   rosbag::View view(bag);
   for (const rosbag::MessageInstance& message : view) {
-    if (const auto scan = message.instantiate<sensor_msgs::PointCloud2>()) chain.feed(*scan);
+    if (const auto sensors = message.instantiate<tf2_msgs::TFMessage>()) chain.feed(*sensors);
+    if (const auto cloud = message.instantiate<sensor_msgs::PointCloud2>())
+      chain.feed(message.getTopic(), *cloud);
     if (const auto garment = message.instantiate<Garment>()) chain.feed(*garment);
   }
   if (chain.recording.scan_id.empty())

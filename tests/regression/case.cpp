@@ -119,7 +119,8 @@ Case load_case(const std::string& file) {
   if (root["bag"])
     read.bag = fs::path(file).parent_path() / geometry::required<std::string>(root, "bag", file, kBadCase);
   read.pipeline = YAML::Clone(root["pipeline"] ? root["pipeline"] : YAML::Node(YAML::NodeType::Map));
-  geometry::check_keys(read.pipeline, {"reconstruction", "landmarks", "control_mesh", "tensegric", "tffd"},
+  geometry::check_keys(read.pipeline,
+                       {"assembler", "reconstruction", "landmarks", "control_mesh", "tensegric", "tffd"},
                        file + ": pipeline", kBadCase);
   read_garments(root, read);
   read_scene(root, read);

@@ -7,12 +7,14 @@
 
 namespace tensegric_fit::regression {
 
-/// Old, new, difference and tolerance of every golden value of a case: a table for people.
+/// Old, new, difference and tolerance of every golden value of a case, and of its recorded shape: a table for
+/// people.
 std::string update_table(const Case& asked, const Verdict& verdict);
 
 /// Writes the new values and the reason into the case's file; everything else stays as it is, letter for
-/// letter. \throw Refusal bad_case: a golden value does not stand on one line with its metric's name, or was
-/// not found in the run
-void update_goldens(const Case& asked, const Verdict& verdict, const std::string& reason);
+/// letter, and where no value is another one the whole file, unless its recorded shape `moved`. \throw
+/// Refusal bad_case: a golden value does not stand on one line with its metric's name, or was not found in
+/// the run
+void update_goldens(const Case& asked, const Verdict& verdict, const std::string& reason, bool moved = false);
 
 }  // namespace tensegric_fit::regression

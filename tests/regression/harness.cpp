@@ -12,7 +12,9 @@
 
 #include "bag_runner.hpp"
 #include "booth/scan_bag.hpp"
+#include "booth/sensor_bag.hpp"
 #include "geometry/checked_yaml.hpp"
+#include "golden_shape.hpp"
 #include "replay_runner.hpp"
 #include "ros/scan_tag.hpp"
 
@@ -22,10 +24,18 @@ namespace {
 namespace fs = std::filesystem;
 
 const ros::Time kScanTime(1000000000, 0);  // any fixed time will do
+const std::string kFrame = "booth";
+
+// A stage that takes so much longer in the launched chain than by its handler at the same time does something
+// else than its work; a busy machine slows both.
+constexpr double kMoreMilliseconds = 1500, kTimesAsLong = 3;
 
 // What the launch files load, with the case's own parameters over it.
 YAML::Node pipeline_of(const Case& asked) {
-  YAML::Node pipeline = geometry::load_yaml_map(TENSEGRIC_FIT_LAUNCH "/config/pipeline.yaml", kBadCase);
+  const std::string config = TENSEGRIC_FIT_LAUNCH "/config/";
+  YAML::Node pipeline = geometry::load_yaml_map(config + "pipeline.yaml", kBadCase);
+  if (asked.booth.sensors)
+    pipeline["assembler"] = geometry::load_yaml_map(config + "booth.yaml", kBadCase)["assembler"];
   for (const auto& stage : asked.pipeline)
     for (const auto& parameter : stage.second)
       pipeline[stage.first.Scalar()][parameter.first.Scalar()] = parameter.second;
@@ -54,22 +64,39 @@ class CaseRun {
     fs::create_directories(folder_);
     if (asked.bag.empty()) {
       customer_ = make_customer(asked.booth);
-      booth::write_bag_scan(bag_, customer_->scan, "booth", kScanTime);
+      if (asked.booth.sensors) {
+        booth::write_sensor_bag(sensors_bag_, customer_->sensors, kFrame, kScanTime);
+        fs::copy_file(sensors_bag_, bag_, fs::copy_options::overwrite_existing);
+      } else {
+        booth::write_bag_scan(bag_, customer_->scan, kFrame, kScanTime);
+      }
     } else {
       fs::copy_file(asked.bag, bag_, fs::copy_options::overwrite_existing);
     }
     add_garments(bag_, asked.garments);
-    scan_id_ = scan_id_in(bag_);
   }
 
   Outcome run() {
-    std::future<Replayed> replayed;
-    const bool measure_only = outcome_.asked.measure_only();
+    const bool sensors = outcome_.asked.booth.sensors;
+    ReplayInput input{sensors ? sensors_bag_ : bag_, pipeline_, outcome_.asked.measure_only(), folder_};
+    std::future<std::string> launched;
     if (options_.replay)
-      replayed = std::async(std::launch::async,
-                            [&] { return replay(bag_, scan_id_, pipeline_, measure_only, folder_); });
-    if (options_.bag) run_bag_runner(measure_only);
-    if (options_.replay) judge_replay(replayed.get());
+      launched = std::async(std::launch::async,
+                            [=] { return sensors ? launch_assembly(input) : launch_replay(input); });
+    if (options_.bag) run_bag_runner(input.measure_only);
+    if (!options_.replay) return std::move(outcome_);
+    std::string fault = launched.get();
+    sensor_msgs::PointCloud2::ConstPtr scan;
+    if (sensors && (scan = assembled(input))) {
+      input.bag = folder_ + "/assembled_scan.bag";
+      rosbag::Bag(input.bag, rosbag::bagmode::Write).write("/scan/points", kScanTime, *scan);
+      add_garments(input.bag, outcome_.asked.garments);
+      fault += launch_replay(input);
+    }
+    Recording recording;
+    if (!sensors || scan) recording = replayed(input, scan_id_in(input.bag));
+    recording.scan = scan;
+    judge_replay(recording, fault);
     return std::move(outcome_);
   }
 
@@ -88,27 +115,34 @@ class CaseRun {
     add_verdict("bag", outcome_.recording, fault);
   }
 
-  void judge_replay(const Replayed& replayed) {
-    add_verdict("replay", replayed.recording, replayed.fault);
-    if (!options_.bag) outcome_.recording = replayed.recording;
-    if (!options_.bag || !replayed.fault.empty()) return;
-    for (const std::string& difference :
-         differences(hashes_of(outcome_.recording), hashes_of(replayed.recording)))
+  void judge_replay(const Recording& recording, const std::string& fault) {
+    add_verdict("replay", recording, fault);
+    if (!options_.bag) outcome_.recording = recording;
+    if (!options_.bag || !fault.empty()) return;
+    for (const std::string& difference : differences(hashes_of(outcome_.recording), hashes_of(recording)))
       outcome_.verdicts.back().faults.push_back("not the bag runner's payload: " + difference);
+    for (const auto& [stage, taken] : recording.milliseconds) {
+      const auto handler = outcome_.recording.milliseconds.find(stage);
+      if (handler == outcome_.recording.milliseconds.end()) continue;
+      if (taken > handler->second + kMoreMilliseconds && taken > kTimesAsLong * handler->second)
+        outcome_.verdicts.back().faults.push_back(
+            fmt::format("{} took {:.0f} ms in the launched chain, {:.0f} ms by its handler", stage, taken,
+                        handler->second));
+    }
   }
 
   void add_verdict(const std::string& runner, const Recording& recording, const std::string& fault) {
     Metrics metrics = metrics_of(recording);
+    metrics.merge(shape_metrics(outcome_.asked, recording));
     if (customer_) metrics.merge(errors_of(recording, *customer_));
     outcome_.verdicts.push_back(judge(outcome_.asked, runner, metrics));
     if (!fault.empty()) outcome_.verdicts.back().faults.push_back(fault);
   }
 
   const HarnessOptions options_;
-  const std::string folder_, bag_ = folder_ + "/scan.bag";
+  const std::string folder_, bag_ = folder_ + "/scan.bag", sensors_bag_ = folder_ + "/sensors.bag";
   const YAML::Node pipeline_;
   std::optional<Customer> customer_;
-  std::string scan_id_;
   Outcome outcome_;
 };
 

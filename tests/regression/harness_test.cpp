@@ -12,6 +12,7 @@
 
 #include "geometry/status.hpp"
 #include "golden.hpp"
+#include "golden_shape.hpp"
 #include "report.hpp"
 
 namespace tensegric_fit::regression {
@@ -78,6 +79,8 @@ TEST_F(HarnessTest, WhatACaseFileMayNotSayIsNamed) {
   EXPECT_EQ(refusal_of(with("abuot:", "about:")), ": unknown key 'abuot'");
   EXPECT_EQ(refusal_of(with("sead: 3", "seed: 3")), ": booth: unknown key 'sead'");
   EXPECT_EQ(refusal_of(with("seed: x", "seed: 3")), ": booth: the value of 'seed' has the wrong type");
+  EXPECT_EQ(refusal_of(with("sensors: true, unit: 2", "seed: 3")),
+            ": booth: 'sensors' goes with neither 'crop_above' nor 'unit'");
   EXPECT_EQ(refusal_of(with("scene: chest", "scene: bust")),
             ": scene 'chest' is not measure, bust, hips or bust+hips");
   EXPECT_EQ(refusal_of(with("scene: measure", "scene: bust")), ": a scene has garments, but for 'measure'");
@@ -120,9 +123,29 @@ TEST_F(HarnessTest, OnlyGoldenValuesAreReplacedAndTheReasonIsKept) {
   EXPECT_EQ(asked.updates, std::vector<std::string>{"the neck's landmarks moved"});
   verdict = judge(asked, "bag", metrics(0.95));
   EXPECT_TRUE(verdict.holds());
-  update_goldens(asked, verdict, "again");
+  update_goldens(asked, verdict, "nothing new");
+  EXPECT_EQ(load_case(file_).updates.size(), 1u);
+  update_goldens(asked, verdict, "another shape", true);
   EXPECT_EQ(load_case(file_).updates.size(), 2u);
   EXPECT_THROW(update_goldens(asked, judge(asked, "bag", {}), "nothing came"), geometry::Refusal);
+}
+
+TEST_F(HarnessTest, ARecordedShapeIsFoundAgainToATenthOfAMillimetre) {
+  const Case asked =
+      read(with("metrics:\n  shape/p95: {expected: 0, tolerance: 0.001, reason: asked}", "metrics:"));
+  const auto body = boost::make_shared<TriangleMesh>();
+  body->vertices = {0, 0, 1.23456f, 1, 0, 1.23456f, 0, 1, 1.23456f};
+  body->triangles = {0, 1, 2};
+  Recording recording;
+  recording.body = body;
+  EXPECT_TRUE(shape_metrics(asked, recording).empty()) << "nothing was recorded so far";
+  EXPECT_TRUE(write_shape(asked, recording));
+  EXPECT_FALSE(write_shape(asked, recording)) << "it is there already";
+  EXPECT_LE(std::get<double>(shape_metrics(asked, recording).at("shape/most")), 5e-5);
+  for (const std::size_t z : {2, 5, 8}) body->vertices[z] += 0.002f;
+  EXPECT_NEAR(std::get<double>(shape_metrics(asked, recording).at("shape/p95")), 0.002, 5e-5);  // rounding
+  std::ofstream(folder_ / "shapes" / "one.txt") << "1 2 3\n4 x 6\n";
+  EXPECT_THROW(shape_metrics(asked, recording), geometry::Refusal);
 }
 
 TEST_F(HarnessTest, PayloadsAreComparedByTopic) {

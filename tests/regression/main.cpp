@@ -8,6 +8,7 @@
 
 #include "geometry/status.hpp"
 #include "golden.hpp"
+#include "golden_shape.hpp"
 #include "report.hpp"
 
 namespace {
@@ -69,7 +70,9 @@ int run(const CommandLine& line) {
   if (line.update) {
     for (const regression::Outcome& outcome : outcomes) {
       std::cout << regression::update_table(outcome.asked, outcome.verdicts.front());
-      regression::update_goldens(outcome.asked, outcome.verdicts.front(), line.reason);
+      const bool moved =
+          regression::wants_shape(outcome.asked) && regression::write_shape(outcome.asked, outcome.recording);
+      regression::update_goldens(outcome.asked, outcome.verdicts.front(), line.reason, moved);
     }
     return 0;
   }
@@ -88,7 +91,7 @@ int main(int argc, char** argv) {
       "Runs cases of the regression harness through the stages' handlers (bag) and through the launched "
       "chain "
       "(replay). Exit: 0 all hold, 1 some fail, 2 usage, 3 a case file or its input is refused.");
-  app.add_option("CASE", line.names, "cases by name; none: all");
+  app.add_option("CASE", line.names, "cases by name; none, or all: all");
   app.add_option("--cases", line.cases, "folder of the case files")->capture_default_str();
   app.add_option("--runner", line.runner, "bag, replay or both")
       ->capture_default_str()
@@ -105,7 +108,8 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     if (line.update && (line.names.empty() || line.reason.empty()))
-      throw CLI::ValidationError("--update", "needs the names of cases, and a reason");
+      throw CLI::ValidationError("--update", "needs the names of cases (or all), and a reason");
+    if (line.names == std::vector<std::string>{"all"}) line.names.clear();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsage;
   }

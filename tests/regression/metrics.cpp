@@ -2,20 +2,16 @@
 
 #include <algorithm>
 
-#include "control_mesh/skin.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/flat.hpp"
+#include "surface_distance.hpp"
+#include "tffd/binding.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
 
-constexpr std::size_t kSampled = 4000;  // points of a surface or scan that distances are taken at
-
-double quantile(std::vector<double> values, double share) {
-  const auto place = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + static_cast<long>(place), values.end());
-  return values[place];
-}
+using gauge::distances;
+using gauge::quantile;
 
 double largest_move(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to) {
   double largest = 0;
@@ -71,14 +67,29 @@ void add_deformed(const DeformedMesh& deformed, const TriangleMesh& body, const 
     metrics[prefix + "distortion/" + name] = quantile(moved, share);
 }
 
-std::vector<double> distances(const std::vector<Eigen::Vector3d>& points, const std::vector<char>& left_out,
-                              const geometry::TriangleMesh& surface) {
-  const control_mesh::Skin skin(surface);
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kSampled);
-  std::vector<double> all;
-  for (std::size_t i = 0; i < points.size(); i += step)
-    if (left_out.empty() || !left_out[i]) all.push_back((skin.nearest(points[i]) - points[i]).norm());
-  return all;
+// Coordinates of the worn body that are not the nearest single ones to what the weights give in double
+// precision. Corners of needles that were put back are off by more, and are left out.
+double other_roundings(const Recording& recording, std::size_t fit) {
+  constexpr double kPutBack = 1e-5;  // m
+  const geometry::TriangleMesh body = node::mesh_in(*recording.body);
+  const geometry::ControlMesh control = node::control_in(*recording.control);
+  const tffd::Binding binding(body, control, {});
+  Eigen::MatrixX3d motion(2 * control.outer.size(), 3);
+  const auto outer = node::points_in(recording.fits[fit]->outer),
+             inner = node::points_in(recording.fits[fit]->inner);
+  for (std::size_t i = 0; i < control.outer.size(); ++i) {
+    motion.row(i) = (outer[i] - control.outer[i]).transpose();
+    motion.row(control.outer.size() + i) = (inner[i] - control.inner[i]).transpose();
+  }
+  const Eigen::MatrixX3d moved = binding.weights().nodes * motion;
+  int others = 0;
+  for (const tffd::Anchor& anchor : binding.anchors())
+    for (int axis = 0; axis < 3; ++axis) {
+      const double exact = body.vertices[anchor.vertex][axis] + moved(anchor.vertex, axis);
+      const float found = recording.deformed[fit]->vertices[3 * anchor.vertex + axis];
+      others += found != static_cast<float>(exact) && std::abs(found - exact) < kPutBack;
+    }
+  return others;
 }
 
 template <typename Measures>
@@ -101,7 +112,9 @@ Metrics metrics_of(const Recording& recording) {
   for (std::size_t i = 0; i < recording.fits.size(); ++i) {
     const std::string prefix = several ? std::to_string(i + 1) + "/" : "";
     add_fit(*recording.fits[i], prefix, metrics);
-    if (i < recording.deformed.size()) add_deformed(*recording.deformed[i], *recording.body, prefix, metrics);
+    if (i >= recording.deformed.size()) continue;
+    add_deformed(*recording.deformed[i], *recording.body, prefix, metrics);
+    metrics[prefix + "body/other_roundings"] = other_roundings(recording, i);
   }
   for (const auto& [stage, value] : recording.milliseconds) metrics["time/" + stage] = value;
   for (const auto& [stage, value] : recording.peak_mebibytes) metrics["memory/" + stage] = value;

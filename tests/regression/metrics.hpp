@@ -22,6 +22,8 @@ using Metrics = std::map<std::string, Value>;
 ///   region/NAME/volume, region/NAME/volume_error    volume at rest, and (after - before) / before
 ///   body/volume_change                         share
 ///   body/largest_move
+///   body/other_roundings    coordinates that are not the nearest single ones to the double result; in the
+///                           posture of the scan
 ///   distortion/least|p05|median|p95|most
 /// time/STAGE and memory/STAGE are of the run, not of its result.
 Metrics metrics_of(const Recording& recording);

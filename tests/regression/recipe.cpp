@@ -32,7 +32,8 @@ Recipe read_recipe(const YAML::Node& map, const std::string& where) {
                              "tilt",      "columns",  "sensors_per_column",
                              "distance",  "noise",    "outliers",
                              "grazing",   "floor",    "frame",
-                             "seed",      "fracture", "misregistration"},
+                             "seed",      "fracture", "misregistration",
+                             "sensors"},
                        where, kBadCase);
   Recipe recipe;
   const auto read = [&](const char* key, auto& field) {
@@ -42,6 +43,7 @@ Recipe read_recipe(const YAML::Node& map, const std::string& where) {
   read("points", recipe.scanner.points);
   read("crop_above", recipe.crop_above);
   read("unit", recipe.unit);
+  read("sensors", recipe.sensors);
   booth::BodyParameters& body = recipe.body;
   for (const auto& [key, field] : {std::pair("stature", &body.stature),
                                    {"build", &body.build},
@@ -68,6 +70,8 @@ Recipe read_recipe(const YAML::Node& map, const std::string& where) {
   read("floor", scanner.floor);
   read("frame", scanner.frame);
   read("seed", scanner.seed);
+  if (recipe.sensors && (map["crop_above"] || map["unit"]))
+    throw geometry::Refusal(kBadCase, where + ": 'sensors' goes with neither 'crop_above' nor 'unit'");
   if (map["fracture"]) scanner.fracture = fracture_in(map["fracture"], where + ": fracture");
   return recipe;
 }
@@ -79,7 +83,9 @@ Customer make_customer(const Recipe& recipe) {
   customer.body = booth::make_body(by_lot ? booth::random_body(seed) : recipe.body);
   booth::ScannerOptions scanner = by_lot ? booth::random_scanner(seed, customer.body) : recipe.scanner;
   scanner.points = std::min(scanner.points, recipe.scanner.points);
-  customer.scan = booth::scan_body(customer.body.mesh, scanner).cloud;
+  const booth::VirtualScan scan = booth::scan_body(customer.body.mesh, scanner);
+  if (recipe.sensors) customer.sensors = booth::by_sensor(scan);
+  customer.scan = scan.cloud;
   auto& points = customer.scan.points;
   points.erase(std::remove_if(points.begin(), points.end(),
                               [&](const Eigen::Vector3d& p) { return p.z() > recipe.crop_above; }),

@@ -17,15 +17,17 @@ struct Recipe {
   booth::ScannerOptions scanner;
   double crop_above = std::numeric_limits<double>::infinity();  ///< m above the floor: nothing there is seen
   double unit = 1;                                              ///< of the scan's coordinates, metres
+  bool sensors = false;  ///< what comes is a cloud a sensor, as from a booth of several; else one scan
 };
 
 /// From a map whose keys are the fields of BodyParameters and ScannerOptions by name, or `customer` alone
-/// (virtual_booth --customer), beside `points`, `crop_above` and `unit`. \throw Refusal bad_case
+/// (virtual_booth --customer), beside `points`, `crop_above`, `unit` and `sensors`. \throw Refusal bad_case
 Recipe read_recipe(const YAML::Node& map, const std::string& where);
 
 struct Customer {
   booth::VirtualBody body;  ///< the truth
   geometry::PointCloud scan;
+  std::vector<booth::SensorScan> sensors;  ///< the same points, where each sensor sends its own
 };
 
 /// Same recipe, same bits. \throw Refusal bad_option

@@ -17,7 +17,10 @@ class Digest {
 
   template <typename Message>
   void add(Message message) {
-    message.header.seq = 0;
+    if constexpr (std::is_same_v<Message, tf2_msgs::TFMessage>)
+      for (auto& transform : message.transforms) transform.header.seq = 0;
+    else
+      message.header.seq = 0;
     if constexpr (std::is_same_v<Message, FitState>) message.milliseconds = 0;
     std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
     ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
@@ -75,6 +78,8 @@ void keep(const diagnostic_msgs::DiagnosticStatus& status, Recording& recording)
 
 std::map<std::string, std::string> hashes_of(const Recording& recording) {
   std::map<std::string, std::string> hashes;
+  if (recording.scan) hashes["scan/points"] = hash_of<sensor_msgs::PointCloud2>({recording.scan});
+  if (recording.body_frame) hashes["/tf_static"] = hash_of<tf2_msgs::TFMessage>({recording.body_frame});
   if (recording.body) hashes["body/mesh"] = hash_of<TriangleMesh>({recording.body});
   if (recording.landmarks) hashes["body/landmarks"] = hash_of<Landmarks>({recording.landmarks});
   if (recording.control) hashes["control/mesh"] = hash_of<ControlMesh>({recording.control});
@@ -95,6 +100,7 @@ Recording recording_in(const std::string& path, const std::string& scan_id) {
     if (topic == "control/mesh") keep(message, scan_id, recording.control);
     if (topic == "control/deformed") keep(message, scan_id, recording.fits);
     if (topic == "body/deformed") keep(message, scan_id, recording.deformed);
+    if (topic == "/tf_static") recording.body_frame = message.instantiate<tf2_msgs::TFMessage>();
     const auto diagnostics = message.instantiate<diagnostic_msgs::DiagnosticArray>();
     if (diagnostics)
       for (const diagnostic_msgs::DiagnosticStatus& status : diagnostics->status) keep(status, recording);

@@ -1,26 +1,33 @@
 /// What came out of a chain for one scan, however it was run.
 #pragma once
 
+#include <sensor_msgs/PointCloud2.h>
 #include <tensegric_fit/ControlMesh.h>
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
 #include <tensegric_fit/Landmarks.h>
 #include <tensegric_fit/TriangleMesh.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <map>
 #include <string>
 #include <vector>
 
+#include "tensegric/solver.hpp"
+
 namespace tensegric_fit::regression {
 
 struct Recording {
   std::string scan_id;
+  sensor_msgs::PointCloud2::ConstPtr scan;  ///< of several sensors; else null
   TriangleMesh::ConstPtr body;
   Landmarks::ConstPtr landmarks;
+  tf2_msgs::TFMessage::ConstPtr body_frame;
   ControlMesh::ConstPtr control;
   std::vector<FitState::ConstPtr> fits;  ///< one a garment
   std::vector<DeformedMesh::ConstPtr> deformed;
-  std::string refused_by, refusal;  ///< stage and code; empty: not refused
+  std::vector<std::vector<tensegric::Iterate>> histories;  ///< one a garment; none of a replay
+  std::string refused_by, refusal;                         ///< stage and code; empty: not refused
   /// By stage, of its last work on this scan.
   std::map<std::string, double> milliseconds, peak_mebibytes;
 };

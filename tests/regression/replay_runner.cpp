@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <netinet/in.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -14,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr char kAssembleLaunch[] = TENSEGRIC_FIT_REGRESSION "/assemble.launch";
 constexpr int kPatience = 120;  // seconds that a launch may take; its nodes give up earlier
 
 int free_port() {
@@ -43,33 +46,58 @@ std::string complaint_in(const std::string& log) {
   return "";
 }
 
-}  // namespace
+fs::path replayed_bag(const ReplayInput& input) {
+  return fs::absolute(input.folder) / "replayed.bag";
+}
 
-Replayed replay(const std::string& bag, const std::string& scan_id, const YAML::Node& pipeline,
-                bool measure_only, const std::string& folder) {
-  const fs::path place = fs::absolute(folder);
-  const fs::path out = place / "replayed.bag", log = place / "launch.log";
+fs::path assembled_bag(const ReplayInput& input) {
+  return fs::absolute(input.folder) / "assembled.bag";
+}
+
+// Under a master of its own, on a free port. What went wrong, if anything.
+std::string launch(const std::string& name, const std::string& file_and_arguments, const fs::path& out,
+                   const ReplayInput& input) {
+  const fs::path place = fs::absolute(input.folder), config = place / "config.yaml",
+                 log = place / (name + ".log");
   fs::remove(out);
-  std::ofstream(place / "config.yaml") << pipeline << '\n';
+  std::ofstream(config) << input.pipeline << '\n';
   // The set-up file of the tree that this program was built in, so that no environment is needed.
   const fs::path setup = fs::read_symlink("/proc/self/exe").parent_path() / "../../setup.bash";
   const int port = free_port();
   const std::string command = fmt::format(
       "exec > '{}' 2>&1; . '{}'; export ROS_HOSTNAME=localhost ROS_MASTER_URI=http://localhost:{} "
-      "ROS_HOME='{}'; "
-      "exec timeout -k 5 {} roslaunch -p {} tensegric_fit replay.launch bag:='{}' out:='{}' config:='{}' "
-      "measure_only:={} timeout:=40",
-      log.string(), setup.string(), port, (place / "ros_home").string(), kPatience, port,
-      fs::absolute(bag).string(), out.string(), (place / "config.yaml").string(), measure_only);
-  const std::string quoted = "bash -c \"" + command + "\"";
-  const int status = std::system(quoted.c_str());
-  Replayed replayed;
-  replayed.fault = complaint_in(log);
-  if (fs::exists(out))
-    replayed.recording = recording_in(out, scan_id);
-  else if (replayed.fault.empty())
-    replayed.fault = fmt::format("roslaunch ended with {} and wrote nothing: see {}", status, log.string());
-  return replayed;
+      "ROS_HOME='{}'; exec timeout -k 5 {} roslaunch -p {} {} bag:='{}' out:='{}' config:='{}'",
+      log.string(), setup.string(), port, (place / "ros_home").string(), kPatience, port, file_and_arguments,
+      fs::absolute(input.bag).string(), out.string(), config.string());
+  const int status = std::system(("bash -c \"" + command + "\"").c_str());
+  const std::string fault = complaint_in(log);
+  if (!fault.empty() || fs::exists(out)) return fault;
+  return fmt::format("roslaunch ended with {} and wrote nothing: see {}", status, log.string());
+}
+
+}  // namespace
+
+std::string launch_replay(const ReplayInput& input) {
+  return launch("replay",
+                fmt::format("tensegric_fit replay.launch measure_only:={} timeout:=40", input.measure_only),
+                replayed_bag(input), input);
+}
+
+std::string launch_assembly(const ReplayInput& input) {
+  return launch("assemble", fmt::format("'{}'", kAssembleLaunch), assembled_bag(input), input);
+}
+
+Recording replayed(const ReplayInput& input, const std::string& scan_id) {
+  return fs::exists(replayed_bag(input)) ? recording_in(replayed_bag(input), scan_id) : Recording();
+}
+
+sensor_msgs::PointCloud2::ConstPtr assembled(const ReplayInput& input) {
+  sensor_msgs::PointCloud2::ConstPtr scan;
+  if (!fs::exists(assembled_bag(input))) return scan;
+  const rosbag::Bag bag(assembled_bag(input));
+  rosbag::View view(bag);
+  for (const rosbag::MessageInstance& message : view) scan = message.instantiate<sensor_msgs::PointCloud2>();
+  return scan;
 }
 
 }  // namespace tensegric_fit::regression

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "case_pictures.hpp"
+#include "history_plot.hpp"
 #include "markup.hpp"
 #include "report.hpp"
 
@@ -63,7 +64,8 @@ std::string table_of(const std::vector<Row>& rows) {
 
 std::string costs_of(const Verdict& verdict) {
   std::string row;
-  for (const std::string stage : {"reconstruction", "landmarks", "control_mesh", "tensegric", "tffd"}) {
+  for (const std::string stage :
+       {"assembler", "reconstruction", "landmarks", "control_mesh", "tensegric", "tffd"}) {
     const auto time = verdict.metrics.find("time/" + stage), memory = verdict.metrics.find("memory/" + stage);
     if (time == verdict.metrics.end()) continue;
     row += fmt::format(
@@ -92,6 +94,12 @@ std::string section_of(const Outcome& outcome) {
     html += fmt::format(
         "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
         picture.caption, base64(picture.png));
+  for (std::size_t i = 0; i < outcome.recording.histories.size(); ++i) {
+    const std::string plot = history_plot(outcome.recording.histories[i]);
+    if (!plot.empty())
+      html += fmt::format("<figure>{}<figcaption>how {} went</figcaption></figure>\n", plot,
+                          markup_safe(outcome.recording.fits[i]->garment));
+  }
   for (const Verdict& verdict : outcome.verdicts) html += verdict_of(verdict);
   if (!outcome.recording.scan_id.empty()) {
     html += "<details><summary>SHA-256 of the payloads of scan " + outcome.recording.scan_id +
