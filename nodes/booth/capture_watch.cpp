@@ -10,17 +10,18 @@
 namespace tensegric_fit::booth {
 namespace {
 
-/// The chain, in its order, and how much of the whole is over when a stage begins: of two cores' time.
+/// The chain, in its order: how much of the whole is over when a stage begins, and what it takes on two
+/// cores, s.
 struct Step {
   const char* stage;
-  double begin;
+  double begin, seconds;
 };
-constexpr Step kSensors{"sensors", 0}, kAssembler{"assembler", 0.1};
-constexpr Step kChain[] = {{"reconstruction", 0.25},
-                           {"landmarks", 0.75},
-                           {"control_mesh", 0.85},
-                           {"tensegric", 0.9},
-                           {"tffd", 0.95}};
+constexpr Step kSensors{"sensors", 0, 0}, kAssembler{"assembler", 0.1, 1};
+constexpr Step kChain[] = {{"reconstruction", 0.25, 3},
+                           {"landmarks", 0.75, 0.5},
+                           {"control_mesh", 0.85, 0.5},
+                           {"tensegric", 0.9, 0.1},
+                           {"tffd", 0.95, 0.2}};
 constexpr int kMeasuring = 2, kAll = 5;  // stages of the chain
 
 std::uint64_t gap(std::uint64_t a, std::uint64_t b) {
@@ -100,19 +101,21 @@ std::string CaptureWatch::waiting_for(double now) const {
 
 CaptureProgress CaptureWatch::progress(double now) {
   const std::string at = stage();
-  double begin = kSensors.begin, end = kAssembler.begin;
-  double within =
-      goal_.sensors.empty() ? 0 : 1 - static_cast<double>(missing().size()) / goal_.sensors.size();
-  if (at == kAssembler.stage) begin = kAssembler.begin, end = kChain[0].begin;
-  for (int i = 0; i < kAll; ++i)
-    if (at == kChain[i].stage) begin = kChain[i].begin, end = i + 1 < kAll ? kChain[i + 1].begin : 1;
-  if (at != kSensors.stage) {
-    const StageReport* report = board_.find(at);
-    const bool known = report != nullptr && report->state == "working" && report->last_seconds > 0;
-    within = known ? std::min(0.9, report->working_seconds / report->last_seconds) : 0;
+  Step step = at == kSensors.stage ? kSensors : kAssembler;
+  double end = at == kSensors.stage ? kAssembler.begin : kChain[0].begin;
+  for (int i = 0; i < kAll; ++i) {
+    if (at != kChain[i].stage) continue;
+    step = kChain[i];
+    end = i + 1 < kAll ? kChain[i + 1].begin : 1;
   }
+  double within = 0;  // share of the step
+  if (step.seconds > 0)
+    within = 1 - std::exp(-board_.working_seconds(at, now) / step.seconds);
+  else if (!goal_.sensors.empty())
+    within = 1 - static_cast<double>(missing().size()) / static_cast<double>(goal_.sensors.size());
   const double all = goal_.with_fit ? 1 : kChain[kMeasuring].begin;
-  share_ = std::max(share_, is_complete() ? 1 : std::min(1.0, (begin + within * (end - begin)) / all));
+  const double share = is_complete() ? 1 : std::min(1.0, (step.begin + within * (end - step.begin)) / all);
+  share_ = std::max(share_, share);
   return {at, share_, waiting_for(now), missing()};
 }
 

@@ -22,13 +22,19 @@ bool StageBoard::is_silent(const std::string& stage, double now) const {
   return heard == stages_.end() || now - heard->second.at > kSilent;
 }
 
+double StageBoard::working_seconds(const std::string& stage, double now) const {
+  const auto heard = stages_.find(stage);
+  if (heard == stages_.end() || heard->second.report.state != "working") return 0;
+  return heard->second.report.working_seconds + now - heard->second.at;
+}
+
 std::string StageBoard::trouble(double now) const {
   std::string words;
   for (const auto& [stage, heard] : stages_) {
-    const double silent = now - heard.at, working = heard.report.working_seconds + silent;
+    const double silent = now - heard.at, working = working_seconds(stage, now);
     if (silent > kSilent)
       words += fmt::format("{}{} is dead: silent for {:.0f} s", words.empty() ? "" : "; ", stage, silent);
-    else if (heard.report.state == "working" && working > kSlow)
+    else if (working > kSlow)
       words += fmt::format("{}{} is slow: working for {:.0f} s", words.empty() ? "" : "; ", stage, working);
   }
   return words;

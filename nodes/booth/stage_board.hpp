@@ -8,11 +8,11 @@ namespace tensegric_fit::booth {
 
 /// One report of a stage on /diagnostics.
 struct StageReport {
-  std::string state;                             ///< waiting, working, done, superseded, refused, failed
-  std::string scan_id;                           ///< that the state is about
-  std::string code, message;                     ///< of the last error
-  std::string warning;                           ///< where it is done, but not as it should be
-  double working_seconds = 0, last_seconds = 0;  ///< on the work at hand; on the work before
+  std::string state;           ///< waiting, working, done, superseded, refused, failed
+  std::string scan_id;         ///< that the state is about
+  std::string code, message;   ///< of the last error
+  std::string warning;         ///< where it is done, but not as it should be
+  double working_seconds = 0;  ///< on the work at hand
 
   /// Whether it said no to that scan.
   bool refused() const { return state == "refused" || state == "failed"; }
@@ -30,6 +30,9 @@ class StageBoard {
   /// Null where the stage never said anything.
   const StageReport* find(const std::string& stage) const;
   bool is_silent(const std::string& stage, double now) const;
+
+  /// For how long it has been at the work at hand, s; 0 where it is at none.
+  double working_seconds(const std::string& stage, double now) const;
 
   /// Sentences about stages that are slow, and that were heard and are silent now; empty where all is well.
   std::string trouble(double now) const;

@@ -37,7 +37,6 @@ std::optional<std::pair<std::string, booth::StageReport>> stage_report_in(const 
   report.message = fact(status, "last_error_message");
   if (report.state == "done" && status.level == DiagnosticStatus::WARN) report.warning = status.message;
   report.working_seconds = number(status, "working_seconds");
-  report.last_seconds = number(status, "milliseconds") / 1000;
   return std::pair{status.name.substr(colon + 2), report};
 }
 

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 
 #include "geometry/ply.hpp"
 #include "geometry/status.hpp"
@@ -33,14 +34,27 @@ FileContent png(const std::string& name, const cv::Mat& picture) {
   return {name, {bytes.begin(), bytes.end()}};
 }
 
+/// Of each region that a line of the garment runs over; of all where there is none.
+std::vector<inspect::Part> worn_parts(const FitFigures& figures) {
+  const std::vector<inspect::Part> all = inspect::parts_of(figures.control, figures.measures.body_from_scan);
+  std::vector<inspect::Part> worn;
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    std::set<int> nodes;
+    for (const Eigen::Vector3i& t : geometry::region_triangles(figures.control, figures.control.regions[r]))
+      nodes.insert(t.begin(), t.end());
+    const auto runs_over = [&](const LineResult& line) {
+      return std::any_of(line.nodes.begin(), line.nodes.end(),
+                         [&](std::uint32_t node) { return nodes.count(static_cast<int>(node)) != 0; });
+    };
+    const auto& lines = figures.scan.fit->lines;
+    if (std::any_of(lines.begin(), lines.end(), runs_over)) worn.push_back(all[r]);
+  }
+  return worn.empty() ? all : worn;
+}
+
 inspect::FitScene scene_of(const FitFigures& figures) {
-  inspect::FitScene scene{figures.body,
-                          figures.deformed,
-                          figures.distortion,
-                          figures.measures,
-                          inspect::parts_of(figures.control, figures.measures.body_from_scan),
-                          {},
-                          {}};
+  inspect::FitScene scene{
+      figures.body, figures.deformed, figures.distortion, figures.measures, worn_parts(figures), {}, {}};
   for (const LineResult& line : figures.scan.fit->lines) {
     scene.lines_before.emplace_back();
     scene.lines_after.emplace_back();

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tensegric_fit::node {
 namespace {
@@ -82,10 +84,17 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-std::string words_of(std::string name) {
-  for (char& c : name)
-    if (c == '_') c = ' ';
-  return name;
+/// "upper_arm_L" and "girth": left upper arm girth.
+std::string words_of(std::string name, const std::string& kind) {
+  std::string side;
+  for (const auto& [ending, word] : {std::pair{"_L", "left "}, {"_R", "right "}}) {
+    const std::size_t at = name.size() - std::min<std::size_t>(name.size(), 2);
+    if (name.compare(at, 2, ending) != 0) continue;
+    side = word;
+    name.resize(at);
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return side + name + (name == "stature" ? "" : " " + kind);
 }
 
 std::string centimetres(double metres) {
@@ -102,8 +111,8 @@ std::string rows_of(const std::string& kind, const std::vector<ChangedMeasure>& 
   std::string rows;
   for (const ChangedMeasure& measure : measures) {
     const double before = measure.before.metres;
-    rows += fmt::format("<tr><td>{} {}{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        escaped(words_of(measure.before.name)), kind,
+    rows += fmt::format("<tr><td>{}{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                        escaped(words_of(measure.before.name, kind)),
                         measure.before.confidence < kUnsure ? "*" : "", centimetres(before),
                         measure.after ? centimetres(*measure.after) : "",
                         measure.after ? change(*measure.after - before) : "");
@@ -132,7 +141,7 @@ std::string notes_of(const FitFigures& figures) {
   for (const auto& [kind, measures] : {std::pair{"height", &figures.heights}, {"girth", &figures.girths}})
     for (const ChangedMeasure& measure : *measures)
       if (measure.before.confidence < kUnsure)
-        notes += fmt::format("<p>* {} {}: uncertain. {}</p>\n", escaped(words_of(measure.before.name)), kind,
+        notes += fmt::format("<p>* {}: uncertain; {}.</p>\n", escaped(words_of(measure.before.name, kind)),
                              escaped(measure.before.reason));
   return notes;
 }

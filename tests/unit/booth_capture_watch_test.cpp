@@ -24,7 +24,6 @@ class CaptureWatchTest : public testing::Test {
     report.code = code;
     report.message = code.empty() ? "" : "because";
     report.working_seconds = working;
-    report.last_seconds = 2;
     return board_.report(stage, report, at);
   }
 
