@@ -24,6 +24,9 @@ constexpr double kBehindFeet = 0.038;
 // Swaying, stooping and uneven weight leave balance uncertain by this much; soles that say more were not
 // seen.
 constexpr double kTiltOfBalance = 3 * kDegree;
+// Soles that were closed with the plane of a floor are flat within half a millimetre for 80 % of their skin;
+// bare ones, of any shape, for less than 30 %.
+constexpr double kSole = 0.005, kOnPlane = 0.0005, kFlatShare = 0.5;
 constexpr double kMostTilt = 25 * kDegree;  // DESIGN §2 promises 15
 
 // Centre of the volume, as if the body were of one density.
@@ -76,38 +79,74 @@ Vector3d up_from_balance(const TriangleMesh& mesh) {
   return up;
 }
 
-// Normal of the plane that both soles rest on: a fit to skin that faces down, in which what is above the
-// plane loses its say.
-Vector3d up_from_soles(const TriangleMesh& mesh, const Vector3d& roughly_up) {
-  Vector3d up = roughly_up;
-  double floor = lowest_along(mesh, up);
-  const double stature = extent_along(mesh, up);
+// The plane up . x = offset that skin facing down lies on.
+struct SolePlane {
+  Vector3d up;
+  double offset;
+};
+
+// Fits the plane anew to skin that faces down; farther than `scale` metres from it, skin loses its say. False
+// where the soles tell nothing.
+bool refit(const TriangleMesh& mesh, double scale, double stature, SolePlane& plane) {
+  Vector3d sum = Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  double weight = 0;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const Vector3d middle = (a + b + c) / 3, area = geometry::area_vector(a, b, c);
+    const double off = (plane.up.dot(middle) - plane.offset) / scale;
+    if (std::abs(off) > 3 || plane.up.dot(area) > -0.8 * area.norm()) continue;
+    const double w = area.norm() * std::exp(-0.5 * off * off);
+    sum += w * middle;
+    squares += w * middle * middle.transpose();
+    weight += w;
+  }
+  if (weight <= 0) return false;
+  const Vector3d mean = sum / weight;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(squares / weight - mean * mean.transpose());
+  // Two feet spread in both directions by 0.03 statures or more; anything less says little about a plane.
+  if (axes.eigenvalues()[1] < std::pow(0.015 * stature, 2)) return false;
+  const Vector3d normal = axes.eigenvectors().col(0);
+  plane.up = normal.dot(plane.up) < 0 ? Vector3d(-normal) : normal;
+  plane.offset = plane.up.dot(mean);
+  return true;
+}
+
+// Share of the soles' skin that lies on the plane itself.
+double flat_share(const TriangleMesh& mesh, const SolePlane& plane) {
+  double on_plane = 0, all = 0;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const Vector3d area = geometry::area_vector(a, b, c);
+    const double off = std::abs(plane.up.dot(a + b + c) / 3 - plane.offset);
+    if (off > kSole || plane.up.dot(area) > -0.8 * area.norm()) continue;
+    all += area.norm();
+    if (off < kOnPlane) on_plane += area.norm();
+  }
+  return all > 0 ? on_plane / all : 0;
+}
+
+struct Soles {
+  Vector3d up;
+  bool flat;  // and so exact
+};
+
+// Normal of the plane that both soles rest on: what is above the plane loses its say.
+Soles up_from_soles(const TriangleMesh& mesh, const Vector3d& roughly_up) {
+  const Soles none{roughly_up, false};
+  SolePlane plane{roughly_up, lowest_along(mesh, roughly_up)};
+  const double stature = extent_along(mesh, roughly_up);
   for (double scale :
        {0.012, 0.008, 0.005, 0.004, 0.003, 0.003, 0.003, 0.003}) {  // of stature: 20 mm down to 5 mm
-    Vector3d sum = Vector3d::Zero();
-    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-    double weight = 0;
-    for (const Eigen::Vector3i& t : mesh.triangles) {
-      const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-      const Vector3d middle = (a + b + c) / 3, area = geometry::area_vector(a, b, c);
-      const double above = (up.dot(middle) - floor) / (scale * stature);
-      if (above > 3 || up.dot(area) > -0.8 * area.norm()) continue;
-      const double w = area.norm() * std::exp(-0.5 * above * above);
-      sum += w * middle;
-      squares += w * middle * middle.transpose();
-      weight += w;
-    }
-    if (weight <= 0) return roughly_up;
-    const Vector3d mean = sum / weight;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(squares / weight - mean * mean.transpose());
-    // Two feet spread in both directions by 0.03 statures or more; anything less says little about a plane.
-    if (axes.eigenvalues()[1] < std::pow(0.015 * stature, 2)) return roughly_up;
-    const Vector3d normal = axes.eigenvectors().col(0) * (axes.eigenvectors().col(0).dot(up) < 0 ? -1 : 1);
-    if (normal.dot(roughly_up) < std::cos(12 * kDegree)) return roughly_up;
-    up = normal;
-    floor = lowest_along(mesh, up);
+    if (!refit(mesh, scale * stature, stature, plane) || plane.up.dot(roughly_up) < std::cos(12 * kDegree))
+      return none;
+    plane.offset = lowest_along(mesh, plane.up);
   }
-  return up;
+  SolePlane fine = plane;
+  for (double scale : {0.003, 0.002, 0.0015, 0.001, 0.0007, 0.0005, 0.0005})
+    if (!refit(mesh, scale, stature, fine)) return {plane.up, false};
+  if (flat_share(mesh, fine) > kFlatShare) return {fine.up, true};
+  return {plane.up, false};
 }
 
 TriangleMesh moved(const TriangleMesh& mesh, const Eigen::Isometry3d& motion) {
@@ -220,13 +259,16 @@ BodyFrame find_body_frame(const TriangleMesh& body) {
   const Eigen::Isometry3d roughly = upright_for(balanced);
   const Front rough_front = find_front(standing_levels(body, roughly));
 
-  // 2. Up from the soles, where they agree with balance; the scan's own vertical, where it agrees with that.
+  // 2. Up from the soles, where they agree with balance; the scan's own vertical, where it agrees with that
+  // and the soles do not know better.
   const Vector3d forward =
       roughly.linear().transpose() * Vector3d(rough_front.forward.x(), rough_front.forward.y(), 0);
   const Vector3d corrected = (balanced + kBehindFeet * forward).normalized();
-  const Vector3d soles = up_from_soles(body, corrected);
-  const Vector3d up = soles.dot(corrected) > std::cos(kTiltOfBalance) ? soles : corrected;
-  const Eigen::Isometry3d upright = upright_for(up.z() > std::cos(kTiltOfSoles) ? Vector3d::UnitZ() : up);
+  const Soles soles = up_from_soles(body, corrected);
+  const bool believed = soles.flat || soles.up.dot(corrected) > std::cos(kTiltOfBalance);
+  Vector3d up = believed ? soles.up : corrected;
+  if (!soles.flat && up.z() > std::cos(kTiltOfSoles)) up = Vector3d::UnitZ();
+  const Eigen::Isometry3d upright = upright_for(up);
 
   // 3. Front and origin in that posture.
   const BodyLevels levels = find_levels(SlicedMesh(moved(body, upright)));

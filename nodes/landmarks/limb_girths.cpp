@@ -14,7 +14,7 @@ constexpr double kBelowAxilla = 0.051, kBelowCrotch = 0.039, kUnderTouchingThigh
 constexpr double kUpper = 0.03, kLower = 0.09;  // below the axilla: sections whose middles tell the arm's way
 constexpr double kFurtherDown = 0.02;  // both, where skin that fills the armpit joins the arm to the trunk
 constexpr double kLowerThigh = 0.10;   // below the thigh's girth: the same of the thigh
-constexpr double kArmRadius = 0.06, kThighRadius = 0.10;
+constexpr double kArmRadius = 0.06, kThighRadius = 0.10, kBothThighs = 0.25, kBetweenThighs = 0.015;
 
 // The loop of material in the plane that runs round `origin` most nearly, and its middle; false where none
 // closes.
@@ -51,6 +51,24 @@ const Outline* outline_near(const std::vector<Outline>& outlines, const Eigen::V
     best = &outline;
   }
   return best;
+}
+
+// One side's half of the largest loop in the plane: of two thighs that touch, this one. They part where they
+// are narrowest.
+std::vector<Vector3d> half_loop(const BodyShape& body, const Vector3d& origin, const Vector3d& axis,
+                                Side side) {
+  const double near = kBetweenThighs * body.stature, middle = body.crotch.above.y;
+  const double between =
+      narrowest_bridge(body.sliced.outlines_at(origin.z()), middle - near, middle + near).y;
+  const Vector3d reach = Vector3d::Constant(kBothThighs * body.stature);
+  std::vector<Vector3d> both;
+  for (const geometry::SectionLoop& loop :
+       cut(body, triangles_in_box(body, origin - reach, origin + reach), origin, axis))
+    if (loop.closed && loop.points.size() > both.size()) both = loop.points;
+  both.erase(std::remove_if(both.begin(), both.end(),
+                            [&](const Vector3d& p) { return kSign[side] * (p.y() - between) < 0; }),
+             both.end());
+  return both;
 }
 
 }  // namespace
@@ -119,13 +137,16 @@ LimbGirth find_thigh_girth(const BodyShape& body, Side side) {
     return girth;
   }
   const Vector3d axis = (upper - lower).normalized();
-  if (loop_round(body, upper, axis, kThighRadius * s, points, middle))
-    girth.tape = geometry::tape(points, axis);
-  if (girth.tape.empty()) girth.reason = "no closed section round the thigh";
   if (height < wanted) {
-    girth.confidence = 0.4;
-    girth.reason = "the thighs touch; measured below";
+    const Vector3d level_across = Vector3d(axis.x(), 0, axis.z()).normalized();
+    points = half_loop(body, upper + (wanted - upper.z()) / axis.z() * axis, level_across, side);
+    if (points.size() >= 10) girth.tape = geometry::tape(points, level_across);
+    girth.confidence = 0.45;
+    girth.reason = "the thighs touch; half of what is round both";
+  } else if (loop_round(body, upper, axis, kThighRadius * s, points, middle)) {
+    girth.tape = geometry::tape(points, axis);
   }
+  if (girth.tape.empty()) girth.reason = "no closed section round the thigh";
   return girth;
 }
 

@@ -116,14 +116,19 @@ int corner_under_chin(const Profile& front, const Plane& thinnest, double statur
   if (level < 0) return -1;
   const int up = static_cast<int>(0.030 * stature / front.step),
             down = static_cast<int>(0.012 * stature / front.step);
-  int corner = -1;
-  double most = kCorner;
-  for (int i = std::max(0, level - up); i <= level + down; ++i) {
-    if (front.hollowness(i, 8) <= most) continue;
-    most = front.hollowness(i, 8);
-    corner = i;
-  }
-  return corner;
+  const auto most_hollow = [&front](int first, int last, int reach, double least) {
+    int most = -1;
+    for (int i = std::max(0, first); i <= last; ++i) {
+      if (front.hollowness(i, reach) <= least) continue;
+      least = front.hollowness(i, reach);
+      most = i;
+    }
+    return most;
+  };
+  const int corner = most_hollow(level - up, level + down, 8, kCorner);
+  // Sensors see little of a chin from below: the middle of the bend is surer than its sharpest place.
+  const int near = static_cast<int>(0.006 * stature / front.step);
+  return corner < 0 ? -1 : std::max(corner - near, most_hollow(corner - near, corner + near, 14, -1e9));
 }
 
 // Where the throat's profile, running down along the neck, stops receding, or -1.

@@ -99,6 +99,10 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
   Eigen::Isometry3d to_ground = resting_plane(body.points);
   const bool leans = to_ground.linear()(2, 2) < kFlatOnFloor;
   if (!floor || leans || lowest_of(body.points) > kOffTheFloor) {
+    // The booth's vertical, where it can be hers, is better than what is seen of the soles.
+    if (!leans)
+      to_ground =
+          level(Eigen::Vector3d::UnitZ(), lowest_of(body.points), geometry::bounding_box(body.points)[0]);
     // The plane lies under the deepest point, which noise took that far down.
     to_ground.pretranslate(Eigen::Vector3d(0, 0, kUnseenEdge - kDeepestPoint * noise_of(body.points)));
     transform(body, to_ground);
