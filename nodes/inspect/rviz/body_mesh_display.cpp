@@ -189,7 +189,7 @@ void BodyMeshDisplay::point(const QPoint& pixel) {
     scene_->mark(&pointed->place, words::pointed(properties_->look().colour_by, pointed->value,
                                                  pointed->landmark, pointed->distance));
   else
-    scene_->mark(nullptr, "");
+    scene_->mark(nullptr, words::kPointedHelp);
   context_->queueRender();
 }
 

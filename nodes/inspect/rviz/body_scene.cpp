@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "inspect/pointing.hpp"
+#include "inspect/words.hpp"
 
 namespace tensegric_fit::inspect {
 namespace {
@@ -62,9 +63,8 @@ void BodyScene::draw(const BodyView& body, Overlays& overlays, const Look& look)
   const double blend = blend_of(look);
   fill(after_, body.vertices(blend), body);
   const std::vector<double> values = body.values(look.colour_by, blend);
-  const ColourScale scale =
-      look.automatic_scale ? auto_scale(look.colour_by, values) : fixed_scale(look.colour_by);
-  after_.set_colours(colours_of(scale, values));
+  scale_ = look.automatic_scale ? auto_scale(look.colour_by, values) : fixed_scale(look.colour_by);
+  after_.set_colours(colours_of(scale_, values));
   for (OgreBody* drawn : {&before_, &after_}) drawn->set_opacity(look.opacity);
 
   const bool both = look.show == Show::side_by_side;
@@ -73,18 +73,19 @@ void BodyScene::draw(const BodyView& body, Overlays& overlays, const Look& look)
   before_.set_place(-step);
   node_->setPosition(ogre(step));
 
-  landmarks_.draw(look.landmarks ? overlays.dots(body, blend) : std::vector<NamedDot>{}, look.names);
+  std::vector<NamedDot> dots;
+  if (look.landmarks) dots = overlays.dots(body, blend);
+  for (NamedDot& dot : dots) dot.name = spoken(dot.name);
+  landmarks_.draw(dots, look.names);
   girths_.draw(look.girths ? overlays.tapes(body, blend) : std::vector<Stroke>{});
   edges_.draw(look.control_mesh ? overlays.edges(body, blend) : std::vector<Stroke>{});
   members_.draw(look.members ? overlays.members(body, blend) : std::vector<Stroke>{});
   lines_.draw(look.lines ? overlays.lines(body, blend) : std::vector<Stroke>{});
-  mark(nullptr, "");
-  legend_.set_scale(scale);
-  legend_.show(look.legend && look.colour_by != ColourBy::plain);
+  mark(nullptr, words::kPointedHelp);
 }
 
 void BodyScene::show(bool visible) {
-  legend_.show(visible && look_.legend && look_.colour_by != ColourBy::plain);
+  legend_.show(visible && look_.legend);
 }
 
 std::optional<Pointed> BodyScene::point_at(const Ogre::Ray& ray, const BodyView& body,
@@ -114,8 +115,11 @@ std::optional<Pointed> BodyScene::point_at(const Ogre::Ray& ray, const BodyView&
 }
 
 void BodyScene::mark(const Eigen::Vector3d* place, const std::string& words) {
-  mark_.draw(place == nullptr ? std::vector<NamedDot>{} : std::vector<NamedDot>{{*place, words, kMarkColour}},
-             true);
+  std::vector<NamedDot> dots;
+  if (place != nullptr) dots.push_back({*place, "", kMarkColour});
+  mark_.draw(dots, false);
+  legend_.set(scale_, words);
+  show(true);
 }
 
 }  // namespace tensegric_fit::inspect

@@ -48,7 +48,7 @@ class BodyScene {
 
   /// The ray is in the scene's world; it meets the body under the garment, or the only one shown.
   std::optional<Pointed> point_at(const Ogre::Ray& ray, const BodyView& body, Overlays& overlays) const;
-  /// A dot there with words, until the next drawing; null: none.
+  /// A dot there, and words in the legend, until the next drawing; null: none.
   void mark(const Eigen::Vector3d* place, const std::string& words);
 
  private:
@@ -59,6 +59,7 @@ class BodyScene {
   StrokesDrawing girths_, edges_, members_, lines_;
   Legend legend_;
   Look look_;
+  ColourScale scale_ = fixed_scale(ColourBy::plain);
 };
 
 }  // namespace tensegric_fit::inspect

@@ -9,6 +9,12 @@
 
 namespace tensegric_fit::inspect {
 
+namespace {
+
+constexpr char kGarmentCall[] = "garment", kExportCall[] = "export";
+
+}  // namespace
+
 template <typename Message>
 void FitClient::listen(const char* topic, std::function<void(const Message&)> FitClient::*told) {
   const boost::function<void(const boost::shared_ptr<const Message>&)> on_message =
@@ -52,10 +58,13 @@ void FitClient::serve() {
       std::unique_lock<std::mutex> lock(mutex_);
       wake_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
       if (stopping_) return;
+      calling_ = waiting_.begin()->first;
       call = std::move(waiting_.begin()->second);
       waiting_.erase(waiting_.begin());
     }
     call();
+    std::lock_guard<std::mutex> lock(mutex_);
+    calling_.clear();
   }
 }
 
@@ -67,13 +76,18 @@ void FitClient::post(const std::string& kind, std::function<void()> call) {
   wake_.notify_one();
 }
 
+bool FitClient::is_asking() {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return calling_ == kGarmentCall || waiting_.count(kGarmentCall) != 0;
+}
+
 void FitClient::tell(const Answer& answer, bool done, const std::string& words) {
   QMetaObject::invokeMethod(
       this, [answer, done, words] { answer(done, words); }, Qt::QueuedConnection);
 }
 
 void FitClient::wear(const SetGarment::Request& request) {
-  post("garment", [this, request] {
+  post(kGarmentCall, [this, request] {
     SetGarment call;
     call.request = request;
     if (!wear_.exists() || !wear_.call(call)) return tell(on_worn, false, words::kPipelineNotRunning);
@@ -82,7 +96,7 @@ void FitClient::wear(const SetGarment::Request& request) {
 }
 
 void FitClient::reset() {
-  post("garment", [this] {
+  post(kGarmentCall, [this] {
     std_srvs::Trigger call;
     if (!reset_.exists() || !reset_.call(call)) return tell(on_worn, false, words::kPipelineNotRunning);
     tell(on_worn, call.response.success, call.response.message);
@@ -90,7 +104,7 @@ void FitClient::reset() {
 }
 
 void FitClient::export_to(const std::string& folder) {
-  post("export", [this, folder] {
+  post(kExportCall, [this, folder] {
     ExportFit call;
     call.request.directory = folder;
     if (!export_.exists() || !export_.call(call)) return tell(on_exported, false, words::kPipelineNotRunning);

@@ -35,6 +35,8 @@ class FitClient : public QObject {
   void wear(const SetGarment::Request& request);
   void reset();
   void export_to(const std::string& folder);
+  /// Whether a garment or a reset waits for its answer.
+  bool is_asking();
 
   // What came; set before use.
   std::function<void(const Garment&)> on_garment;
@@ -63,6 +65,7 @@ class FitClient : public QObject {
   std::mutex mutex_;
   std::condition_variable wake_;
   std::map<std::string, std::function<void()>> waiting_;  // one of each kind: the newest
+  std::string calling_;                                   // what kind is on its way
   bool stopping_ = false;
   std::thread worker_;  // last: it uses all of the above
 };

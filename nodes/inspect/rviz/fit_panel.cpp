@@ -77,6 +77,7 @@ void FitPanel::choose(const QString& garment) {
   request.name = garment.trimmed().toStdString();
   if (request.name.empty()) return;
   session_.settle();
+  changed_here_ = false;
   worn_asked(request);
 }
 
@@ -111,20 +112,19 @@ void FitPanel::send() {
   regions.erase(std::remove_if(regions.begin(), regions.end(),
                                [&](const std::string& region) { return wish.off.count(region) != 0; }),
                 regions.end());
+  changed_here_ = true;
   worn_asked(request);
 }
 
 void FitPanel::worn_asked(const SetGarment::Request& request) {
   asked_at_ = Clock::now();
-  waits_ = true;
   answer_->clear();
   client_->wear(request);
 }
 
 void FitPanel::take_answer(bool done, const std::string& words) {
-  waits_ = false;
   asked_at_ = Clock::now();
-  if (done) return;
+  if (done) return answer_->clear();
   answer_->setText(text(words::not_accepted(words)));
   if (worn_) session_.adopt(worn_->name, lines_in(*worn_));
   build_lines();
@@ -147,7 +147,8 @@ void FitPanel::take_garment(const Garment& garment) {
 void FitPanel::follow_pipeline() {
   const bool held =
       std::any_of(rows_.begin(), rows_.end(), [](const LineRow* row) { return row->is_held(); });
-  if (!worn_ || waits_ || held || Clock::now() - asked_at_ < kOwnEcho) return;
+  const bool coming_back = changed_here_ && Clock::now() - asked_at_ < kOwnEcho;
+  if (!worn_ || held || coming_back || client_->is_asking()) return;
   const std::string garment = session_.now().garment;
   const std::vector<AskedLine> lines = session_.now().lines;
   session_.adopt(worn_->name, lines_in(*worn_));
@@ -274,7 +275,7 @@ void FitPanel::show_state() {
   pipeline_->setStyleSheet(state.trouble ? "color: #b2182b" : "");
   progress_->setMaximum(state.all);
   progress_->setValue(state.done);
-  if (waits_ && Clock::now() - asked_at_ > kPatience) answer_->setText(words::kNoAnswer);
+  if (client_->is_asking() && Clock::now() - asked_at_ > kPatience) answer_->setText(words::kNoAnswer);
 }
 
 }  // namespace tensegric_fit::inspect

@@ -49,6 +49,7 @@ class FitPanel : public rviz::Panel {
   void build_export(QVBoxLayout* layout);
   void build_lines();
   void build_regions();
+  void order_tabs();
 
   // What the clerk does.
   void choose(const QString& garment);
@@ -89,14 +90,14 @@ class FitPanel : public rviz::Panel {
   geometry::BodyMeasures measures_;
   bool new_girths_ = false;
   Clock::time_point asked_at_{};
-  bool waits_ = false;  // for an answer
+  bool changed_here_ = false;  // what was asked for last is on the panel already
 
   QComboBox* garment_;
   QLabel *pipeline_, *fit_, *answer_, *tightness_, *volumes_;
   QProgressBar* progress_;
   QWidget *lines_box_, *regions_box_;
   std::vector<LineRow*> rows_;
-  QPushButton *undo_, *reset_, *export_;
+  QPushButton *put_on_, *undo_, *reset_, *export_;
   QCheckBox* compare_;
   QSlider* blend_;
   GirthTable* table_;

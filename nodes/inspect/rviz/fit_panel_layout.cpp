@@ -91,14 +91,14 @@ void FitPanel::build_garment(QVBoxLayout* layout) {
   garment_->setCurrentText("");
   garment_->setToolTip(words::kGarmentHelp);
   label->setBuddy(garment_);
-  auto* put_on = new QPushButton(words::kPutOn);
+  put_on_ = new QPushButton(words::kPutOn);
   row->addWidget(label);
   row->addWidget(garment_, 1);
-  row->addWidget(put_on);
+  row->addWidget(put_on_);
   layout->addLayout(row);
   connect(garment_, qOverload<int>(&QComboBox::activated), this, [this] { choose(garment_->currentText()); });
   connect(garment_->lineEdit(), &QLineEdit::returnPressed, this, [this] { choose(garment_->currentText()); });
-  connect(put_on, &QPushButton::clicked, this, [this] { choose(garment_->currentText()); });
+  connect(put_on_, &QPushButton::clicked, this, [this] { choose(garment_->currentText()); });
 }
 
 void FitPanel::build_buttons(QVBoxLayout* layout) {
@@ -119,7 +119,7 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   layout->addLayout(blending);
   connect(undo_, &QPushButton::clicked, this, &FitPanel::undo);
   connect(reset_, &QPushButton::clicked, this, [this] {
-    waits_ = true;
+    changed_here_ = false;
     asked_at_ = Clock::now();
     client_->reset();
   });
@@ -155,13 +155,29 @@ void FitPanel::build_lines() {
   grid->addWidget(new QLabel(words::kNow), 0, LineRow::kNow, Qt::AlignRight);
   grid->addWidget(new QLabel(words::kPull), 0, LineRow::kPull, Qt::AlignRight);
   for (const AskedLine& line : session_.now().lines) {
-    auto* row = new LineRow(line.name, grid, 1 + 2 * static_cast<int>(rows_.size()));
+    auto* row = new LineRow(line.name, 1 + static_cast<int>(rows_.size()), grid);
     row->setParent(lines_box_->layout());
     connect(row, &LineRow::asked, this, &FitPanel::ask);
     connect(row, &LineRow::settled, this, [this] { session_.settle(); });
     rows_.push_back(row);
   }
+  order_tabs();
   show_lines();
+}
+
+// Qt's own order is that in which things were made; lines and regions come and go.
+void FitPanel::order_tabs() {
+  setTabOrder(garment_, put_on_);
+  QWidget* last = put_on_;
+  for (LineRow* row : rows_) last = row->follow(last);
+  const auto follow = [&last](QWidget* next) {
+    setTabOrder(last, next);
+    last = next;
+  };
+  for (QCheckBox* box : regions_box_->findChildren<QCheckBox*>()) follow(box);
+  for (QWidget* next :
+       std::initializer_list<QWidget*>{undo_, reset_, compare_, blend_, table_, folder_, export_})
+    follow(next);
 }
 
 void FitPanel::build_regions() {
@@ -189,6 +205,7 @@ void FitPanel::build_regions() {
       });
     }
     row->addStretch(1);
+    order_tabs();
   }
   for (QCheckBox* box : regions_box_->findChildren<QCheckBox*>())
     box->setChecked(wish.off.count(box->text().toStdString()) == 0);

@@ -18,7 +18,7 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr int kWidth = 360, kHeight = 72, kMargin = 12, kBarTop = 26, kBarHeight = 16;  // pixels
+constexpr int kWidth = 360, kHeight = 94, kMargin = 12, kBarTop = 26, kBarHeight = 16;  // pixels
 constexpr int kPaperOpacity = 215;
 
 std::string next_name() {
@@ -28,7 +28,7 @@ std::string next_name() {
 
 }  // namespace
 
-QImage legend_picture(const ColourScale& scale) {
+QImage legend_picture(const ColourScale& scale, const std::string& sentence) {
   QImage picture(kWidth, kHeight, QImage::Format_ARGB32);
   picture.fill(QColor(255, 255, 255, kPaperOpacity));
   QPainter painter(&picture);
@@ -37,13 +37,16 @@ QImage legend_picture(const ColourScale& scale) {
   painter.setFont(font);
   painter.setRenderHint(QPainter::Antialiasing);
 
+  painter.setPen(QColor(40, 40, 40));
   const int bar = kWidth - 2 * kMargin;
+  painter.drawText(QRect(kMargin, kHeight - 26, bar, 20), Qt::AlignHCenter | Qt::AlignVCenter,
+                   text(sentence));
+  if (scale.by == ColourBy::plain) return picture;
   const double low = scale.low, high = scale.high;
   for (int x = 0; x < bar; ++x) {
     const Colour c = colour_of(scale, low + (high - low) * x / (bar - 1));
     painter.fillRect(kMargin + x, kBarTop, 1, kBarHeight, QColor(c[0], c[1], c[2]));
   }
-  painter.setPen(QColor(40, 40, 40));
   const QRect above(kMargin, 4, bar, kBarTop - 6), below(kMargin, kBarTop + kBarHeight + 3, bar, 20);
   const words::ScaleWords& said = words::scale_words(scale.by);
   painter.drawText(above, Qt::AlignLeft | Qt::AlignVCenter, said.low);
@@ -86,8 +89,8 @@ Legend::~Legend() {
   Ogre::TextureManager::getSingleton().remove(texture_);
 }
 
-void Legend::set_scale(const ColourScale& scale) {
-  const QImage picture = legend_picture(scale);
+void Legend::set(const ColourScale& scale, const std::string& sentence) {
+  const QImage picture = legend_picture(scale, sentence);
   const Ogre::PixelBox pixels(kWidth, kHeight, 1, Ogre::PF_A8R8G8B8,
                               const_cast<uchar*>(picture.constBits()));  // only read
   texture_->getBuffer()->blitFromMemory(pixels);

@@ -16,8 +16,8 @@ class PanelOverlayElement;
 
 namespace tensegric_fit::inspect {
 
-/// The legend as a picture.
-QImage legend_picture(const ColourScale& scale);
+/// The legend as a picture, with a sentence under it.
+QImage legend_picture(const ColourScale& scale, const std::string& sentence);
 
 /// Drawn over the lower left corner of every 3D view.
 class Legend {
@@ -27,7 +27,7 @@ class Legend {
   Legend(const Legend&) = delete;
   Legend& operator=(const Legend&) = delete;
 
-  void set_scale(const ColourScale& scale);
+  void set(const ColourScale& scale, const std::string& sentence);
   void show(bool visible);
 
  private:

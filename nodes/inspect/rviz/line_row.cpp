@@ -26,7 +26,7 @@ QDoubleSpinBox* box(const char* unit, double low, double high, double step) {
 
 }  // namespace
 
-LineRow::LineRow(const std::string& line, QGridLayout* grid, int row)
+LineRow::LineRow(const std::string& line, int number, QGridLayout* grid)
     : line_(line),
       slider_(new QSlider(Qt::Horizontal)),
       per_cent_(box("%", 100 * FitSession::kLeast, 100 * FitSession::kMost, 0.5)),
@@ -46,7 +46,10 @@ LineRow::LineRow(const std::string& line, QGridLayout* grid, int row)
   for (QWidget* widget : {static_cast<QWidget*>(slider_), static_cast<QWidget*>(per_cent_),
                           static_cast<QWidget*>(centimetres_)})
     widget->setAccessibleName(name);
-  grid->addWidget(new QLabel(name), row, kName);
+  auto* label = new QLabel(QString("&%1 %2").arg(number).arg(name));
+  label->setBuddy(slider_);
+  const int row = 2 * number - 1;  // below the headings
+  grid->addWidget(label, row, kName);
   grid->addWidget(slider_, row, kSlider);
   grid->addWidget(per_cent_, row, kPerCent);
   grid->addWidget(centimetres_, row, kCentimetres);
@@ -89,6 +92,13 @@ void LineRow::set_outcome(double ratio, double tension, const std::string& warni
   pull_->setText(QString::number(tension, 'f', 2));
   warning_->setText(text(warning));
   warning_->setVisible(!warning.empty());
+}
+
+QWidget* LineRow::follow(QWidget* before) {
+  QWidget::setTabOrder(before, slider_);
+  QWidget::setTabOrder(slider_, per_cent_);
+  QWidget::setTabOrder(per_cent_, centimetres_);
+  return centimetres_;
 }
 
 void LineRow::set_enabled(bool enabled) {

@@ -17,7 +17,8 @@ class LineRow : public QObject {
   /// Columns of the grid.
   enum { kName, kSlider, kPerCent, kCentimetres, kNow, kPull, kColumns };
 
-  LineRow(const std::string& line, QGridLayout* grid, int row);
+  /// `number` from 1: Alt and this digit reach the slider.
+  LineRow(const std::string& line, int number, QGridLayout* grid);
 
   const std::string& line() const { return line_; }
   bool is_held() const { return slider_->isSliderDown(); }
@@ -27,6 +28,8 @@ class LineRow : public QObject {
   void set_outcome(double ratio, double tension, const std::string& warning);
   void set_ratio_now(double ratio);
   void set_enabled(bool enabled);
+  /// Tab comes to it after `before`; the last of its parts.
+  QWidget* follow(QWidget* before);
 
  Q_SIGNALS:
   void asked(const QString& line, double ratio);

@@ -67,7 +67,7 @@ void DotsDrawing::draw(const std::vector<NamedDot>& dots, bool with_names) {
   dots_->addPoints(points.data(), static_cast<std::uint32_t>(points.size()));
   if (!with_names) return;
   for (const NamedDot& dot : dots) {
-    auto name = std::make_unique<rviz::MovableText>(dot.name, "Liberation Sans", kLetter, ogre(kInk));
+    auto name = std::make_unique<rviz::MovableText>("   " + dot.name, "Liberation Sans", kLetter, ogre(kInk));
     name->setTextAlignment(rviz::MovableText::H_LEFT, rviz::MovableText::V_CENTER);
     node_->createChildSceneNode(ogre(dot.position))->attachObject(name.get());
     names_.push_back(std::move(name));

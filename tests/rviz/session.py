@@ -1,0 +1,132 @@
+"""Real rviz on a display of its own, with a running chain, driven by keyboard."""
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import time
+
+PATIENCE = 120  # seconds, for a scan on a busy machine
+HERE = os.path.dirname(os.path.abspath(__file__))
+LAUNCH = os.path.join(HERE, "..", "..", "launch")
+
+
+class NotHere(Exception):
+    """Something that it takes is not installed, or no display can be made."""
+
+
+def free_port():
+    with socket.socket() as listener:
+        listener.bind(("localhost", 0))
+        return listener.getsockname()[1]
+
+
+def wait_for(what, condition, seconds=PATIENCE):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if condition():
+            return
+        time.sleep(0.05)
+    raise AssertionError("in %d s there was no %s" % (seconds, what))
+
+
+class Session:
+    """Context manager. `out` gets the logs."""
+
+    def __init__(self, out):
+        for tool in ("Xvfb", "xdotool", "import", "rviz", "roslaunch"):
+            if shutil.which(tool) is None:
+                raise NotHere("%s is not installed" % tool)
+        self.out, self.started, self.message, self.count = out, [], {}, {}
+        os.makedirs(out, exist_ok=True)
+        self.port = free_port()
+        os.environ.update({"ROS_MASTER_URI": "http://localhost:%d" % self.port, "ROS_HOSTNAME": "localhost",
+                           "LIBGL_ALWAYS_SOFTWARE": "1", "HOME": out, "ROS_HOME": os.path.join(out, "ros_home"),
+                           "XDG_RUNTIME_DIR": out})
+
+    def __enter__(self):
+        read, write = os.pipe()
+        self.start("xvfb", "Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", pass_fds=[write])
+        os.close(write)
+        with os.fdopen(read) as answer:
+            number = answer.readline().strip()
+        if not number:
+            raise NotHere("no display can be made: see xvfb.log")
+        os.environ["DISPLAY"] = ":" + number
+        return self
+
+    def __exit__(self, *_):
+        for process in reversed(self.started):
+            self.end(process)
+
+    def start(self, name, *command, **options):
+        with open(os.path.join(self.out, name + ".log"), "w") as log:
+            self.started.append(subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, **options))
+        return self.started[-1]
+
+    @staticmethod
+    def end(process):
+        process.send_signal(signal.SIGINT)
+        try:
+            process.wait(20)
+        except subprocess.TimeoutExpired:
+            process.kill()
+
+    def start_chain(self, *command):
+        """`command`: what roslaunch takes. Listens to what comes out from now on."""
+        self.start("chain", "roslaunch", "-p", str(self.port), *command)
+
+        def master_is_up():
+            with socket.socket() as probe:
+                return probe.connect_ex(("localhost", self.port)) == 0
+
+        wait_for("ROS master", master_is_up)
+        import rospy
+        from tensegric_fit.msg import DeformedMesh, FitState, Landmarks
+
+        rospy.init_node("rviz_session", anonymous=True, disable_signals=True)
+        for topic, kind in (("control/deformed", FitState), ("body/deformed", DeformedMesh), ("body/landmarks", Landmarks)):
+            rospy.Subscriber(topic, kind, self.keep, topic)
+
+    def keep(self, message, topic):
+        self.message[topic] = message
+
+    def wears(self, garment, ratio):
+        """Whether the deformed body of this garment, all its lines at this ratio, is there."""
+        fit, body = self.message.get("control/deformed"), self.message.get("body/deformed")
+        return (fit is not None and body is not None and fit.garment == body.garment == garment
+                and fit.status == "converged" and all(abs(line.request - ratio) < 1e-6 for line in fit.lines))
+
+    def start_rviz(self, config):
+        rviz = self.start("rviz", "rviz", "-d", config)
+        wait_for("window", self.windows)
+        subprocess.check_call(["xdotool", "windowfocus", self.windows()[-1]])  # there is no window manager to do it
+        time.sleep(8)  # the window settles, the body is drawn
+        assert rviz.poll() is None, "rviz has ended: see rviz.log"
+        return rviz
+
+    @staticmethod
+    def windows():
+        found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "RViz"], stdout=subprocess.PIPE,
+                               stderr=subprocess.DEVNULL, text=True, check=False)
+        return found.stdout.split()
+
+    @staticmethod
+    def press(*keys):
+        for key in keys:
+            subprocess.check_call(["xdotool", "key", "--clearmodifiers", key])
+            time.sleep(0.1)
+
+    @staticmethod
+    def write(words):
+        subprocess.check_call(["xdotool", "type", "--delay", "60", words])
+
+    def put_on(self, garment):
+        """By keyboard, as someone would at the panel."""
+        self.press("alt+g", "ctrl+a")
+        self.write(garment)
+        self.press("Return")
+
+    @staticmethod
+    def picture(path):
+        subprocess.check_call(["import", "-window", "root", path])
