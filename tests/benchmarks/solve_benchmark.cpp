@@ -23,7 +23,7 @@ tensegric::SolverOptions options_for(SolverName solver) {
 
 void report(benchmark::State& state, const tensegric::Solution& s) {
   state.SetLabel(to_string(s.status));
-  state.counters["iterations"] = s.iterations;
+  state.counters["steps"] = s.iterations;
   state.counters["residual"] = s.residual;
   state.counters["line_error"] = s.lines[0].final / s.lines[0].neutral - 1;
   state.counters["volume_error"] = s.regions[0].volume_after / s.regions[0].volume_before - 1;

@@ -9,6 +9,7 @@ class Measured:
     def __init__(self, name):
         self.name = name
         self.milliseconds = []
+        self.wall_milliseconds = []
         self.counters = {}
         self.label = ""
 
@@ -21,6 +22,10 @@ class Measured:
         return statistics.median(self.milliseconds)
 
     @property
+    def wall_ms(self):
+        return statistics.median(self.wall_milliseconds)
+
+    @property
     def range(self):
         return min(self.milliseconds), max(self.milliseconds)
 
@@ -31,8 +36,8 @@ class Measured:
 
 
 def gather(runs):
-    """Name -> Measured, of a list of benchmark runs as Google Benchmark writes them. Where it says so in the name, time is
-    the wall's, else the processor's (of all threads where more than one works)."""
+    """Name -> Measured, of a list of benchmark runs as Google Benchmark writes them. Time is the processor's, of all
+    threads where more than one works: what else the machine does matters little."""
     known = {"name", "run_name", "run_type", "repetitions", "repetition_index", "threads", "iterations", "real_time",
              "cpu_time", "time_unit", "family_index", "per_family_instance_index", "label", "error_occurred",
              "error_message", "aggregate_name", "aggregate_unit"}
@@ -41,9 +46,10 @@ def gather(runs):
         if run["run_type"] != "iteration" or run.get("error_occurred"):
             continue
         words = run["run_name"].split("/")
-        name = "/".join(w for w in words if not w.startswith(("iterations:", "repeats:")) and w not in ("real_time", "process_time"))
+        name = "/".join(w for w in words if not w.startswith(("iterations:", "repeats:")) and w != "process_time")
         measured = all_.setdefault(name, Measured(name))
-        measured.milliseconds.append(run["real_time" if "real_time" in words else "cpu_time"])
+        measured.milliseconds.append(run["cpu_time"])
+        measured.wall_milliseconds.append(run["real_time"])
         measured.label = run.get("label", "")
         for key, value in run.items():
             if key not in known:

@@ -62,8 +62,8 @@ def page(results, context, guard):
 <body>
 <h1>Speed against error</h1>
 <p>The default body of the virtual booth, which is known exactly, seen by twelve sensors with 0.8 mm noise, in register. Times are medians of n
-runs, with the least and the most of them; MiB: by how much the process grows at most. {machine}. On a busy machine look at the
-ratios, and at times by the processor's clock.</p>
+runs, with the least and the most of them; MiB: by how much the process grows at most. {machine}. Times are
+the processor's, of all threads, since a machine does other things too.</p>
 """
     text += sections.headlines(results)
     text += sections.scene_section(results)

@@ -27,6 +27,12 @@ def plain(value, _=None):
     return f"{value:g}"
 
 
+def few_ticks(low, high):
+    """1, 2 and 5 of each decade, or all where there is no more than one of those."""
+    sparse = high / low > 4
+    return lambda value, _: f"{value:g}" if not sparse or f"{value:e}"[0] in "125" else ""
+
+
 def pareto(series, xlabel, ylabel, default=None, floor=None):
     """series: {name: [(label, (least, median, most) time, error)]}. `default` is the label of the default in each series;
     errors below `floor` are drawn on it."""
@@ -50,7 +56,7 @@ def pareto(series, xlabel, ylabel, default=None, floor=None):
         low, high = one.get_view_interval()
         one.set_major_formatter(ticker.FuncFormatter(plain))
         few = high / low < 30  # less than a decade and a half: more than the powers of ten
-        one.set_minor_formatter(ticker.LogFormatter(minor_thresholds=(2, 0.6)) if few else ticker.NullFormatter())
+        one.set_minor_formatter(ticker.FuncFormatter(few_ticks(low, high)) if few else ticker.NullFormatter())
     axis.set_xlabel(xlabel)
     axis.set_ylabel(ylabel)
     axis.grid(alpha=0.25, which="both")
@@ -73,5 +79,5 @@ def stacked(rows, parts, xlabel):
     axis.invert_yaxis()
     axis.set_xlabel(xlabel)
     axis.grid(alpha=0.25, axis="x")
-    axis.legend(fontsize=8.5, frameon=False, ncol=len(parts), loc="upper center", bbox_to_anchor=(0.5, 1.22))
+    axis.legend(fontsize=8.5, frameon=False, ncol=len(parts), loc="upper center", bbox_to_anchor=(0.5, 1.14))
     return svg_of(figure)
