@@ -61,9 +61,9 @@ def page(results, context, guard):
 <style>{STYLE}</style></head>
 <body>
 <h1>Speed against error</h1>
-<p>The default body of the virtual booth, which is known exactly, seen by twelve sensors with 0.8 mm noise, in register. Times are medians of n
-runs, with the least and the most of them; MiB: by how much the process grows at most. {machine}. Times are
-the processor's, of all threads, since a machine does other things too.</p>
+<p>The default body of the virtual booth, which is known exactly, seen by twelve sensors with 0.8 mm noise, in register. Times
+are the processor's, of all threads, since a machine does other things too: medians of n runs, with the least and the most of
+them. MiB: by how much the process grows at most. {machine}.</p>
 """
     text += sections.headlines(results)
     text += sections.scene_section(results)

@@ -75,10 +75,13 @@ def of_each(at, values, counter, unit="mm"):
 
 def depth_section(results):
     def why(at):
-        return (f"<b>Default 9.</b> 99 % of the skin that the sensors saw is within {of_each(at, (7, 8, 9, 10), 'truth_p99_mm')}. This body is "
-                f"smooth; 9 was chosen on bodies with fingers, ears and folds, has cells of 3.6 mm, and costs {number(at[9].ms / at[8].ms, 3)} times the "
+        return (f"<b>Default 9.</b> 99 % of the skin that the sensors saw is within "
+                f"{of_each(at, (7, 8, 9, 10), 'truth_p99_mm')}. This body is "
+                f"smooth; 9 was chosen on bodies with fingers, ears and folds, has cells of 3.6 mm, and costs "
+                f"{number(at[9].ms / at[8].ms, 3)} times the "
                 f"time of 8. Depth 10 takes {number(at[10].ms / at[9].ms, 2)} times as long and "
-                f"{number(at[10].value('peak_mib') / at[9].value('peak_mib'), 2)} times the memory: cells deeper than the points are dense.")
+                f"{number(at[10].value('peak_mib') / at[9].value('peak_mib'), 2)} times the memory: cells deeper than "
+                f"the points are dense.")
     return "<h2>Poisson depth</h2>\n" + surface_sweep(
         results, "by_depth", 9, "180,000 points, 62,000 body triangles. The default is ringed.", why)
 
@@ -86,7 +89,8 @@ def depth_section(results):
 def points_section(results):
     def why(at):
         return (f"<b>The booth decides;</b> 180,000 is the scan that the design is for. 99 % is within "
-                f"{of_each(at, (20000, 40000, 180000, 720000), 'truth_p99_mm')}; times grow from {number(at[20000].ms)} to "
+                f"{of_each(at, (20000, 40000, 180000, 720000), 'truth_p99_mm')}; times grow from "
+                f"{number(at[20000].ms)} to "
                 f"{number(at[720000].ms)} ms only, since above 400,000 close points are merged first.")
     return "<h2>Points of the scan</h2>\n" + surface_sweep(
         results, "by_points", 180000, "Depth 9, 62,000 body triangles, 0.8 mm noise.", why)
@@ -94,8 +98,10 @@ def points_section(results):
 
 def triangles_section(results):
     def why(at):
-        return (f"<b>Default 62,000,</b> the body of the papers. 99 % is within {of_each(at, (8000, 31000, 62000, 125000), 'truth_p99_mm')}. The "
-                f"surface is made fine in any case and then reduced, so fewer triangles save little here; more cost in each stage after this "
+        return (f"<b>Default 62,000,</b> the body of the papers. 99 % is within "
+                f"{of_each(at, (8000, 31000, 62000, 125000), 'truth_p99_mm')}. The "
+                f"surface is made fine in any case and then reduced, so fewer triangles save little here; more cost in "
+                f"each stage after this "
                 f"one, on topics and on the screen.")
     return "<h2>Body triangles</h2>\n" + surface_sweep(
         results, "by_triangles", 62000, "180,000 points, depth 9.", why)
@@ -119,10 +125,14 @@ def control_section(results):
     svg = pareto(series, "ms of a solution (processor)", f"body against {finest:,} triangles, mm rms", "120")
     coarse, default, fine = (at["cold", t] for t in (60, 120, 480))
     points = {str(t): (at["cold", t], at["cold", t].value("to_finest_rms_mm")) for t in (60, 120, 480, 1920)}
-    why = (f"<b>Default 120,</b> the control mesh of the papers. The worn body is {number(default.value('to_finest_rms_mm'), 2)} mm rms "
-           f"from that of {finest:,} triangles, with 60 triangles {number(coarse.value('to_finest_rms_mm'), 2)}, with 480 "
-           f"{number(fine.value('to_finest_rms_mm'), 2)}; but 480 takes {number(fine.ms / default.ms, 2)} times as long, and a clerk's slider "
-           f"is to answer within 5 ms (warm here: {number(at['warm', 120].ms, 2)} against {number(at['warm', 480].ms, 2)} ms). Line and "
+    why = (f"<b>Default 120,</b> the control mesh of the papers. The worn body is "
+           f"{number(default.value('to_finest_rms_mm'), 2)} mm rms "
+           f"from that of {finest:,} triangles, with 60 triangles {number(coarse.value('to_finest_rms_mm'), 2)}, with "
+           f"480 "
+           f"{number(fine.value('to_finest_rms_mm'), 2)}; but 480 takes {number(fine.ms / default.ms, 2)} times as "
+           f"long, and a clerk's slider "
+           f"is to answer within 5 ms (warm here: {number(at['warm', 120].ms, 2)} against "
+           f"{number(at['warm', 480].ms, 2)} ms). Line and "
            f"volume are exact at any number.")
     return ("<h2>Control triangles</h2>\n" + f"<p>{why}{on_the_front(points, '120')}</p>\n" +
             figure(svg, "B1 at 0.90 on the virtual body. cold: from rest; warm: from the balance at 0.91.") +
@@ -145,13 +155,18 @@ def solver_section(results):
     svg = pareto(series, "ms (processor)", "farthest node from the balance, mm", floor=1e-6)
     ours, theirs = results["stopped/equilibrium/1000"], results["stopped/relaxation/1000"]
     adaptive = results["stopped/adaptive/1000"]
-    why = (f"<b>Default equilibrium, until it has converged</b> ({number(ours.value('steps'))} steps, {number(ours.ms, 2)} ms): the line is "
-           f"exact to {exactly(ours.value('line_error'))} and the volume to {exactly(ours.value('volume_error'))}. With 1,000 cycles "
-           f"the line of relaxation is still {number(100 * theirs.value('line_error'), 2)} % too long ({number(theirs.ms, 2)} ms), that of adaptive "
-           f"{number(100 * adaptive.value('line_error'), 2)} % ({number(adaptive.ms, 2)} ms). A step less than it takes leaves the balance by more than it "
+    why = (f"<b>Default equilibrium, until it has converged</b> ({number(ours.value('steps'))} steps, "
+           f"{number(ours.ms, 2)} ms): the line is "
+           f"exact to {exactly(ours.value('line_error'))} and the volume to {exactly(ours.value('volume_error'))}. "
+           f"With 1,000 cycles "
+           f"the line of relaxation is still {number(100 * theirs.value('line_error'), 2)} % too long "
+           f"({number(theirs.ms, 2)} ms), that of adaptive "
+           f"{number(100 * adaptive.value('line_error'), 2)} % ({number(adaptive.ms, 2)} ms). A step less than it "
+           f"takes leaves the balance by more than it "
            f"saves.")
     return ("<h2>Solver and iterations</h2>\n" + f"<p>{why}</p>\n" +
-            figure(svg, "B1 at 0.90, 120 control triangles; numbers are the iterations after which it was stopped. Drawn at "
+            figure(svg, "B1 at 0.90, 120 control triangles; numbers are the iterations after which it was stopped. "
+                        "Drawn at "
                         "a millionth of a millimetre: nearer than that.") +
             "<details><summary>Table</summary>" +
             table(["", "n", "ms", "status", "iterations", "line", "volume", "residual", "mm from balance"], rows) + "</details>\n")
@@ -177,13 +192,18 @@ def tffd_section(results):
     exact, cut = at["reference", 31000, 0], at["reference", 31000, 1000]
     single, body = at["fast", 31000, 0], results["on_body/reference/31000"]
     svg = pareto(series, "ms for 31,000 carried vertices (processor)", "farthest vertex from the exact one, mm", "0", floor=1e-6)
-    why = (f"<b>Default double, no truncation.</b> A change of garment moves some {number(body.value('carried'), 2)} vertices of a body of 31,000: "
-           f"{number(body.ms, 2)} ms. Where all 31,000 are carried, float saves {number(100 * (1 - single.ms / exact.ms), 2)} % and costs "
-           f"{number(single.value('mm_off'), 1)} mm, a truncation of 0.001 {number(100 * (1 - cut.ms / exact.ms), 2)} % and "
-           f"{number(cut.value('mm_off'), 1)} mm: beside {number(results['warm/equilibrium/120'].ms, 2)} ms of solving, nothing that exactness "
+    why = (f"<b>Default double, no truncation.</b> A change of garment moves some {number(body.value('carried'), 2)} "
+           f"vertices of a body of 31,000: "
+           f"{number(body.ms, 2)} ms. Where all 31,000 are carried, float saves "
+           f"{number(100 * (1 - single.ms / exact.ms), 2)} % and costs "
+           f"{number(single.value('mm_off'), 1)} mm, a truncation of 0.001 {number(100 * (1 - cut.ms / exact.ms), 2)} "
+           f"% and "
+           f"{number(cut.value('mm_off'), 1)} mm: beside {number(results['warm/equilibrium/120'].ms, 2)} ms of "
+           f"solving, nothing that exactness "
            f"should be given for.")
     return ("<h2>t-FFD: truncation and precision</h2>\n" + f"<p>{why}</p>\n" +
-            figure(svg, "Numbers: the share of a vertex's largest weight below which others are dropped. Exact ones are drawn at "
+            figure(svg, "Numbers: the share of a vertex's largest weight below which others are dropped. Exact ones "
+                        "are drawn at "
                         "a millionth of a millimetre.") +
             "<details><summary>Table</summary>" +
             table(["", "n", "ms", "entries a row", "mm off", "bound, mm"], rows) + "</details>\n")
@@ -209,8 +229,10 @@ def scene_section(results):
     changes = results.sweep("garment_change")
     change_rows = [[f"{triangles:,}", m.n, milliseconds(m), m.label, number(m.value("line_error"), 2),
                     number(m.value("control_volume_error"), 2)] for triangles, m in changes]
-    return ("<h2>Only what the scene needs</h2>\n<p>A scene solves and binds the regions that its garment names; pictures, markers and "
-            "meshes for people are made only while someone listens. Saved: against bust and hips with listeners to every topic of every "
+    return ("<h2>Only what the scene needs</h2>\n<p>A scene solves and binds the regions that its garment names; "
+            "pictures, markers and "
+            "meshes for people are made only while someone listens. Saved: against bust and hips with listeners to "
+            "every topic of every "
             "stage. <b>Default: no listener, no message,</b> and the garment decides what is solved.</p>\n" +
             figure(svg, "Medians. One process, without a master; stages as their share of it.") +
             table(["", "n", "ms", "wall clock", "MiB", "saved", *stages, "messages"], rows) +
@@ -223,8 +245,10 @@ def guard_section(stages):
              f"{s['spread']:.2f}", number(s["mib"]), number(s["baseline_mib"]), f"{s['memory_ratio']:.2f} {s['memory']}"] for s in stages]
     words = [s[what] for s in stages for what in ("time", "memory")]
     verdict = "fails" if "FAILS" in words else "warns" if "warning" in words else "holds"
-    return (f"<h2>Guard: {verdict}</h2>\n<p>Each stage in times of a calibration kernel that runs in the same process right before it, and by "
-            f"how much the process grows, against <code>tests/benchmarks/speed_baseline.yaml</code>; medians of {stages[0]['rounds']}. "
+    return (f"<h2>Guard: {verdict}</h2>\n<p>Each stage in times of a calibration kernel that runs in the same process "
+            f"right before it, and by "
+            f"how much the process grows, against <code>tests/benchmarks/speed_baseline.yaml</code>; medians of "
+            f"{stages[0]['rounds']}. "
             f"1.3 times as much is a warning, twice a failure.</p>\n" +
             table(["stage", "ms", "kernels", "baseline", "time", "spread", "MiB", "baseline", "memory"], rows))
 
@@ -243,8 +267,10 @@ def yardstick_section(results):
         m = results[name]
         if m:
             rows.append([words, m.n, milliseconds(m), "", "", "", "", ""])
-    return ("<h2>Yardsticks</h2>\n<p>Other reconstructions get our points without strays and our normals for nothing, and their result is "
-            "taken as it comes. ARAP: ten iterations, without its factorisation, the line's nodes put where ours are.</p>\n" +
+    return ("<h2>Yardsticks</h2>\n<p>Other reconstructions get our points without strays and our normals for nothing, "
+            "and their result is "
+            "taken as it comes. ARAP: ten iterations, without its factorisation, the line's nodes put where ours "
+            "are.</p>\n" +
             table(["", "n", "ms", "MiB", "truth 50 %, mm", "truth 95 %, mm", "triangles", "closed"], rows))
 
 
