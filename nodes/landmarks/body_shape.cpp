@@ -8,14 +8,15 @@ namespace {
 
 // Thighs touch, or a wide gap was filled, where so far below the junction they are joined over that share of
 // their depth.
-constexpr double kBelowJunction = 0.009, kTouching = 0.15;  // statures, share
+constexpr double kHidden = 0.006, kBelowJunction = 0.009, kTouching = 0.15;  // statures, statures, share
 // Where they do not, skin that fills a slit can still join them too low, but not by more than this.
 constexpr double kUnderPerineum = 0.0024;  // statures
 constexpr double kApart = 0.0025;          // m, between sections
 constexpr int kReach = 2;                  // sections each way over which a slope is taken
 constexpr int kGrown = 4;  // sections above, 10 mm, where what joins the legs has a good part of their depth
 constexpr double kShareOfLimb = 0.5;
-constexpr double kStillSteep = 0.85;                             // of the steepest slope
+constexpr double kOverPerineum = 0.0013;  // m; the steep stretch begins at the perineum
+constexpr double kStillSteep = 0.85;      // of the steepest slope
 constexpr double kLowestCrotch = 0.435, kHighestCrotch = 0.505;  // statures over the soles
 
 // The back end of what joins the legs, seen from behind: going up, it recedes gently along thighs that touch,
@@ -36,7 +37,7 @@ double steepest_behind(const SlicedMesh& sliced, double low, double high, double
   int first = steepest, last = steepest;
   while (first > 0 && slopes[first - 1] > kStillSteep * slopes[steepest]) --first;
   while (last + 1 < count && slopes[last + 1] > kStillSteep * slopes[steepest]) ++last;
-  return low + kApart * (first + last) / 2;
+  return low + kApart * (first + last) / 2 - kOverPerineum;
 }
 
 Junction find_crotch_junction(const SlicedMesh& sliced, const BodyLevels& levels) {
@@ -53,7 +54,8 @@ Junction find_crotch_junction(const SlicedMesh& sliced, const BodyLevels& levels
   const double steepest = steepest_behind(sliced, std::max(parted.height, soles + kLowestCrotch * s),
                                           soles + kHighestCrotch * s, middle, depth, junction.height);
   const std::vector<Outline> below = sliced.outlines_at(junction.height - kBelowJunction * s);
-  const bool touching = narrowest_bridge(below, middle, middle).length > kTouching * depth;
+  const bool touching = junction.height - parted.height > kHidden * s &&
+                        narrowest_bridge(below, middle, middle).length > kTouching * depth;
   junction.height = touching ? steepest : std::max(junction.height, steepest - kUnderPerineum * s);
   junction.above.y = middle;
   return junction;

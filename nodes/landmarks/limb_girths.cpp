@@ -1,6 +1,7 @@
 #include "landmarks/limb_girths.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "landmarks/profile.hpp"
 
@@ -16,6 +17,12 @@ constexpr double kFurtherDown = 0.02;  // both, where skin that fills the armpit
 constexpr double kLowerThigh = 0.10;   // below the thigh's girth: the same of the thigh
 constexpr double kArmRadius = 0.06, kThighRadius = 0.10, kBothThighs = 0.25, kBetweenThighs = 0.015;
 
+// Of the box round them.
+Vector3d middle_of(const std::vector<Vector3d>& points) {
+  const auto [low, high] = geometry::bounding_box(points);
+  return (low + high) / 2;
+}
+
 // The loop of material in the plane that runs round `origin` most nearly, and its middle; false where none
 // closes.
 bool loop_round(const BodyShape& body, const Vector3d& origin, const Vector3d& axis, double radius,
@@ -26,15 +33,10 @@ bool loop_round(const BodyShape& body, const Vector3d& origin, const Vector3d& a
   for (const geometry::SectionLoop& loop :
        cut(body, triangles_in_box(body, origin - reach, origin + reach), origin, axis)) {
     if (!loop.closed || loop.points.size() < 10) continue;
-    Vector3d low = loop.points.front(), high = low;
-    for (const Vector3d& p : loop.points) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    const double off = ((low + high) / 2 - origin).norm();
-    if (off >= nearest) continue;
-    nearest = off;
-    middle = (low + high) / 2;
+    const Vector3d here = middle_of(loop.points);
+    if ((here - origin).norm() >= nearest) continue;
+    nearest = (here - origin).norm();
+    middle = here;
     points = loop.points;
     found = true;
   }
@@ -53,22 +55,36 @@ const Outline* outline_near(const std::vector<Outline>& outlines, const Eigen::V
   return best;
 }
 
-// One side's half of the largest loop in the plane: of two thighs that touch, this one. They part where they
-// are narrowest.
-std::vector<Vector3d> half_loop(const BodyShape& body, const Vector3d& origin, const Vector3d& axis,
-                                Side side) {
+// One side's half of what the plane cuts near `origin`: of two thighs that touch, this one. They part where
+// they are narrowest.
+std::vector<Vector3d> half_section(const BodyShape& body, const Vector3d& origin, const Vector3d& axis,
+                                   Side side) {
   const double near = kBetweenThighs * body.stature, middle = body.crotch.above.y;
   const double between =
       narrowest_bridge(body.sliced.outlines_at(origin.z()), middle - near, middle + near).y;
   const Vector3d reach = Vector3d::Constant(kBothThighs * body.stature);
-  std::vector<Vector3d> both;
+  std::vector<Vector3d> half;
   for (const geometry::SectionLoop& loop :
-       cut(body, triangles_in_box(body, origin - reach, origin + reach), origin, axis))
-    if (loop.closed && loop.points.size() > both.size()) both = loop.points;
-  both.erase(std::remove_if(both.begin(), both.end(),
-                            [&](const Vector3d& p) { return kSign[side] * (p.y() - between) < 0; }),
-             both.end());
-  return both;
+       cut(body, triangles_in_box(body, origin - reach, origin + reach), origin, axis)) {
+    if (!loop.closed || (middle_of(loop.points) - origin).norm() > kBothThighs / 2 * body.stature) continue;
+    std::copy_if(loop.points.begin(), loop.points.end(), std::back_inserter(half),
+                 [&](const Vector3d& p) { return kSign[side] * (p.y() - between) >= 0; });
+  }
+  return half;
+}
+
+// The tape round one of two thighs that touch; empty where there is no skin. `place` lies in the leg below.
+std::vector<Vector3d> tape_of_half(const BodyShape& body, Vector3d place, double height, Side side) {
+  Vector3d middles[2];
+  for (const int below : {1, 0}) {
+    place.z() = height - below * kLowerThigh * body.stature;
+    const std::vector<Vector3d> half = half_section(body, place, Vector3d::UnitZ(), side);
+    if (half.size() < 3) return {};
+    middles[below] = place = middle_of(half);
+  }
+  // The halves' middles are not the thighs': across, the tape lies level.
+  const Vector3d way = middles[0] - middles[1], axis = Vector3d(way.x(), 0, way.z()).normalized();
+  return geometry::tape(half_section(body, place, axis, side), axis);
 }
 
 }  // namespace
@@ -138,9 +154,7 @@ LimbGirth find_thigh_girth(const BodyShape& body, Side side) {
   }
   const Vector3d axis = (upper - lower).normalized();
   if (height < wanted) {
-    const Vector3d level_across = Vector3d(axis.x(), 0, axis.z()).normalized();
-    points = half_loop(body, upper + (wanted - upper.z()) / axis.z() * axis, level_across, side);
-    if (points.size() >= 10) girth.tape = geometry::tape(points, level_across);
+    girth.tape = tape_of_half(body, upper, wanted, side);
     girth.confidence = 0.45;
     girth.reason = "the thighs touch; half of what is round both";
   } else if (loop_round(body, upper, axis, kThighRadius * s, points, middle)) {

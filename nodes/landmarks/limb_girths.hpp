@@ -19,7 +19,8 @@ struct LimbGirth {
 LimbGirth find_upper_arm_girth(const BodyShape& body, const Trunk& trunk, const Eigen::Vector3d& shoulder,
                                Side side);
 
-/// Round the thigh, square to it, 0.039 statures below the crotch, or just below where thighs touch.
+/// Round the thigh, square to it, 0.039 statures below the crotch; of thighs that touch, round a half of
+/// both.
 LimbGirth find_thigh_girth(const BodyShape& body, Side side);
 
 }  // namespace tensegric_fit::landmarks

@@ -11,7 +11,7 @@ namespace {
 
 // Statures: the perineum's middle, on bone, however far back thighs touch; and of what thighs are deeper than
 // slim ones, this share lies as fat before the bone.
-constexpr double kBehindPubis = 0.040, kSlimThigh = 0.092, kFatBefore = 0.08;
+constexpr double kBehindPubis = 0.044, kSlimThigh = 0.092, kFatBefore = 0.08;
 constexpr double kThighBelowCrotch = 0.03;
 
 constexpr double kThigh = 0.13;  // statures under the buttock point: the back of the thigh, below the fold
@@ -85,7 +85,7 @@ Eigen::Vector3d side_of(const Outline& outline, Side side) {
 
 Eigen::Vector3d find_crotch(const BodyShape& body) {
   const double y = body.crotch.above.y, s = body.stature;
-  const Bridge bridge = narrowest_bridge(body.sliced.outlines_at(body.crotch.height + 0.003 * s), y, y);
+  const Bridge bridge = narrowest_bridge(body.sliced.outlines_at(body.crotch.height + 0.008 * s), y, y);
   const Level& thighs = body.levels.levels[body.levels.nearest(
       std::min(body.crotch.height - kThighBelowCrotch * s, body.levels.legs_part))];
   double depth = 0;
