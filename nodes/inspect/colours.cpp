@@ -64,12 +64,14 @@ Colour distortion_colour(double distortion) {
 }
 
 Colour tension_colour(double tension) {
+  if (!std::isfinite(tension)) return kForceless;
   const double share = std::max(0.0, tension) / (1 + std::max(0.0, tension));
   const auto byte = [](double value) { return cv::saturate_cast<std::uint8_t>(255 * value); };
   return {byte(2 * share), byte(3 * (1 - share) - 0.6), 30};
 }
 
 Colour member_colour(double force) {
+  if (!std::isfinite(force)) return kForceless;
   const double size = std::abs(force);
   return mixed(kForceless, force < 0 ? kLooseColour : kTightColour, size / (1 + size));
 }

@@ -33,11 +33,12 @@ Colour two_sided_colour(double share);
 /// From neutral at 0 to violet at 1: how far something went. \pre finite
 Colour way_colour(double share);
 
-/// Pull of a garment line: green at 0, yellow at 1, red from about 3 on: one fixed scale for all fits.
+/// Pull of a garment line: green at 0, yellow at 1, red from about 3 on: one fixed scale for all fits. Grey
+/// where it is no number.
 Colour tension_colour(double tension);
 
-/// Force in a member over the mean pull at rest: grey without force, red where it pulls, blue where it is
-/// pressed.
+/// Force in a member over the mean pull at rest: grey without force, or where that is no number, red where it
+/// pulls, blue where it is pressed.
 Colour member_colour(double force);
 
 /// The same colours with a light baked in: rviz draws coloured triangle lists unlit. `light_direction` is the

@@ -64,15 +64,18 @@ void FitSession::step() {
   dragged_.clear();
 }
 
-void FitSession::adopt(const std::string& garment, const std::vector<AskedLine>& worn) {
+bool FitSession::adopt(const std::string& garment, const std::vector<AskedLine>& worn) {
+  if (!std::all_of(worn.begin(), worn.end(), [](const AskedLine& line) { return std::isfinite(line.ratio); }))
+    return false;
   Wish wish = now_;
   if (!take_ratios(garment, worn, wish)) {
     wish = {garment, worn, {}};
     forget_lengths();
   }
-  if (same(wish, now_)) return;
+  if (same(wish, now_)) return false;
   if (!now_.lines.empty()) step();
   now_ = std::move(wish);
+  return true;
 }
 
 bool FitSession::ask(const std::string& line, double ratio) {

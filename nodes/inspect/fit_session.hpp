@@ -36,8 +36,9 @@ class FitSession {
   const Wish& now() const { return now_; }
 
   /// What is worn, as somebody else, a service call or the pipeline itself says it. The same lines keep the
-  /// regions that are off, and no change is no step.
-  void adopt(const std::string& garment, const std::vector<AskedLine>& worn);
+  /// regions that are off; no change is no step, and a garment whose ratios are no numbers is ignored.
+  /// True where something changed.
+  bool adopt(const std::string& garment, const std::vector<AskedLine>& worn);
 
   /// Brought within the limits. A line that is not there, or no number: no change. True where it changed.
   bool ask(const std::string& line, double ratio);

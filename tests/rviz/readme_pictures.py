@@ -12,10 +12,12 @@ sys.dont_write_bytecode = True  # not into the sources
 from session import LAUNCH, Session, wait_for
 
 RATIO = 0.90
+FOLDER = ("Name: Fit\n", "Name: Fit\n    Export folder: /home/clerk/exports\n")  # not that of who makes the pictures
+PART = "1280x709+0+62"  # of the screen: view and panel
 # Name of the picture, garment, what the display shows other than launch/rviz/inspect.rviz.
 PICTURES = [
     ("rviz", "B1", {}),
-    ("rviz_side_by_side", "B1", {"Show: After": "Show: Side by side", "Distance: 1.1": "Distance: 1.6", "Yaw: 0.45": "Yaw: 0"}),
+    ("rviz_side_by_side", "B1", {"Show: After": "Show: Side by side", "Distance: 1.1": "Distance: 1.9", "Yaw: 0.45": "Yaw: 0"}),
     ("rviz_model", "B1", {"Alpha: 1\n": "Alpha: 0.35\n", "Struts and tensile parts: false": "Struts and tensile parts: true",
                           "Girths: true": "Girths: false", "Distance: 1.1": "Distance: 0.7"}),
 ]
@@ -31,7 +33,7 @@ def main(scan, pictures):
         session.start_chain("tensegric_fit", "demo.launch", "rviz:=false", "bag:=" + scan)
         wait_for("first fit", lambda: "body/deformed" in session.message)
         for name, garment, changes in PICTURES:
-            changed = config
+            changed = config.replace(*FOLDER)
             for old, new in changes.items():
                 assert old in changed, "inspect.rviz has no '%s'" % old
                 changed = changed.replace(old, new)
@@ -42,7 +44,7 @@ def main(scan, pictures):
             wait_for("body under " + garment, lambda worn=garment: session.wears(worn, RATIO))
             rviz = session.start_rviz(path)
             time.sleep(2)
-            session.picture(os.path.join(pictures, name + ".png"))
+            session.picture(os.path.join(pictures, name + ".png"), PART)
             session.end(rviz)
 
 

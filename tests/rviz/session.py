@@ -128,5 +128,5 @@ class Session:
         self.press("Return")
 
     @staticmethod
-    def picture(path):
-        subprocess.check_call(["import", "-window", "root", path])
+    def picture(path, part="1280x800+0+0"):
+        subprocess.check_call(["import", "-window", "root", "-crop", part, "+repage", path])

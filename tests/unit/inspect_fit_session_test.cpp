@@ -64,6 +64,8 @@ TEST(FitSession, FollowsWhatSomebodyElseAsksFor) {
   EXPECT_EQ(session.now().off, std::set<std::string>{"hips"});
   session.adopt("B1+H1", {{"chest", 0.91, ""}, {"hip", 0.97, ""}});
   EXPECT_TRUE(session.now().off.empty());
+  session.adopt("B2", {{"strap", std::nan(""), ""}});
+  EXPECT_EQ(session.now().garment, "B1+H1");
   session.adopt("B2", {{"strap", 0.9, ""}});
   EXPECT_EQ(session.now().lines.size(), 1u);
   EXPECT_TRUE(session.undo());

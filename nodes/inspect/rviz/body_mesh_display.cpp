@@ -98,6 +98,7 @@ void BodyMeshDisplay::onDisable() {
 
 void BodyMeshDisplay::reset() {
   rviz::Display::reset();
+  place_.clear();
   change_topics();
 }
 
@@ -156,14 +157,15 @@ void BodyMeshDisplay::update(float, float) {
 void BodyMeshDisplay::place() {
   Ogre::Vector3 position;
   Ogre::Quaternion turn;
-  if (context_->getFrameManager()->getTransform(frame_, ros::Time(), position, turn)) {
+  const bool placed = context_->getFrameManager()->getTransform(frame_, ros::Time(), position, turn);
+  if (placed) {
     scene_node_->setPosition(position);
     scene_node_->setOrientation(turn);
-    setStatus(StatusProperty::Ok, words::kPlace, text(frame_));
-  } else {
-    setStatus(StatusProperty::Error, words::kPlace,
-              text(words::no_transform(frame_, fixed_frame_.toStdString())));
   }
+  const std::string words = placed ? frame_ : words::no_transform(frame_, fixed_frame_.toStdString());
+  if (words == place_) return;
+  place_ = words;
+  setStatus(placed ? StatusProperty::Ok : StatusProperty::Error, words::kPlace, text(words));
 }
 
 bool BodyMeshDisplay::eventFilter(QObject* watched, QEvent* event) {

@@ -60,6 +60,7 @@ class BodyMeshDisplay : public rviz::Display {
   Overlays overlays_;
   std::unique_ptr<BodyScene> scene_;
   std::string frame_;
+  std::string place_;  // what the status says of it
   bool new_body_ = false, changed_ = false, listens_to_members_ = false;
   QPoint pressed_at_;
 };

@@ -151,7 +151,7 @@ void FitPanel::follow_pipeline() {
   if (!worn_ || held || coming_back || client_->is_asking()) return;
   const std::string garment = session_.now().garment;
   const std::vector<AskedLine> lines = session_.now().lines;
-  session_.adopt(worn_->name, lines_in(*worn_));
+  if (!session_.adopt(worn_->name, lines_in(*worn_))) return;
   const bool same_lines = garment == session_.now().garment && lines.size() == rows_.size() &&
                           lines.size() == session_.now().lines.size();
   if (!same_lines) build_lines();
@@ -245,7 +245,6 @@ void FitPanel::show_lines() {
         row->set_asked(line.ratio, session_.length(line.name));
         row->set_enabled(session_.now().off.count(line.region) == 0);
       }
-  if (!garment_->hasFocus()) garment_->setCurrentText(text(session_.now().garment));
   undo_->setEnabled(session_.can_undo());
 }
 
@@ -273,6 +272,7 @@ void FitPanel::show_state() {
   const PipelineWatch::State state = watch_.state(seconds(Clock::now()));
   pipeline_->setText(text(state.words));
   pipeline_->setStyleSheet(state.trouble ? "color: #b2182b" : "");
+  if (!garment_->hasFocus()) garment_->setCurrentText(text(session_.now().garment));
   progress_->setMaximum(state.all);
   progress_->setValue(state.done);
   if (client_->is_asking() && Clock::now() - asked_at_ > kPatience) answer_->setText(words::kNoAnswer);

@@ -1,6 +1,8 @@
 // What the panel is made of, and what is on it.
 #include <rviz/display.h>
 #include <rviz/display_group.h>
+#include <rviz/view_controller.h>
+#include <rviz/view_manager.h>
 #include <rviz/visualization_manager.h>
 
 #include <QDateTime>
@@ -8,7 +10,6 @@
 #include <QHBoxLayout>
 #include <QScrollArea>
 #include <QShortcut>
-#include <QSignalBlocker>
 #include <QVBoxLayout>
 
 #include "geometry/shipped_files.hpp"
@@ -20,7 +21,8 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr int kWidth = 430;  // pixels
+constexpr int kWidth = 430;        // pixels
+constexpr float kStepBack = 1.7F;  // of the camera, to see two bodies in place of one
 constexpr char kDisplay[] = "tensegric_fit/BodyMesh";
 
 QLabel* sentence(QVBoxLayout* layout, const char* style = "") {
@@ -163,6 +165,7 @@ void FitPanel::build_lines() {
   }
   order_tabs();
   show_lines();
+  show_outcome();
 }
 
 // Qt's own order is that in which things were made; lines and regions come and go.
@@ -219,7 +222,6 @@ void FitPanel::set_display(const char* property, const QVariant& value) {
 }
 
 void FitPanel::blend(int per_cent) {
-  const QSignalBlocker quiet(compare_);
   compare_->setChecked(false);
   set_display("Blend", per_cent / 100.0);
   set_display("Show", words::kBlend);
@@ -227,6 +229,8 @@ void FitPanel::blend(int per_cent) {
 
 void FitPanel::compare(bool on) {
   set_display("Show", on ? words::kSideBySide : words::kAfter);
+  rviz::Property* distance = vis_manager_->getViewManager()->getCurrent()->subProp("Distance");
+  distance->setValue(distance->getValue().toFloat() * (on ? kStepBack : 1 / kStepBack));
 }
 
 void FitPanel::start_export() {

@@ -1,0 +1,93 @@
+#include "inspect/overlays.hpp"
+
+#include <gtest/gtest.h>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::inspect {
+namespace {
+
+// A flat square of skin, a landmark and a tape on it, and a control mesh of the same corners.
+class OverlaysTest : public testing::Test {
+ protected:
+  OverlaysTest() {
+    body_.take_body("one", {kCorners, kTriangles});
+    std::vector<Eigen::Vector3d> raised;
+    for (const Eigen::Vector3d& corner : kCorners) raised.push_back(corner + Eigen::Vector3d(0, 0, 2));
+    body_.take_worn({"one", "B1", raised, {1, 1, 1, 1}});
+
+    geometry::BodyMeasures measures;
+    measures.landmarks = {{"navel", {0.25, 0.25, 0}, 1, ""}, {"crotch", {0.75, 0.5, 0}, 0.2, "unsure"}};
+    measures.loops = {{"waist", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}}};
+    overlays_.take_measures("one", measures);
+    geometry::ControlMesh control;
+    control.outer = kCorners;
+    control.inner = kCorners;
+    control.triangles = kTriangles;
+    overlays_.take_control("one", control);
+    overlays_.take_fit("one", raised, {{{0, 1, 2}, 0.5}});
+    overlays_.take_members("one", {std::vector<Eigen::Vector3d>(8, {0, 0, 2}), {0, 1, 2, 7}, {1, -1}});
+  }
+
+  static inline const std::vector<Eigen::Vector3d> kCorners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  static inline const std::vector<Eigen::Vector3i> kTriangles{{0, 1, 2}, {0, 2, 3}};
+  BodyView body_;
+  Overlays overlays_;
+};
+
+TEST_F(OverlaysTest, EverythingGoesWithTheSkin) {
+  for (const double blend : {0.0, 0.5, 1.0}) {
+    const double height = 2 * blend;
+    const std::vector<NamedDot> dots = overlays_.dots(body_, blend);
+    ASSERT_EQ(dots.size(), 2u);
+    EXPECT_NEAR(dots[0].position.x(), 0.25, 1e-12);
+    EXPECT_NEAR(dots[0].position.z(), height, 0.01);  // a little above the skin, to be seen
+    const std::vector<Stroke> tapes = overlays_.tapes(body_, blend);
+    ASSERT_EQ(tapes.size(), 1u);
+    EXPECT_EQ(tapes[0].points.size(), 4u);  // closed
+    EXPECT_NEAR(tapes[0].points[1].z(), height, 1e-12);
+    EXPECT_EQ(overlays_.edges(body_, blend).size(), 5u);
+    ASSERT_EQ(overlays_.lines(body_, blend).size(), 1u);
+    EXPECT_NEAR(overlays_.lines(body_, blend)[0].points[2].z(), height, 0.01);
+    EXPECT_NEAR(overlays_.members(body_, blend)[1].points[1].z(), height, 1e-12);
+  }
+}
+
+TEST_F(OverlaysTest, ColoursTellUnsureFromSureAndPullFromPress) {
+  const std::vector<NamedDot> dots = overlays_.dots(body_, 1);
+  EXPECT_EQ(dots[0].colour, kSureColour);
+  EXPECT_EQ(dots[1].colour, kUnsureColour);
+  const std::vector<Stroke> members = overlays_.members(body_, 1);
+  EXPECT_GT(members[0].colour[0], members[0].colour[2]);  // pulls: red
+  EXPECT_LT(members[1].colour[0], members[1].colour[2]);  // is pressed: blue
+}
+
+TEST_F(OverlaysTest, NothingOfAnotherScanIsDrawn) {
+  body_.take_body("two", {kCorners, kTriangles});
+  EXPECT_TRUE(overlays_.dots(body_, 1).empty());
+  EXPECT_TRUE(overlays_.tapes(body_, 1).empty());
+  EXPECT_TRUE(overlays_.edges(body_, 1).empty());
+  EXPECT_TRUE(overlays_.lines(body_, 1).empty());
+  EXPECT_TRUE(overlays_.members(body_, 1).empty());
+  EXPECT_EQ(overlays_.measures(body_), nullptr);
+}
+
+TEST_F(OverlaysTest, LinesStayWhileAFitIsOnItsWay) {
+  overlays_.take_fit("one", kCorners, {});
+  ASSERT_EQ(overlays_.lines(body_, 1).size(), 1u);
+  EXPECT_NEAR(overlays_.lines(body_, 1)[0].points[0].z(), 0, 0.01);  // where the nodes are now
+}
+
+TEST_F(OverlaysTest, WhatDoesNotFitIsRefusedOrLeftOut) {
+  EXPECT_THROW(overlays_.take_members("one", {kCorners, {0, 9}, {1}}), geometry::Refusal);
+  EXPECT_THROW(overlays_.take_members("one", {kCorners, {0, -1}, {1}}), geometry::Refusal);
+  EXPECT_THROW(overlays_.take_members("one", {kCorners, {0, 1, 2}, {1}}), geometry::Refusal);
+  EXPECT_EQ(overlays_.members(body_, 1).size(), 2u);  // what was there before
+  overlays_.take_fit("one", {{0, 0, 0}}, {{{0, 1}, 1}});
+  EXPECT_NEAR(overlays_.lines(body_, 1)[0].points[0].z(), 0, 0.01);  // another number of nodes: at rest
+  overlays_.take_fit("one", kCorners, {{{0, 99}, 1}});
+  EXPECT_THROW(overlays_.lines(body_, 1), geometry::Refusal);
+}
+
+}  // namespace
+}  // namespace tensegric_fit::inspect

@@ -1,0 +1,38 @@
+#include "inspect/words.hpp"
+
+#include <gtest/gtest.h>
+
+#include "inspect/panel_words.hpp"
+
+namespace tensegric_fit::inspect::words {
+namespace {
+
+TEST(Words, SayWhetherTheSkinIsTighterOrLooser) {
+  EXPECT_EQ(value_there(ColourBy::distortion, 0.93), "skin area 93 %: tighter");
+  EXPECT_EQ(value_there(ColourBy::distortion, 1.001), "skin area 100 %: unchanged");
+  EXPECT_EQ(value_there(ColourBy::stretch, 1.2), "skin length 120 %: longer");
+  EXPECT_EQ(value_there(ColourBy::displacement, 0.0123), "moved 12.3 mm");
+  EXPECT_EQ(value_there(ColourBy::plain, 1), "");
+  EXPECT_EQ(position({0.121, -0.08, 1.182}), "12.1 cm forward, 8.0 cm to her right, 118.2 cm up");
+}
+
+TEST(Words, WarnOfOverConstrictionOnly) {
+  EXPECT_EQ(over_constriction(0.85, "left bust point"), "");
+  EXPECT_NE(over_constriction(0.72, "left bust point").find("near the left bust point"), std::string::npos);
+  EXPECT_NE(over_constriction(0.72, "").find("72.0 %"), std::string::npos);
+
+  EXPECT_EQ(line_warning({0.9, 0.9, 0.4, 0.5, false}), "");
+  EXPECT_NE(line_warning({0.6, 0.7, 3, 0.412, true}).find("cannot become shorter than 41.2 cm (70.0 %)"),
+            std::string::npos);
+  EXPECT_NE(line_warning({1.1, 1, 0, 0.5, false}).find("Slack"), std::string::npos);
+  EXPECT_EQ(line_warning({0.9, 0.9, 0.4, 0.5, true}), "");  // another line of the garment is the reason
+}
+
+TEST(Words, NeverShowMinusZero) {
+  EXPECT_EQ(change(-1e-6), "+0.0 cm");
+  EXPECT_EQ(change(-0.0123), "-1.2 cm");
+  EXPECT_EQ(volume("bust", 2e-3, 2e-3 * (1 - 1e-9)), "bust: 2.00 l, +0.00 %");
+}
+
+}  // namespace
+}  // namespace tensegric_fit::inspect::words
