@@ -179,7 +179,7 @@ std::vector<geometry::Landmark> find_body_landmarks(const BodyShape& shape) {
   add("neck_front", throat(shape));
   add("neck_back", over_bone({-0.015, 0, 1.4125}, Vector3d(-0.94, 0, 0.342)));
   add("navel", skin({0.05, 0, 1.050}, Vector3d::UnitX()));
-  add("crotch", shape.exit_point(shape.posed({0.014, 0, 0.90}), -Vector3d::UnitZ()));
+  add("crotch", shape.exit_point(shape.posed_bone({0.014, 0, 0.90}), -Vector3d::UnitZ()));
   return landmarks;
 }
 

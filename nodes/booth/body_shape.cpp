@@ -92,6 +92,7 @@ BodyShape::BodyShape(const BodyParameters& parameters)
                                   Eigen::AngleAxisd(-kElbowFlexion, Vector3d::UnitY());
   upper_arm_from_body_ = shoulder.inverse();
   forearm_from_body_ = elbow.inverse();
+  armpit_ = armpit_height();
 }
 
 double BodyShape::thickness(double z) const {
@@ -130,7 +131,7 @@ double BodyShape::trunk_without_breasts(const Vector3d& p) const {
   d += 0.006 * bell((q - navel_).norm() / 0.009);
   // The perineum, level from front to back between the thighs, and the pubis before it: bones do not thicken
   const Vector3d r = p - thickened(kCrotch) + kCrotch;
-  const double perineum = tapered_capsule(r, {0.010, 0, 0.8165}, {0.070, 0, 0.8165}, 0.020, 0.020),
+  const double perineum = tapered_capsule(r, {-0.022, 0, 0.8175}, {0.070, 0, 0.8165}, 0.020, 0.020),
                pubis = tapered_capsule(r, {0.070, 0, 0.8200}, {0.090, 0, 0.870}, 0.020, 0.034);
   // Thighs that touch are apart all the same, up to the perineum and somewhat higher before it
   const double roof = kCrotch.z() + 0.026 * smooth_step((r.x() - 0.075) / 0.03);
@@ -161,6 +162,44 @@ double BodyShape::arm(const Vector3d& p) const {
   return smooth_union(d, thumb, 0.012);
 }
 
+double BodyShape::trunk_and_arm(const Vector3d& p) const {
+  const Vector3d upright = spine_.straightened(p);
+  const double k = 0.024 + 0.036 * smooth_step((upright.z() - 1.27) / 0.08);  // sharper in the armpit
+  return smooth_union(trunk(upright), arm(on_left(p)), k);
+}
+
+double BodyShape::armpit_height() const {
+  const Eigen::Isometry3d body_from_arm = upper_arm_from_body_.inverse();
+  const Vector3d joint = body_from_arm.translation(), bone = -body_from_arm.linear().col(2);
+  const auto open = [&](double z) {
+    const double out = joint.y() + (z - joint.z()) / bone.z() * bone.y();
+    for (double y = 0.10; y < out; y += 0.001)
+      if (trunk_and_arm({joint.x(), y, z}) > 0) return true;
+    return false;
+  };
+  double low = joint.z() - 0.18, high = joint.z() + 0.02;
+  while (high - low > 0.0002) {
+    const double middle = (low + high) / 2;
+    (open(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+// The muscles before and behind an armpit run from chest and back to the arm: over its roof the arm is one
+// with the trunk for nearly all its depth within some 15 mm, whether she is slim or heavy.
+double BodyShape::armpit_folds(const Vector3d& p) const {
+  constexpr double kRound = 0.006, kRoofBelow = 0.007, kVault = 0.012,
+                   kLowestBehind = 0.16;  // m, m, m, share
+  const Vector3d joint = upper_arm_from_body_.inverse().translation(), arm = upper_arm_from_body_ * p;
+  const double half_depth = 0.050 * arm_thickness_, roof = armpit_ - kRoofBelow,
+               half_height = std::max(joint.z() - roof, 0.04) / 2;
+  const double ahead = (p.x() - joint.x()) / half_depth, vault = kVault * std::pow(ahead + kLowestBehind, 2);
+  const Eigen::Array2d out = (Eigen::Array2d(ahead * half_depth, p.z() - roof - vault - half_height).abs() -
+                              Eigen::Array2d(half_depth, half_height) + kRound);
+  const double across = out.max(0).matrix().norm() + std::min(out.maxCoeff(), 0.0) - kRound;
+  return std::max(across, arm.y());
+}
+
 double BodyShape::head(const Vector3d& p) const {
   const double cranium = ellipsoid(p - Vector3d(0.052, 0, 1.603), {0.098, 0.076, 0.097});
   const double face = ellipsoid(p - Vector3d(0.086, 0, 1.562), {0.060, 0.058, 0.074});
@@ -173,16 +212,14 @@ double BodyShape::head(const Vector3d& p) const {
 
 double BodyShape::reference_value(const Vector3d& p) const {
   const Vector3d left = on_left(p), upright = spine_.straightened(p);
-  double d = trunk(upright);
-  d = smooth_union(d, arm(left),
-                   0.024 + 0.036 * smooth_step((upright.z() - 1.27) / 0.08));  // sharper in the armpit
+  double d = smooth_union(trunk_and_arm(p), armpit_folds(left), 0.012);
   d = smooth_union(d, head(upright), 0.018);
   const double heel = ellipsoid(left - Vector3d(0.021, 0.104, 0.031), {0.040, 0.034, 0.046});
   const double sole = ellipsoid(left - Vector3d(0.095, 0.110, 0.018), {0.098, 0.043, 0.028});
   const double instep = tapered_capsule(left, {0.035, 0.104, 0.085}, {0.120, 0.108, 0.020}, 0.034, 0.020);
   const double foot = smooth_union(smooth_union(heel, sole, 0.03), instep, 0.03);
-  // Soles round off at their edges; the plane lies lower by what the rounding takes from the heels
-  return smooth_intersection(smooth_union(d, foot, 0.02), -0.0006 - p.z(), 0.030);
+  // Soles are flat under her weight and round off at their edges
+  return smooth_intersection(smooth_union(d, foot, 0.02), -p.z(), 0.010);
 }
 
 double BodyShape::value(const Vector3d& p) const {

@@ -53,6 +53,9 @@ class BodyShape : public Implicit {
   double trunk(const Eigen::Vector3d& p) const;
   double breasts(const Eigen::Vector3d& p) const;
   double arm(const Eigen::Vector3d& p) const;
+  double trunk_and_arm(const Eigen::Vector3d& p) const;  // where they meet without the armpit's folds
+  double armpit_folds(const Eigen::Vector3d& p) const;
+  double armpit_height() const;
   double head(const Eigen::Vector3d& p) const;
   double reference_value(const Eigen::Vector3d& p) const;
 
@@ -63,6 +66,7 @@ class BodyShape : public Implicit {
   Loft torso_, leg_, upper_arm_, forearm_;
   std::vector<Breast> breasts_;                                // left, right (mirrored to the left side)
   Eigen::Isometry3d upper_arm_from_body_, forearm_from_body_;  // left side
+  double armpit_;                                              // z of its roof
 };
 
 }  // namespace tensegric_fit::booth

@@ -16,7 +16,9 @@ constexpr double kUp = 0.100;                // reach upwards: a drop, not a bal
 constexpr double kDepth = 0.044;             // of the middle under the chest wall
 constexpr double kOutward = 0.28;            // radians
 constexpr double kSlope = 0.60;              // how fast its upper half recedes towards the collarbone
-constexpr double kNippleHeight = 0.005, kNippleWidth = 0.006;
+constexpr double kNippleHeight = 0.005, kNippleWidth = 0.007;
+// The tip lies where the skin looks 25 degrees outwards and a little up.
+constexpr double kTipBack = 0.003, kTipOut = 0.008, kTipUp = 0.011;
 
 // Without any firmness: how far the middle sinks and comes out of the chest wall, how much longer the lower
 // half grows and the upper half's slope, and how far the tip sinks more, in proportion to the way there and
@@ -31,8 +33,8 @@ Breast::Breast(const Vector3d& chest, double size, double sag)
       local_(Eigen::AngleAxisd(-kOutward, Vector3d::UnitZ()).toRotationMatrix()),
       size_(size),
       sag_(sag) {
-  const double reach = size * kReach.x();
-  nipple_ = centre_ + local_.transpose() * Vector3d(reach, 0, -size * sag * (kTilt + kDroop));
+  nipple_ = centre_ + size * (local_.transpose() *
+                              Vector3d(kReach.x() - kTipBack, kTipOut, kTipUp - sag * (kTilt + kDroop)));
 }
 
 Vector3d Breast::inside() const {

@@ -15,7 +15,7 @@ BodyParameters random_body(std::uint64_t seed);
 
 /// Eight to twelve sensors, 40,000 to 250,000 points; noise 0.5 to 1.5 mm, columns up to about 2 mm off,
 /// outliers to 0.5 %; on some floor, frame, hair, black underwear, or a fracture of 5 to 15 mm at an
-/// underarm. Same arguments, same options.
+/// underarm. A body that leans is scanned in a frame that leans, floor and all. Same arguments, same options.
 ScannerOptions random_scanner(std::uint64_t seed, const VirtualBody& body);
 
 }  // namespace tensegric_fit::booth

@@ -149,11 +149,8 @@ Eigen::Isometry3d optical_frame(const Sensor& sensor) {
   return booth_from_sensor;
 }
 
-}  // namespace
-
-VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& options) {
-  check_options(options);
-  geometry::check_mesh(body);
+// In the booth's own frame.
+VirtualScan scan_upright(const geometry::TriangleMesh& body, const ScannerOptions& options) {
   const double height = body.vertices.empty() ? 0 : geometry::bounding_box(body.vertices)[1].z();
   check("height of the body over z = 0", height, 0.1, 3.0);
   const std::vector<Sensor> all = sensors(options, body, height);
@@ -185,6 +182,30 @@ VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& 
   for (const auto& [point, sensor] : points) {
     scan.cloud.points.push_back(point);
     scan.sensor.push_back(sensor);
+  }
+  return scan;
+}
+
+}  // namespace
+
+VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& options) {
+  check_options(options);
+  geometry::check_mesh(body);
+  const Eigen::Isometry3d& booth = options.booth_from_scan;
+  if (booth.matrix().isIdentity(0)) return scan_upright(body, options);
+
+  geometry::TriangleMesh upright = body;
+  for (Vector3d& p : upright.vertices) p = booth * p;
+  ScannerOptions there = options;
+  for (DarkPatch& patch : there.dark) patch.centre = booth * patch.centre;
+  there.fracture.centre = booth * there.fracture.centre;
+  there.fracture.shift = booth.linear() * there.fracture.shift;
+  VirtualScan scan = scan_upright(upright, there);
+  const Eigen::Isometry3d back = booth.inverse();
+  for (Vector3d& p : scan.cloud.points) p = back * p;
+  for (SensorPose& sensor : scan.sensors) {
+    sensor.booth_from_sensor = back * sensor.booth_from_sensor;
+    sensor.error = back * sensor.error * booth;
   }
   return scan;
 }

@@ -41,6 +41,9 @@ struct ScannerOptions {
   bool frame = false;          ///< whether the booth's square frame is seen, 2 m up, 0.86 m to each side
   std::vector<DarkPatch> dark;
   Fracture fracture;
+  /// Columns, floor and frame stand upright in the booth's frame; z axis and floor are meant there. A scan
+  /// given out in another frame leans with its floor.
+  Eigen::Isometry3d booth_from_scan = Eigen::Isometry3d::Identity();
   std::uint64_t seed = 1;
 };
 

@@ -16,7 +16,7 @@ struct Wanted {
 
 constexpr Wanted kGirths[] = {{"bust", 9},        {"underbust", 9}, {"waist", 9},
                               {"hip", 9},         {"neck", 4},      {"upper_arm_L", 4},
-                              {"upper_arm_R", 4}, {"thigh_L", 4},   {"thigh_R", 4}};
+                              {"upper_arm_R", 4}, {"thigh_L", 9},   {"thigh_R", 9}};
 constexpr Wanted kHeights[] = {{"bust", 4}, {"underbust", 4}, {"waist", 4},
                                {"hip", 4},  {"crotch", 4},    {"stature", 4}};
 constexpr Wanted kPoints[] = {

@@ -243,4 +243,31 @@ TEST(VirtualScannerTest, OptionsOutOfRangeAreRefusedByName) {
   EXPECT_THROW(booth::scan_body({}, ScannerOptions()), geometry::Refusal);
 }
 
+TEST(VirtualScannerTest, ABoothThatLeansSeesItsFloorLeanToo) {
+  ScannerOptions options = perfect();
+  options.floor = true;
+  options.sensors_per_column = 1;  // high enough to look down
+  options.grazing = 0;
+  options.booth_from_scan =
+      Eigen::Translation3d(0.3, -0.2, 0.1) * Eigen::AngleAxisd(0.1, Vector3d(1, 2, 0).normalized());
+  const Eigen::Isometry3d scan_from_booth = options.booth_from_scan.inverse();
+  geometry::TriangleMesh mesh = ball();
+  for (Vector3d& p : mesh.vertices) p = scan_from_booth * p;
+  const VirtualScan scan = booth::scan_body(mesh, options);
+  int on_floor = 0, on_ball = 0;
+  for (const Vector3d& p : scan.cloud.points) {
+    const Vector3d q = options.booth_from_scan * p;
+    const bool floor = std::abs(q.z()) < 1e-9;  // rounding of metres
+    on_floor += floor;
+    on_ball += !floor && std::abs(off_ball(q)) < 1e-4;  // chords
+  }
+  EXPECT_EQ(on_floor + on_ball, static_cast<int>(scan.cloud.points.size()));
+  EXPECT_GT(on_floor, 1000);
+  EXPECT_GT(on_ball, 5000);
+  for (const booth::SensorPose& sensor : scan.sensors) {  // upright in the booth, so leaning in the scan
+    const Eigen::Isometry3d upright = options.booth_from_scan * sensor.booth_from_sensor;
+    EXPECT_NEAR(upright.linear()(2, 1), -1, 1e-12);
+  }
+}
+
 }  // namespace
