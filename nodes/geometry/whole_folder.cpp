@@ -91,10 +91,8 @@ class ParentLock {
   const Descriptor directory_;
 };
 
-}  // namespace
-
-std::vector<std::string> write_whole_folder(const std::string& folder,
-                                            const std::vector<FileContent>& files) {
+/// The folder's path without a slash at its end. \throw Refusal bad_option
+fs::path new_folder(const std::string& folder) {
   fs::path wanted = fs::path(folder).lexically_normal();
   if (!wanted.has_filename()) wanted = wanted.parent_path();  // a slash at the end
   if (!wanted.is_absolute() || !wanted.has_filename())
@@ -102,7 +100,18 @@ std::vector<std::string> write_whole_folder(const std::string& folder,
   std::error_code ignored;  // a path that cannot be looked at cannot be written either, which says why
   if (fs::exists(wanted, ignored) && !(fs::is_directory(wanted, ignored) && fs::is_empty(wanted, ignored)))
     throw Refusal(refusal::kBadOption, "'" + wanted.string() + "' is there already and is not overwritten");
+  return wanted;
+}
 
+}  // namespace
+
+void check_new_folder(const std::string& folder) {
+  new_folder(folder);
+}
+
+std::vector<std::string> write_whole_folder(const std::string& folder,
+                                            const std::vector<FileContent>& files) {
+  const fs::path wanted = new_folder(folder);
   const fs::path unfinished = hidden(wanted);
   std::vector<std::string> paths;
   try {
@@ -118,6 +127,7 @@ std::vector<std::string> write_whole_folder(const std::string& folder,
       fs::rename(unfinished, wanted);  // fails where a filled directory has come up meanwhile
       to_disk(wanted.parent_path());
     } catch (const fs::filesystem_error&) {
+      std::error_code ignored;
       fs::remove_all(unfinished, ignored);
       throw;
     }

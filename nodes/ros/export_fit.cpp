@@ -119,6 +119,7 @@ std::vector<fs::path> exports_of(const fs::path& directory, const std::string& s
 }  // namespace
 
 std::vector<std::string> export_fit(const FittedScan& scan, const std::string& directory) {
+  geometry::check_new_folder(directory);
   return geometry::write_whole_folder(directory, contents_of(figures_of(scan)));
 }
 
