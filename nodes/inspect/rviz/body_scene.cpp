@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kTape = 0.003, kEdge = 0.0015, kMember = 0.001, kBand = 0.006;  // widths, metres
 constexpr double kGap = 0.1;                                                     // between two bodies, metres
+constexpr double kMarkLift = 0.006;                                              // metres, towards the eye
 constexpr Colour kMarkColour{20, 20, 20};
 
 double blend_of(const Look& look) {
@@ -100,7 +101,8 @@ std::optional<Pointed> BodyScene::point_at(const Ogre::Ray& ray, const BodyView&
   const auto hit = first_hit(vertices, body.mesh().triangles, from, to - from);
   if (!hit) return std::nullopt;
 
-  Pointed pointed{hit->position, hit->position, 0, "", 0};
+  const Eigen::Vector3d before_skin = hit->position - kMarkLift * (to - from).normalized();
+  Pointed pointed{before_skin, hit->position, 0, "", 0};
   pointed.value = value_at(*hit, body.mesh().triangles, body.values(look_.colour_by, blend));
   if (const geometry::BodyMeasures* measures = overlays.measures(body))
     pointed.position = measures->body_from_scan * hit->position;

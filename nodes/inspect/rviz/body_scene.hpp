@@ -27,7 +27,8 @@ struct Look {
   bool landmarks = true, names = false, girths = true, control_mesh = false, members = false, lines = true;
 };
 
-/// What someone pointed at: on the body as it is shown, position in the body frame where that is known.
+/// What someone pointed at: a place for a mark, in the scan's frame, and the position on the skin of the body
+/// as it is shown, in the body frame where that is known.
 struct Pointed {
   Eigen::Vector3d place, position;
   double value;
