@@ -241,6 +241,7 @@ void FitPanel::start_export() {
   }
   QString name = text(body_.scan_id() + "_" + session_.now().garment).replace('/', '-');
   name += QDateTime::currentDateTime().toString("_yyyyMMdd-hhmmss");
+  QDir().mkpath(folder);  // where that cannot be, the export says why
   export_->setEnabled(false);
   answer_->clear();
   client_->export_to(QDir(folder).filePath(name).toStdString());
