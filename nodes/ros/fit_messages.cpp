@@ -201,7 +201,7 @@ MemberForces to_message(const ScanTag& tag, const std::string& garment, const te
     message.ends.push_back(static_cast<std::uint32_t>(member.b));
     message.struts.push_back(member.strut);
     const double length = (nodes[member.b] - nodes[member.a]).norm();
-    message.forces.push_back(tensegric::tension(model, member, length) / mean);
+    message.forces.push_back(tensegric::tension(member, length) / mean);
   }
   return message;
 }

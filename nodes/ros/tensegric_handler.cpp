@@ -21,6 +21,14 @@ double milliseconds_since(Clock::time_point start) {
 TensegricHandler::Setup TensegricHandler::setup_from(Parameters& parameters) {
   Setup setup;
   tensegric::ModelOptions& model = setup.fitter.model;
+  model.inner = tensegric::inner_nodes_from(
+      parameters.choice("inner_nodes", to_string(model.inner), {"free", "bound"}));
+  model.uniform = parameters.flag("uniform_stiffness", model.uniform);
+  model.lateral_stiffness = parameters.number("lateral_stiffness", model.lateral_stiffness,
+                                              tensegric::kSoftestLateral, tensegric::kStiffestLateral);
+  model.skin = parameters.number("skin", model.skin, 0, tensegric::kThickestSkin);
+  model.volume_stiffness =
+      parameters.number("volume_stiffness", model.volume_stiffness, 0, tensegric::kStiffestVolume);
   model.strut_stiffness = parameters.number("strut_stiffness", model.strut_stiffness,
                                             tensegric::kSoftestStrut, tensegric::kStiffestStrut);
   model.prestress = parameters.number("prestress", model.prestress, tensegric::kLowestPrestress,

@@ -21,9 +21,12 @@ std::vector<std::pair<int, int>> coupled_nodes(const Problem& problem) {
       pairs.emplace_back(problem.free_index[a], problem.free_index[b]);
   };
   for (const Member& m : problem.model.members) couple(m.a, m.b);
-  for (const UnitVolume& unit : problem.units)
+  const auto couple_all = [&](const std::array<int, 6>& nodes) {
     for (int i = 1; i < 6; ++i)
-      for (int j = 0; j < i; ++j) couple(unit.nodes[i], unit.nodes[j]);
+      for (int j = 0; j < i; ++j) couple(nodes[i], nodes[j]);
+  };
+  for (const UnitVolume& unit : problem.units) couple_all(unit.nodes);
+  for (const UnitPressure& unit : problem.pressures) couple_all(unit.nodes);
   for (const Band& band : problem.bands)
     for (const Thread& thread : band.threads)
       for (const auto& span : thread.spans)
@@ -54,7 +57,7 @@ Kkt::Kkt(const Problem& problem)
     : problem_(problem),
       regions_(static_cast<int>(problem.volumes.size())),
       bands_(static_cast<int>(problem.bands.size())),
-      least_raise_(1e-3 * spring(problem.model, problem.model.members.back())),
+      least_raise_(1e-3 * spring(problem.model.members.back())),
       hessian_(problem.free_nodes, coupled_nodes(problem)),
       factor_(hessian_) {}
 
@@ -85,6 +88,7 @@ Defect Kkt::defect(const Balance& at, const Load& load) const {
   result.gradient = result.jacobian * multipliers;
   add_member_gradient(problem_.model, at.x, problem_.free_index, result.gradient);
   add_fold_gradient(problem_.units, at.x, problem_.free_index, result.gradient);
+  add_pressure_gradient(problem_.pressures, at.x, problem_.free_index, result.gradient);
   for (std::size_t i = 0; i < problem_.model.control.outer.size(); ++i)
     if (problem_.free_index[i] >= 0) result.gradient.segment<3>(3 * problem_.free_index[i]) -= load.gravity;
   result.residual = relative_residual(problem_, result.gradient);
@@ -92,7 +96,8 @@ Defect Kkt::defect(const Balance& at, const Load& load) const {
 }
 
 double Kkt::energy(const Balance& at, const Load& load) const {
-  double energy = member_energy(problem_.model, at.x) + fold_energy(problem_.units, at.x);
+  double energy = member_energy(problem_.model, at.x) + fold_energy(problem_.units, at.x) +
+                  pressure_energy(problem_.pressures, at.x);
   for (std::size_t i = 0; i < problem_.model.control.outer.size(); ++i)
     if (problem_.free_index[i] >= 0) energy -= load.gravity.dot(at.x[i] - problem_.rest[i]);
   for (int b = 0; b < bands_; ++b) {
@@ -110,6 +115,7 @@ void Kkt::assemble(const Balance& at, double whole) {
   hessian_.clear();
   add_member_hessian(problem_.model, at.x, problem_.free_index, hessian_, whole);
   add_fold_hessian(problem_.units, at.x, problem_.free_index, hessian_, whole);
+  add_pressure_hessian(problem_.pressures, at.x, problem_.free_index, hessian_, whole);
   for (int b = 0; b < bands_; ++b)
     add_length_hessian(problem_.bands[b], at.x, problem_.free_index, std::max(0.0, at.tensions[b]), hessian_);
   for (int r = 0; r < regions_; ++r)

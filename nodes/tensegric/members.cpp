@@ -7,8 +7,8 @@ namespace tensegric_fit::tensegric {
 double member_energy(const Model& model, const Positions& x) {
   double energy = 0;
   for (const Member& m : model.members) {
-    const double force = tension(model, m, (x[m.a] - x[m.b]).norm());
-    energy += force * force / (2 * spring(model, m));
+    const double force = tension(m, (x[m.a] - x[m.b]).norm());
+    energy += force * force / (2 * spring(m));
   }
   return energy;
 }
@@ -18,7 +18,7 @@ void add_member_gradient(const Model& model, const Positions& x, const std::vect
   for (const Member& m : model.members) {
     const Eigen::Vector3d span = x[m.a] - x[m.b];
     const double length = span.norm();
-    const double force = tension(model, m, length);
+    const double force = tension(m, length);
     if (force == 0 || length == 0) continue;
     const Eigen::Vector3d pull = force / length * span;
     if (free_index[m.a] >= 0) gradient.segment<3>(3 * free_index[m.a]) += pull;
@@ -33,11 +33,11 @@ void add_member_hessian(const Model& model, const Positions& x, const std::vecto
     if (a < 0 && b < 0) continue;
     const Eigen::Vector3d span = x[m.a] - x[m.b];
     const double length = span.norm();
-    const double force = tension(model, m, length);
+    const double force = tension(m, length);
     if (length == 0 || (force == 0 && !m.strut)) continue;
     const Eigen::Vector3d u = span / length;
     const double across = (force > 0 ? 1 : whole) * force / length;
-    Eigen::Matrix3d block = (spring(model, m) - across) * u * u.transpose();
+    Eigen::Matrix3d block = (spring(m) - across) * u * u.transpose();
     block.diagonal().array() += across;
     hessian.add(a, a, block);
     hessian.add(b, b, block);

@@ -1,5 +1,5 @@
 /// Forces of struts and tensile parts, and the energy that they come from (P1 §3.1; DESIGN §4):
-/// E = sum over tensile parts 1/2 k/l0 max(0, l - d)^2 + sum over struts 1/2 k_s/l0 (l - h)^2.
+/// E = sum over tensile parts 1/2 k/l0 max(0, l - d)^2 + sum over struts 1/2 k/l0 (l - h)^2.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,14 +11,14 @@
 namespace tensegric_fit::tensegric {
 
 /// Force / elongation.
-inline double spring(const Model& model, const Member& m) {
-  return (m.strut ? model.options.strut_stiffness : 1) / m.rest;
+inline double spring(const Member& m) {
+  return m.stiffness / m.rest;
 }
 
 /// Pull along the member at `length`: negative in a strut that is pressed, zero in a tensile part that is
 /// slack.
-inline double tension(const Model& model, const Member& m, double length) {
-  const double force = spring(model, m) * (length - m.natural);
+inline double tension(const Member& m, double length) {
+  const double force = spring(m) * (length - m.natural);
   return m.strut || force > 0 ? force : 0;
 }
 

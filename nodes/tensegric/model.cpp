@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include "geometry/status.hpp"
@@ -51,38 +52,123 @@ void check_held(const Model& model, const Positions& rest) {
   }
 }
 
-// Members at their rest lengths, and the number of units that share each.
-std::vector<int> place_members(Model& model, const Positions& rest) {
-  const int count = static_cast<int>(model.control.outer.size());
-  const auto box = geometry::bounding_box(rest);
-  const double shortest = kShortestMember * (box[1] - box[0]).norm();
-  std::vector<int> units;
-  const auto place = [&](int a, int b, bool strut, int sharing) {
-    const double length = (rest[a] - rest[b]).norm();
-    if (!(length > shortest && std::isfinite(length)))
-      throw Refusal(refusal::kBadMesh,
-                    "two nodes of the tensegric model that a part joins lie on one point, or as good as");
-    model.members.push_back({a, b, strut, length, length});
-    units.push_back(sharing);
-  };
-  for (const Eigen::Vector3i& t : model.control.triangles)
-    for (int k = 0; k < 3; ++k) place(t[k], count + t[(k + 1) % 3], true, 1);
-  const auto edges = geometry::edges_of({model.control.outer, model.control.triangles});
-  for (int layer : {0, count})
-    for (const geometry::Edge& e : edges)
-      place(layer + e.first, layer + e.second, false, e.right < 0 ? 1 : 2);
-  std::vector<int> valence(count, 0);
-  for (const Eigen::Vector3i& t : model.control.triangles)
-    for (int k = 0; k < 3; ++k) ++valence[t[k]];
-  for (int i = 0; i < count; ++i) {
-    if (valence[i] == 0)
-      throw Refusal(refusal::kBadMesh, "a node of the control mesh belongs to no triangle");
-    place(i, count + i, false, valence[i]);
-  }
-  return units;
+double area_of(const std::vector<Eigen::Vector3d>& corners, const Eigen::Vector3i& t) {
+  return geometry::area_vector(corners[t[0]], corners[t[1]], corners[t[2]]).norm() / 2;
 }
 
+// The tissue of each unit, m^3: mean area of its triangles times its mean depth, which no fold makes
+// negative.
+std::vector<double> tissue_of_units(const geometry::ControlMesh& control) {
+  std::vector<double> tissue;
+  for (const Eigen::Vector3i& t : control.triangles) {
+    double depth = 0;
+    for (int k = 0; k < 3; ++k) depth += (control.outer[t[k]] - control.inner[t[k]]).norm() / 3;
+    tissue.push_back(depth * (area_of(control.outer, t) + area_of(control.inner, t)) / 2);
+  }
+  return tissue;
+}
+
+// Adds members at their rest lengths, each as stiff as the tissue that it stands for: a third of each unit
+// that it belongs to.
+class MemberPlacer {
+ public:
+  MemberPlacer(Model& model, const Positions& rest)
+      : model_(model), rest_(rest), count_(static_cast<int>(model.control.outer.size())) {
+    const auto box = geometry::bounding_box(rest);
+    shortest_ = kShortestMember * (box[1] - box[0]).norm();
+    const std::vector<double> tissue = tissue_of_units(model.control);
+    for (std::size_t u = 0; u < tissue.size(); ++u) {
+      const Eigen::Vector3i& t = model.control.triangles[u];
+      const double area = area_of(model.control.outer, t);
+      for (int k = 0; k < 3; ++k) {
+        const auto side = std::minmax(t[k], t[(k + 1) % 3]);
+        for (Share* share : {&sides_[side], &corners_[t[k]]}) *share += {1, tissue[u] / 3, area / 3};
+      }
+    }
+  }
+
+  // Numbers of the units that share each member.
+  std::vector<int> place_all() {
+    const ModelOptions& options = model_.options;
+    for (const Eigen::Vector3i& t : model_.control.triangles)
+      for (int k = 0; k < 3; ++k) {
+        Share own = sides_[std::minmax(t[k], t[(k + 1) % 3])];
+        own.units = 1;
+        place(t[k], count_ + t[(k + 1) % 3], true, own, options.strut_stiffness, 0);
+      }
+    for (int layer : {0, count_})
+      for (const auto& [side, share] : sides_)
+        place(layer + side.first, layer + side.second, false, share, 1,
+              layer == 0 ? options.skin * share.area : 0);
+    for (int i = 0; i < count_; ++i) {
+      const Share& share = corners_[i];
+      if (share.units == 0)
+        throw Refusal(refusal::kBadMesh, "a node of the control mesh belongs to no triangle");
+      place(i, count_ + i, false, share, options.lateral_stiffness, 0);
+    }
+    double mean = 0;
+    for (const Member& m : model_.members)
+      if (!m.strut) mean += m.stiffness / model_.tensile_parts();
+    for (Member& m : model_.members) m.stiffness /= mean;
+    model_.tissue = 1 / mean;
+    return units_;
+  }
+
+ private:
+  struct Share {
+    int units = 0;
+    double tissue = 0, area = 0;  // m^3, m^2
+    Share& operator+=(const Share& other) {
+      units += other.units;
+      tissue += other.tissue;
+      area += other.area;
+      return *this;
+    }
+  };
+
+  // `kind`: share of the tissue's stiffness; `skin`: m^3 of tissue besides.
+  void place(int a, int b, bool strut, const Share& share, double kind, double skin) {
+    const double length = (rest_[a] - rest_[b]).norm();
+    if (!(length > shortest_ && std::isfinite(length)))
+      throw Refusal(refusal::kBadMesh,
+                    "two nodes of the tensegric model that a part joins lie on one point, or as good as");
+    const double stiffness = model_.options.uniform ? kind : (kind * share.tissue + skin) / length;
+    model_.members.push_back({a, b, strut, stiffness, length, length});
+    units_.push_back(share.units);
+  }
+
+  Model& model_;
+  const Positions& rest_;
+  int count_;
+  double shortest_;
+  std::map<std::pair<int, int>, Share> sides_;
+  std::map<int, Share> corners_;
+  std::vector<int> units_;
+};
+
 }  // namespace
+
+std::string to_string(InnerNodes inner) {
+  return inner == InnerNodes::free ? "free" : "bound";
+}
+
+ModelOptions papers_model() {
+  ModelOptions options;
+  options.inner = InnerNodes::free;
+  options.uniform = true;
+  options.strut_stiffness = 0.3;
+  options.lateral_stiffness = 1;
+  options.skin = 0;
+  options.volume_stiffness = 0;
+  options.prestress = 0.05;
+  return options;
+}
+
+InnerNodes inner_nodes_from(const std::string& word) {
+  for (InnerNodes inner : {InnerNodes::free, InnerNodes::bound})
+    if (word == to_string(inner)) return inner;
+  throw Refusal(refusal::kBadOption, "inner nodes are '" + word + "', neither free nor bound");
+}
 
 int Model::struts() const {
   return 3 * static_cast<int>(control.triangles.size());
@@ -118,20 +204,25 @@ Positions Model::rest_positions() const {
 double Model::mean_tension() const {
   double sum = 0;
   for (const Member& m : members)
-    if (!m.strut) sum += 1 - m.natural / m.rest;
+    if (!m.strut) sum += m.stiffness * (1 - m.natural / m.rest);
   return sum / tensile_parts();
 }
 
 Model build_model(const geometry::ControlMesh& control, const ModelOptions& options) {
   geometry::check_control_mesh(control);
   check_option(options.strut_stiffness, kSoftestStrut, kStiffestStrut, "strut_stiffness");
+  check_option(options.lateral_stiffness, kSoftestLateral, kStiffestLateral, "lateral_stiffness");
+  check_option(options.skin, 0, kThickestSkin, "skin");
+  check_option(options.volume_stiffness, 0, kStiffestVolume, "volume_stiffness");
   check_option(options.prestress, kLowestPrestress, kHighestPrestress, "prestress");
   Model model;
   model.control = control;
   model.options = options;
+  if (options.inner == InnerNodes::bound)
+    std::fill(model.control.inner_fixed.begin(), model.control.inner_fixed.end(), 1);
   const Positions rest = model.rest_positions();
   check_held(model, rest);
-  const std::vector<int> units = place_members(model, rest);
+  const std::vector<int> units = MemberPlacer(model, rest).place_all();
   const Eigen::VectorXd density = force_densities(model, units);
 
   double mean = 0, highest = 0;
@@ -139,14 +230,14 @@ Model build_model(const geometry::ControlMesh& control, const ModelOptions& opti
     if (model.members[i].strut) continue;
     const double tension = density[i] * model.members[i].rest;
     mean += tension / model.tensile_parts();
-    highest = std::max(highest, tension);
+    highest = std::max(highest, tension / model.members[i].stiffness);
   }
   if (!(mean > 0)) throw Refusal(refusal::kBadMesh, "the control mesh has no prestress at all");
   const double scale = std::min(options.prestress / mean, kHighestPull / highest);
   for (std::size_t i = 0; i < model.members.size(); ++i) {
     Member& m = model.members[i];
     const double force = scale * density[i] * m.rest;
-    m.natural = m.rest * (1 - force / (m.strut ? options.strut_stiffness : 1));
+    m.natural = m.rest * (1 - force / m.stiffness);
   }
   return model;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "geometry/control_mesh.hpp"
@@ -13,26 +14,48 @@ using Positions = std::vector<Eigen::Vector3d>;
 
 inline constexpr double kSoftestStrut = 1e-3, kStiffestStrut = 1e6;
 inline constexpr double kLowestPrestress = 1e-6, kHighestPrestress = 0.5;
+inline constexpr double kSoftestLateral = 1e-3, kStiffestLateral = 1e3;
+inline constexpr double kThickestSkin = 10, kStiffestVolume = 1e3;
 
-/// Field defaults are the parameters' defaults.
+/// Whether inner nodes settle (the papers) or are bound to the bones below them (P2 §6).
+enum class InnerNodes { free, bound };
+
+std::string to_string(InnerNodes inner);
+/// \throw Refusal bad_option naming the word and the choices
+InnerNodes inner_nodes_from(const std::string& word);
+
+/// Field defaults are the parameters' defaults. A part's stiffness k (force per strain) is its kind's share
+/// here times the tissue that it stands for / its length, so that a finer mesh is as stiff as a coarse one.
 struct ModelOptions {
-  double strut_stiffness = 0.3;  ///< k_s / k: the papers' rigid strut is the limit
-  double prestress = 0.05;       ///< mean tension of the tensile parts at rest / k
+  InnerNodes inner = InnerNodes::bound;
+  bool uniform = false;  ///< all parts of a kind have one k, as in the papers, whatever tissue they stand for
+  double strut_stiffness = 0.44;    ///< of struts; edges have 1. The papers' rigid strut is the limit
+  double lateral_stiffness = 0.30;  ///< of the tensile parts from outer to inner node
+  double skin = 0.020;              ///< m of tissue that the skin is as stiff as, added to the outer edges
+  double volume_stiffness =
+      0.22;                ///< pressure per relative change of a unit's volume; equilibrium solver only
+  double prestress = 0.2;  ///< mean tension of the tensile parts at rest / their mean k, at most
 };
 
-/// A strut (two-way spring) or a tensile part (pulls only) between two nodes. Stiffness k / rest for a
-/// tensile part and k_s / rest for a strut, with k = 1: forces are pseudo forces.
+/// As the papers have it, but for the struts' stiffness: inner nodes settle, no skin, units that may change
+/// their volumes. What shapes without bones need.
+ModelOptions papers_model();
+
+/// A strut (two-way spring) or a tensile part (pulls only) between two nodes. Forces are pseudo forces: the
+/// tensile parts' mean stiffness is 1.
 struct Member {
   int a, b;  ///< nodes: outer node i is i, inner node i is V + i
   bool strut;
-  double rest;     ///< length at rest, m
-  double natural;  ///< length at zero force, m
+  double stiffness;  ///< force / strain
+  double rest;       ///< length at rest, m
+  double natural;    ///< length at zero force, m
 };
 
 struct Model {
   geometry::ControlMesh control;  ///< at rest
   std::vector<Member> members;    ///< 3F struts, then 2E + V tensile parts
   ModelOptions options;
+  double tissue = 1;  ///< stiffness of tissue, pseudo force / m^2: what 1 means in ModelOptions
   int struts() const;
   int tensile_parts() const;
   int free_nodes() const;  ///< outer and inner
@@ -42,10 +65,10 @@ struct Model {
   double mean_tension() const;  ///< of the tensile parts at rest, pseudo force
 };
 
-/// Members and prestress, such that the undeformed model is in exact equilibrium. Two struts cross in a side
-/// face between two triangles, which mirrors; a side face on the rim has one, so that a model is
-/// mirror-symmetric where the rim's inner nodes are fixed (else to some 10 micrometres). \throw Refusal
-/// bad_mesh, bad_option
+/// Members and prestress of the control mesh, its inner nodes fixed where they are to be bound, such that the
+/// undeformed model is in exact equilibrium. Two struts cross in a side face between two triangles, which
+/// mirrors; a side face on the rim has one, so that a model is mirror-symmetric where the rim's inner nodes
+/// are fixed (else to some 10 micrometres). \throw Refusal bad_mesh, bad_option
 Model build_model(const geometry::ControlMesh& control, const ModelOptions& options);
 
 }  // namespace tensegric_fit::tensegric

@@ -97,11 +97,13 @@ Problem lay_garment(const Model& model, const Garment& garment, const SolverOpti
                   lay_bands(model, garment, laid),
                   {},
                   {},
+                  {},
                   model.mean_tension()};
   number_free_nodes(problem);
   const Positions at_end = posed(problem, 1);
   for (Band& band : problem.bands) band.straight = straight_way(model, band, at_end);
   problem.units = unit_volumes(model, problem.free_index);
+  problem.pressures = unit_pressures(model, problem.free_index);
   for (std::size_t r = 0; r < model.control.regions.size(); ++r) {
     const bool body = options.volume == KeptVolume::body;
     problem.volumes.push_back(region_volume_of(model, model.control.regions[r], problem.free_index,

@@ -8,6 +8,7 @@
 #include "tensegric/fold_barrier.hpp"
 #include "tensegric/region_volume.hpp"
 #include "tensegric/solver.hpp"
+#include "tensegric/unit_pressure.hpp"
 
 namespace tensegric_fit::tensegric {
 
@@ -20,6 +21,7 @@ struct Problem {
   std::vector<Band> bands;
   std::vector<RegionVolume> volumes;
   std::vector<UnitVolume> units;
+  std::vector<UnitPressure> pressures;
   double force_scale;  ///< mean tension of the tensile parts at rest
 };
 

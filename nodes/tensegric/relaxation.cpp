@@ -10,12 +10,13 @@ namespace tensegric_fit::tensegric {
 namespace {
 
 constexpr int kMostCycles = 5000;
-constexpr double kSettled = 1e-8;  // largest net force / mean tensile force at rest
-constexpr int kWindow = 60;        // cycles over which an oscillation is looked for
-constexpr double kSwing = 1e-3;    // smallest swing of a line ratio or volume error that counts as one
-constexpr int kPlainCycles = 300;  // before the slow rest is extrapolated, as no paper does
-constexpr int kRemembered = 10;    // cycles that it is extrapolated from
-constexpr double kRisen = 10;      // times the least residual: the extrapolation starts anew
+constexpr double kSettled = 1e-8;     // largest net force / mean tensile force at rest
+constexpr double kVolumeKept = 5e-9;  // relative; P2 §4 has 1e-6
+constexpr int kWindow = 60;           // cycles over which an oscillation is looked for
+constexpr double kSwing = 1e-3;       // smallest swing of a line ratio or volume error that counts as one
+constexpr int kPlainCycles = 300;     // before the slow rest is extrapolated, as no paper does
+constexpr int kRemembered = 10;       // cycles that it is extrapolated from
+constexpr double kRisen = 10;         // times the least residual: the extrapolation starts anew
 
 // A swing that does not die down: several reversals in the window, as wide in its later half as in its
 // earlier.
@@ -49,6 +50,14 @@ bool oscillates(const std::vector<Iterate>& history) {
   return false;
 }
 
+// Balanced as far as forces go, the adaptive solver may still be on its way back to the volume (P2 §5).
+bool brings_volume_back(const Problem& problem, const Positions& x) {
+  return problem.options.volume_force > 0 &&
+         std::any_of(problem.volumes.begin(), problem.volumes.end(), [&x](const RegionVolume& region) {
+           return std::abs(volume_error(region, x)) > kVolumeKept;
+         });
+}
+
 // Where it came nearest to balance.
 struct Nearest {
   State state;
@@ -75,7 +84,10 @@ Outcome relax(const Problem& problem, const Solution* start, bool adaptive, Reco
                    std::to_string(nearest.cycle) + ", the nearest to a balance.";
     return outcome;
   };
-  while (outcome.residual > kSettled && outcome.iterations < most) {
+  const auto settled = [&] {
+    return outcome.residual <= kSettled && !(adaptive && brings_volume_back(problem, outcome.state.x));
+  };
+  while (!settled() && outcome.iterations < most) {
     const bool extrapolates = outcome.iterations >= kPlainCycles;
     if (extrapolates) before = relaxation.packed();
     relaxation.cycle();
@@ -93,7 +105,7 @@ Outcome relax(const Problem& problem, const Solution* start, bool adaptive, Reco
     else
       relaxation.unpack(extrapolation.next(before, relaxation.packed()));
   }
-  if (outcome.residual <= kSettled)
+  if (settled())
     outcome.status = Status::converged;
   else if (oscillates(recorder.history))
     return settle_for(Status::oscillating, "The forces of lines and volumes swing");

@@ -38,7 +38,7 @@ StrutRelaxation::StrutRelaxation(const Problem& problem, const Solution* start, 
   for (const Member& m : model_.members) {
     if (!m.strut) continue;
     const Eigen::Vector3d span = x_[m.a] - x_[m.b];
-    pushes_.push_back(-tension(model_, m, span.norm()) / span.norm() * span);
+    pushes_.push_back(-tension(m, span.norm()) / span.norm() * span);
   }
   gathered_.assign(problem.volumes.size(), 0);
   update_forces();
@@ -70,26 +70,26 @@ StrutRelaxation::Centre StrutRelaxation::centre(int node, int strut) const {
     const Eigen::Vector3d span = x_[node] - q;
     const double length = span.norm();
     if (length <= m.natural || length == 0) {  // slack parts drop out
-      held += spring(model_, m);
+      held += spring(m);
       continue;
     }
-    c.at += spring(model_, m) * (q + m.natural / length * span);
-    c.weight += spring(model_, m);
+    c.at += spring(m) * (q + m.natural / length * span);
+    c.weight += spring(m);
   }
   Eigen::Vector3d force = external_.segment<3>(3 * problem_.free_index[node]);
   for (int s : struts_at_[node]) {
     if (s == strut) continue;
     const Member& m = model_.members[s];
-    held += spring(model_, m);
+    held += spring(m);
     if (adaptive_) {
       const Eigen::Vector3d span = x_[m.a] - x_[m.b];
       const double length = span.norm();
-      if (length > 0) force -= (m.a == node ? 1 : -1) * tension(model_, m, length) / length * span;
+      if (length > 0) force -= (m.a == node ? 1 : -1) * tension(m, length) / length * span;
     } else {
       force += m.a == node ? pushes_[s] : Eigen::Vector3d(-pushes_[s]);
     }
   }
-  if (!adaptive_) held = c.weight == 0 ? spring(model_, model_.members[strut]) : 0;
+  if (!adaptive_) held = c.weight == 0 ? spring(model_.members[strut]) : 0;
   c.at += held * x_[node];
   c.weight += held;
   c.at = (c.at + force) / c.weight;
@@ -108,7 +108,7 @@ void StrutRelaxation::settle_strut(int s) {
   if (!(distance > 0)) return;
   const Eigen::Vector3d e = apart / distance;
   const double joint = a_free && b_free ? a.weight * b.weight / (a.weight + b.weight) : a.weight + b.weight;
-  const double stiffness = spring(model_, m);
+  const double stiffness = spring(m);
   const double length = (joint * distance + stiffness * m.natural) / (joint + stiffness);
   pushes_[s] = stiffness * (m.natural - length) * e;
   if (a_free) x_[m.a] = a.at + pushes_[s] / a.weight;

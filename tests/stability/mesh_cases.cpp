@@ -41,7 +41,7 @@ void add_fixing(Cases& cases) {
   hold(control, [](int) { return true; });
   cases.add("fixing/all nodes", control, chest(0.9));
   hold(control, [](int) { return false; });
-  cases.add("fixing/no node", control, chest(0.9), "bad_mesh");
+  cases.add("fixing/no node", control, chest(0.9), "bad_mesh").model = tensegric::papers_model();
   const int tip = control.node("bust_point_L");
   hold(control, [tip](int node) { return node != tip; });
   cases.add("fixing/one node free in both layers", control, chest(0.9));
@@ -49,7 +49,7 @@ void add_fixing(Cases& cases) {
   cases.add("fixing/one outer node free", control, chest(0.9));
   cases.add("fixing/one outer node free, asked for half", control, chest(0.5));
   hold(control, [](int node) { return node < 1; });
-  cases.add("fixing/one node held", control, chest(0.9), "bad_mesh");
+  cases.add("fixing/one node held", control, chest(0.9), "bad_mesh").model = tensegric::papers_model();
   hold(control, [](int node) { return node < 2; });
   cases.add("fixing/two nodes held in both layers", control, chest(0.9));
   hold(control, [](int) { return false; });
@@ -90,7 +90,8 @@ void add_pieces(Cases& cases) {
   ControlMesh loose = both;
   for (std::size_t i = both.outer.size() / 2; i < both.outer.size(); ++i)
     loose.outer_fixed[i] = loose.inner_fixed[i] = 0;
-  cases.add("pieces/one of them held by nothing", loose, chest(0.9), "bad_mesh");
+  cases.add("pieces/one of them held by nothing", loose, chest(0.9), "bad_mesh").model =
+      tensegric::papers_model();
 }
 
 void add_degenerate(Cases& cases) {

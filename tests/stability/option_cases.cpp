@@ -38,19 +38,32 @@ Solution standing(const geometry::ControlMesh& control) {
 
 std::vector<Case> option_cases() {
   std::vector<Case> cases;
-  for (double stiffness : {1e-3, 1e-2, 1e-1, 1.0, 1e2, 1e4, 1e6}) {
+  for (const tensegric::ModelOptions& model : {tensegric::ModelOptions(), tensegric::papers_model()}) {
+    const std::string inner = ", inner nodes " + to_string(model.inner);
+    const auto add = [&](const std::string& name, double ratio) -> tensegric::ModelOptions& {
+      cases.push_back(bust_case(name + inner, ratio));
+      return cases.back().model = model;
+    };
     for (double ratio : {0.97, 0.9}) {
-      cases.push_back(bust_case("strut stiffness/" + text(stiffness) + " at " + text(ratio), ratio));
-      cases.back().model.strut_stiffness = stiffness;
+      for (double stiffness : {1e-3, 1e-2, 1e-1, 1.0, 1e2, 1e4, 1e6})
+        add("strut stiffness/" + text(stiffness) + " at " + text(ratio), ratio).strut_stiffness = stiffness;
+      for (double stiffness : {1e-3, 1.0, 1e3})
+        add("lateral stiffness/" + text(stiffness) + " at " + text(ratio), ratio).lateral_stiffness =
+            stiffness;
+      for (double skin : {0.0, 0.1, 10.0})
+        add("skin/" + text(skin) + " at " + text(ratio), ratio).skin = skin;
+      for (double stiffness : {0.0, 1.0, 30.0, 1e3})
+        add("volume stiffness/" + text(stiffness) + " at " + text(ratio), ratio).volume_stiffness = stiffness;
     }
+    for (double prestress : {0.0, 1e-6, 1e-3, 0.1, 0.2, 0.5, 1.0}) {
+      add("prestress/" + text(prestress), 0.9).prestress = prestress;
+      cases.back().refusal = prestress == 0 || prestress > 0.5 ? "bad_option" : "";
+    }
+    tensegric::ModelOptions& near =
+        add("prestress/near buckling", 0.95);  // soft struts under a high pressure
+    near.strut_stiffness = 0.05;
+    near.prestress = 0.2;
   }
-  for (double prestress : {0.0, 1e-6, 1e-3, 0.1, 0.2, 0.5, 1.0}) {
-    cases.push_back(bust_case("prestress/" + text(prestress), 0.9));
-    cases.back().model.prestress = prestress;
-    cases.back().refusal = prestress == 0 || prestress > 0.5 ? "bad_option" : "";
-  }
-  cases.push_back(bust_case("prestress/near buckling", 0.95));  // soft struts under a high pressure
-  cases.back().model = {0.05, 0.2};
   for (double force : {0.0, 1.0, 30.0, 1e3, 1e6}) {
     cases.push_back(bust_case("pseudo forces/of lines " + text(force), 0.9));
     cases.back().solver.line_force = force;

@@ -349,7 +349,7 @@ TEST(ClosedMesh, HangsUnderGravity) {
   for (std::size_t t = 0; t < control.triangles.size(); ++t)
     control.regions[0].triangles.push_back(static_cast<int>(t));
 
-  const Model model = build_model(control, {});
+  const Model model = build_model(control, papers_model());
   for (SolverName solver : {SolverName::equilibrium, SolverName::relaxation}) {
     SolverOptions options;
     options.solver = solver;

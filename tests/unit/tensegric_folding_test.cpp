@@ -183,7 +183,8 @@ TEST_F(Folding, VeryStiffBandsAreAsGoodAsRigid) {
     const LineResult& chest_line = s.lines[0];
     // T = stiffness (L / l - 1), as far as the stretch can be told from 1
     EXPECT_NEAR(chest_line.final / chest_line.neutral - 1, chest_line.tension / stiffness, 1e-11);
-    EXPECT_NEAR(chest_line.tension, rigid.lines[0].tension, 30 / stiffness);
+    // The tension of 3.5 stretches the band by 3.5 / stiffness, and falls by 54 per stretch.
+    EXPECT_NEAR(chest_line.tension, rigid.lines[0].tension, 250 / stiffness);
   }
   Garment beyond = chest(0.3);
   beyond.lines[0].law.kind = TensionLaw::Kind::table;

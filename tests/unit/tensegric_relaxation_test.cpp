@@ -38,7 +38,7 @@ class Relaxation : public testing::Test {
     return solve(model, chest(ratio), options);
   }
 
-  const Model model = build_model(bust_mesh(), {});
+  const Model model = build_model(bust_mesh(), papers_model());
 };
 
 TEST_F(Relaxation, UndeformedModelStaysStillForAThousandCycles) {
@@ -158,7 +158,7 @@ TEST(Ring, SettlesUnderGravity) {
   control.regions.push_back({"ring", {}});
   for (std::size_t t = 0; t < control.triangles.size(); ++t)
     control.regions[0].triangles.push_back(static_cast<int>(t));
-  const Model model = build_model(control, {});
+  const Model model = build_model(control, papers_model());
   for (SolverName solver : {SolverName::relaxation, SolverName::adaptive}) {
     SolverOptions options;
     options.solver = solver;

@@ -1,0 +1,113 @@
+#include "tensegric/unit_pressure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <random>
+
+#include "tensegric/solver.hpp"
+#include "tensegric_bust.hpp"
+
+namespace tensegric_fit::tensegric {
+namespace {
+
+using Eigen::Vector3d;
+
+TEST(UnitVolume, OfAnUprightAndALeaningPrism) {
+  const std::array<Vector3d, 6> upright = {Vector3d(0, 0, 2), {1, 0, 2}, {0, 1, 2},
+                                           {0, 0, 0},         {1, 0, 0}, {0, 1, 0}};
+  EXPECT_NEAR(unit_volume(upright), 1, 1e-15);
+  std::array<Vector3d, 6> leaning = upright;
+  for (int i = 0; i < 3; ++i) leaning[i] += Vector3d(0.7, -0.3, 0);  // Cavalieri
+  EXPECT_NEAR(unit_volume(leaning), 1, 1e-15);
+}
+
+TEST(UnitVolume, IsTheSameOfAMirroredUnit) {
+  std::array<Vector3d, 6> unit = {Vector3d(0, 0, 2), {1, 0.2, 2},   {0, 1, 1.5},
+                                  {0.1, 0, 0},       {1.2, 0, 0.3}, {0, 0.8, 0}};
+  const double volume = unit_volume(unit);
+  for (Vector3d& p : unit) p.x() = -p.x();
+  std::swap(unit[0], unit[1]);
+  std::swap(unit[3], unit[4]);
+  EXPECT_NEAR(unit_volume(unit), volume, 1e-15);
+}
+
+ModelOptions stiff_tissue(double volume_stiffness) {
+  ModelOptions options;
+  options.inner = InnerNodes::bound;
+  options.volume_stiffness = volume_stiffness;
+  return options;
+}
+
+TEST(UnitPressure, DerivativesAreThoseOfItsEnergy) {
+  const Model model = build_model(bust_mesh(), stiff_tissue(3));
+  const std::vector<int> free_index = model.free_index();
+  const std::vector<UnitPressure> units = unit_pressures(model, free_index);
+  ASSERT_GT(units.size(), 60U);
+  std::vector<std::pair<int, int>> pairs;
+  for (const UnitPressure& unit : units)
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < i; ++j)
+        if (free_index[unit.nodes[i]] >= 0 && free_index[unit.nodes[j]] >= 0)
+          pairs.emplace_back(free_index[unit.nodes[i]], free_index[unit.nodes[j]]);
+  const unsigned seed = std::random_device{}();
+  const testing::ScopedTrace trace{__FILE__, __LINE__, "seed " + std::to_string(seed)};
+  std::mt19937 random{seed};
+  std::normal_distribution<double> normal(0, 1);
+  const int rows = 3 * model.free_nodes();
+  const Eigen::VectorXd direction =
+      Eigen::VectorXd::NullaryExpr(rows, [&](Eigen::Index) { return normal(random); });
+  Positions x = model.rest_positions();
+  const auto moved = [&](double step) {
+    Positions y = x;
+    for (std::size_t i = 0; i < y.size(); ++i)
+      if (free_index[i] >= 0) y[i] += step * direction.segment<3>(3 * free_index[i]);
+    return y;
+  };
+  x = moved(0.003);
+  const auto gradient = [&](const Positions& y) {
+    Eigen::VectorXd g = Eigen::VectorXd::Zero(rows);
+    add_pressure_gradient(units, y, free_index, g);
+    return g;
+  };
+  constexpr double kStep = 1e-6;  // m; the third derivative and rounding then stay below 1e-7 of the result
+  const double slope =
+      (pressure_energy(units, moved(kStep)) - pressure_energy(units, moved(-kStep))) / (2 * kStep);
+  EXPECT_NEAR(gradient(x).dot(direction), slope, 1e-6 * std::abs(slope));
+  NodeMatrix hessian(model.free_nodes(), pairs);
+  add_pressure_hessian(units, x, free_index, hessian);
+  const Eigen::VectorXd change = (gradient(moved(kStep)) - gradient(moved(-kStep))) / (2 * kStep);
+  const Eigen::VectorXd product = hessian.lower().selfadjointView<Eigen::Lower>() * direction;
+  EXPECT_LE((change - product).norm(), 1e-6 * change.norm());
+}
+
+// Root of the mean square relative change of the units' volumes under the chest line at 0.95.
+double volume_change(double volume_stiffness) {
+  const Model model = build_model(bust_mesh(), stiff_tissue(volume_stiffness));
+  Garment garment;
+  garment.lines.push_back({"chest", 0.95, {}, std::numeric_limits<double>::infinity(), {}, false});
+  const Solution solution = solve(model, garment, {});
+  EXPECT_EQ(solution.status, Status::converged);
+  const Positions before = model.rest_positions();
+  Positions after = solution.outer;
+  after.insert(after.end(), solution.inner.begin(), solution.inner.end());
+  const int count = static_cast<int>(solution.outer.size());
+  double sum = 0;
+  for (const Eigen::Vector3i& t : model.control.triangles) {
+    const auto volume = [&](const Positions& x) {
+      return unit_volume({x[t[0]], x[t[1]], x[t[2]], x[t[0] + count], x[t[1] + count], x[t[2] + count]});
+    };
+    const double change = volume(after) / volume(before) - 1;
+    sum += change * change;
+  }
+  return std::sqrt(sum / static_cast<double>(model.control.triangles.size()));
+}
+
+TEST(UnitPressure, KeepsUnitsNearTheirOwnVolumes) {
+  const double loose = volume_change(0), firm = volume_change(1), firmer = volume_change(10);
+  EXPECT_LT(firm, 0.9 * loose);
+  EXPECT_LT(firmer, 0.7 * firm);
+}
+
+}  // namespace
+}  // namespace tensegric_fit::tensegric
