@@ -76,6 +76,9 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
          "Neutral length / length at rest: R for every line, or LINE=R; may be repeated, the last counts")
       ->needs(garment);
   app.add_option("--band", band, "rigid, or the stiffness of every line")->needs(garment);
+  app.add_option("--tissue", line.tissue, "What the tissue is like: a file as `calibrate` writes it")
+      ->needs(garment)
+      ->check(CLI::ExistingFile);
   app.add_option("--solver", solver, "Solver")
       ->capture_default_str()
       ->check(CLI::IsMember({"equilibrium", "adaptive", "relaxation"}));
@@ -131,6 +134,7 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
   }
   if (line.is_shape() && control_triangles->count() == 0)
     line.settings.control_mesh.control_triangles = kShapeTriangles;
+  if (line.is_shape()) line.settings.model = tensegric::papers_model();  // a shape has no bones
   line.posture = {twist * M_PI / 180, lean * M_PI / 180};
   if (volume == "body") line.settings.solver.volume = tensegric::KeptVolume::body;
   line.settings.solver.solver = tensegric::solver_from(solver);

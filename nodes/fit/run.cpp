@@ -11,6 +11,7 @@
 #include "booth/scan_file.hpp"
 #include "control_mesh/shape_control.hpp"
 #include "fit/report.hpp"
+#include "fit/tissue_file.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/shipped_files.hpp"
 #include "inspect/composition.hpp"
@@ -42,7 +43,8 @@ void remove_results(const fs::path& folder) {
 // An input that this run's results would take the place of, or null.
 const std::string* endangered_input(const CommandLine& line) {
   std::error_code not_there;
-  for (const std::string* input : {&line.scan, &line.mesh, &line.garment, &line.control, &line.fixed})
+  for (const std::string* input :
+       {&line.scan, &line.mesh, &line.garment, &line.tissue, &line.control, &line.fixed})
     for (const char* name : kResults)
       if (fs::equivalent(*input, fs::path(line.out) / name, not_there)) return input;
   return nullptr;
@@ -64,6 +66,7 @@ class Run {
       return;
     }
     const tensegric::Garment garment = load_garment();
+    if (!line_.tissue.empty()) take_tissue(line_.tissue, settings_);
     if (line_.posture.twist != 0 || line_.posture.side_lean != 0)
       settings_.solver.bones = geometry::BoneFrames(body_.measures, line_.posture);
     const Fitting fitting = prepare_fitting(garment);

@@ -1,0 +1,43 @@
+#include "fit/tissue_file.hpp"
+
+#include <fmt/format.h>
+
+#include "geometry/checked_yaml.hpp"
+
+namespace tensegric_fit::fit {
+
+std::string tissue_yaml(const Settings& settings) {
+  const tensegric::ModelOptions& model = settings.model;
+  return fmt::format(
+      "inner_nodes: {}\nuniform_stiffness: {}\nstrut_stiffness: {:.4g}\nlateral_stiffness: {:.4g}\nskin: "
+      "{:.4g}\nvolume_stiffness: "
+      "{:.4g}\n"
+      "prestress: {:.4g}\nthickness: {:.4g}\n",
+      to_string(model.inner), model.uniform, model.strut_stiffness, model.lateral_stiffness, model.skin,
+      model.volume_stiffness, model.prestress, settings.control_mesh.thickness);
+}
+
+void take_tissue(const std::string& path, Settings& settings) {
+  namespace refusal = geometry::refusal;
+  const char* const code = refusal::kBadOption;
+  const YAML::Node file = geometry::load_yaml_map(path, code);
+  geometry::check_keys(file,
+                       {"inner_nodes", "uniform_stiffness", "strut_stiffness", "lateral_stiffness", "skin",
+                        "volume_stiffness", "prestress", "thickness", "evidence"},
+                       path, code);
+  tensegric::ModelOptions& model = settings.model;
+  const auto take = [&](const char* key, double& value, double low, double high) {
+    if (file[key]) value = geometry::number_in(file, key, low, high, path, code);
+  };
+  model.inner = tensegric::inner_nodes_from(
+      geometry::optional<std::string>(file, "inner_nodes", to_string(model.inner), path, code));
+  model.uniform = geometry::optional(file, "uniform_stiffness", model.uniform, path, code);
+  take("strut_stiffness", model.strut_stiffness, tensegric::kSoftestStrut, tensegric::kStiffestStrut);
+  take("lateral_stiffness", model.lateral_stiffness, tensegric::kSoftestLateral, tensegric::kStiffestLateral);
+  take("skin", model.skin, 0, tensegric::kThickestSkin);
+  take("volume_stiffness", model.volume_stiffness, 0, tensegric::kStiffestVolume);
+  take("prestress", model.prestress, tensegric::kLowestPrestress, tensegric::kHighestPrestress);
+  take("thickness", settings.control_mesh.thickness, control_mesh::kThinnest, control_mesh::kThickest);
+}
+
+}  // namespace tensegric_fit::fit

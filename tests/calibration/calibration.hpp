@@ -1,0 +1,53 @@
+/// Fits the tissue's parameters to reference displacements (P2 §6: the model's parameters can be adjusted
+/// where it is correlated with a real object).
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "calibration/reference_field.hpp"
+#include "fit/chain.hpp"
+
+namespace tensegric_fit::calibration {
+
+/// One garment at one request on one body, and how its tissue moved.
+struct CalibrationCase {
+  std::string name;
+  tensegric::Garment garment;
+  ReferenceField reference;
+};
+
+/// A body and its cases, in the order of growing requests.
+struct CalibrationBody {
+  std::string name;
+  fit::Body body;
+  std::vector<CalibrationCase> cases;
+};
+
+/// What is fitted, of those in tissue_yaml that are numbers.
+struct CalibrationOptions {
+  std::vector<std::string> fitted = {"strut_stiffness", "lateral_stiffness", "skin", "volume_stiffness"};
+  int most_iterations = 20;
+};
+
+/// Errors of one case: root mean square distance to the reference, m.
+struct CalibrationError {
+  std::string name;
+  double not_moving, before, in_sample, out_of_sample;
+};
+
+struct Calibration {
+  fit::Settings settings;  ///< those of the start, with what was fitted on all bodies
+  std::vector<CalibrationError> errors;
+  std::vector<fit::Settings> left_out;  ///< one a body: fitted on the others
+};
+
+/// Relative errors of all cases count alike. Each body is left out once. `patterns` as for prepare. \throw
+/// Refusal bad_option: a name that cannot be fitted; too_few_data: fewer than three bodies; at_bound naming
+/// what ran into its bounds; not_settled: no fit of a body
+Calibration calibrate(const std::vector<CalibrationBody>& bodies,
+                      const std::vector<control_mesh::Template>& patterns, const fit::Settings& start,
+                      const CalibrationOptions& options, const std::function<void(const std::string&)>& say);
+
+}  // namespace tensegric_fit::calibration

@@ -1,0 +1,141 @@
+// Parameters that made a displacement are found again from it; what cannot be calibrated is refused by name.
+#include "calibration/calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "booth/virtual_body.hpp"
+#include "fit/tissue_file.hpp"
+#include "geometry/decimate.hpp"
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::calibration {
+namespace {
+
+const std::vector<control_mesh::Template>& patterns() {
+  static const std::vector<control_mesh::Template> bust = {
+      control_mesh::load_template(TENSEGRIC_FIT_SOURCE_DIR "/launch/templates/bust.yaml")};
+  return bust;
+}
+
+// Three women in B1 at 0.95, moved by the model itself.
+std::vector<CalibrationBody> moved_by(const fit::Settings& truth) {
+  static const std::vector<fit::Body> women = [] {
+    std::vector<fit::Body> made;
+    for (double bust : {0.9, 1.0, 1.15}) {
+      booth::BodyParameters parameters;
+      parameters.bust = bust;
+      fit::StageTimes times;
+      made.push_back(
+          fit::measure_mesh(geometry::with_triangles(booth::make_body(parameters).mesh, 20000), {}, times));
+    }
+    return made;
+  }();
+  tensegric::Garment garment = tensegric::take_garment("B1", TENSEGRIC_FIT_SOURCE_DIR "/launch/garments");
+  tensegric::set_ratio(garment, "", 0.95);
+  std::vector<CalibrationBody> bodies;
+  for (const fit::Body& woman : women) {
+    fit::StageTimes times;
+    const auto worn = fit::wear(woman, fit::prepare(woman, patterns(), truth, times), garment, truth, times);
+    CalibrationCase one{"B1", garment, {}};
+    for (std::size_t v = 0; v < worn.deformed.size(); ++v) {
+      const Eigen::Vector3d way = worn.deformed[v] - woman.mesh.mesh.vertices[v];
+      if (way.norm() < 1e-6) continue;
+      one.reference.vertices.push_back(static_cast<int>(v));
+      one.reference.displacements.push_back(way);
+    }
+    bodies.push_back({"woman " + std::to_string(bodies.size()), woman, {one}});
+  }
+  return bodies;
+}
+
+std::string refusal_of(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const geometry::Refusal& refusal) {
+    return refusal.code();
+  }
+  return "none";
+}
+
+Calibration calibrated(const std::vector<CalibrationBody>& bodies, const std::vector<std::string>& fitted) {
+  return calibrate(bodies, patterns(), {}, {fitted, 20}, [](const std::string&) {});
+}
+
+TEST(Calibration, FindsTheParametersThatMadeTheDisplacement) {
+  fit::Settings truth;
+  truth.model.strut_stiffness *= 2;
+  truth.control_mesh.thickness = 0.85;
+  const Calibration found = calibrated(moved_by(truth), {"strut_stiffness", "thickness"});
+  // The differences' step is 2 %, so that the last step may be off by some per cent of itself.
+  EXPECT_NEAR(found.settings.model.strut_stiffness / truth.model.strut_stiffness, 1, 0.05);
+  EXPECT_NEAR(found.settings.control_mesh.thickness / truth.control_mesh.thickness, 1, 0.02);
+  for (const CalibrationError& e : found.errors) {
+    EXPECT_LT(e.in_sample, 0.05 * e.before);
+    EXPECT_LT(e.out_of_sample, 0.1 * e.before);
+  }
+}
+
+TEST(Calibration, RefusesByName) {
+  const std::vector<CalibrationBody> bodies = moved_by({});
+  EXPECT_EQ(refusal_of([&] { calibrated({bodies[0], bodies[1]}, {"skin"}); }), "too_few_data");
+  EXPECT_EQ(refusal_of([&] { calibrated(bodies, {"colour"}); }), "bad_option");
+  std::vector<CalibrationBody> still = bodies;
+  for (Eigen::Vector3d& way : still[1].cases[0].reference.displacements) way.setZero();
+  EXPECT_EQ(refusal_of([&] { calibrated(still, {"skin"}); }), "too_few_data");
+  fit::Settings leather;
+  leather.model.skin = 5;  // beyond what a skin may be
+  EXPECT_EQ(refusal_of([&] { calibrated(moved_by(leather), {"skin"}); }), "at_bound");
+}
+
+TEST(Reference, OfAnotherMeshOrBrokenIsRefused) {
+  geometry::TriangleMesh strip;
+  for (int i = 0; i < 300; ++i) strip.vertices.emplace_back(0.01 * i, i % 2, 0);
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("reference_" + std::to_string(getpid()) + ".csv")).string();
+  const auto code = [&](int rows, double shift, const std::string& last) {
+    std::ofstream file(path);
+    file << "vertex,x,y,z,dx,dy,dz,fixed\n";
+    for (int i = 0; i < rows; ++i) file << i << "," << 0.01 * i + shift << "," << i % 2 << ",0,0.001,0,0,0\n";
+    file << last;
+    file.close();
+    return refusal_of([&] { read_reference(path, strip); });
+  };
+  EXPECT_EQ(code(200, 0, ""), "none");
+  EXPECT_EQ(code(50, 0, ""), "too_few_data");
+  EXPECT_EQ(code(200, 0.002, ""), "wrong_reference");
+  EXPECT_EQ(code(200, 0, "400,0,0,0,0,0,0,0\n"), "wrong_reference");
+  EXPECT_EQ(code(200, 0, "7,0.07,1,0,0,0\n"), "broken_file");
+  EXPECT_EQ(code(200, 0, "7,0.07,1,0,zero,0,0,0\n"), "broken_file");
+  EXPECT_EQ(code(200, 0, "7,0.07,1,0,nan,0,0,0\n"), "broken_file");
+  std::filesystem::remove(path);
+  EXPECT_EQ(refusal_of([&] { read_reference(path, strip); }), "broken_file");
+}
+
+TEST(TissueFile, IsReadAsWrittenAndChecked) {
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("tissue_" + std::to_string(getpid()) + ".yaml")).string();
+  const auto take = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    fit::Settings settings;
+    fit::take_tissue(path, settings);
+    return settings;
+  };
+  fit::Settings truth;
+  truth.model.inner = tensegric::InnerNodes::free;
+  truth.model.skin = 0.0625;
+  truth.control_mesh.thickness = 0.75;
+  EXPECT_EQ(fit::tissue_yaml(take(fit::tissue_yaml(truth) + "evidence: {anything: 1}\n")),
+            fit::tissue_yaml(truth));
+  for (const char* bad : {"stiffness: 1\n", "skin: -1\n", "inner_nodes: loose\n", "thickness: much\n", "[1, 2]\n"})
+    EXPECT_EQ(refusal_of([&] { take(bad); }), "bad_option") << bad;
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace tensegric_fit::calibration
