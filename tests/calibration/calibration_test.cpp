@@ -89,7 +89,7 @@ TEST(Calibration, RefusesByName) {
   for (Eigen::Vector3d& way : still[1].cases[0].reference.displacements) way.setZero();
   EXPECT_EQ(refusal_of([&] { calibrated(still, {"skin"}); }), "too_few_data");
   fit::Settings leather;
-  leather.model.skin = 5;  // beyond what a skin may be
+  leather.model.skin = 1.5;  // beyond what a skin may be
   EXPECT_EQ(refusal_of([&] { calibrated(moved_by(leather), {"skin"}); }), "at_bound");
 }
 

@@ -81,7 +81,7 @@ TEST(BustTemplate, RefusesWhatDoesNotFit) {
   EXPECT_NE(refusal_with(kBust, "row: 3, column: 3", "row: 3, column: 6").find("'column'"),
             std::string::npos);
   EXPECT_NE(refusal_with(kBust, "'######'", "'#####'").find("'fixed'"), std::string::npos);
-  EXPECT_NE(refusal_with(kBust, "0.045", "4.5").find("'thickness'"), std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "0.032", "3.2").find("'thickness'"), std::string::npos);
   EXPECT_NE(refusal_with(kBust, "through: [axilla_L", "through: [armpit_L").find("'armpit_L'"),
             std::string::npos);
   EXPECT_NE(refusal_with(kBust, "rows: [0, 6]", "rows: [0, 7]").find("'rows'"), std::string::npos);
