@@ -40,13 +40,6 @@ Barrier barrier(const UnitVolume& unit, double share) {
           -unit.stiffness * (2 * log + 4 * below / share - below * below / (share * share))};
 }
 
-// cross(v) * w = v x w
-Eigen::Matrix3d cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 }  // namespace
 
 std::vector<UnitVolume> unit_volumes(const Model& model, const std::vector<int>& free_index) {
@@ -111,7 +104,8 @@ void add_fold_hessian(const std::vector<UnitVolume>& units, const Positions& x,
     const auto by_node = share_gradient(unit, s);
     // The share's own second derivative, by pairs of spokes: that by a is b x c.
     const double scale = whole * f.slope / unit.rest;
-    const Eigen::Matrix3d ab = -scale * cross(s.c), bc = -scale * cross(s.a), ca = -scale * cross(s.b);
+    const Eigen::Matrix3d ab = -scale * cross_matrix(s.c), bc = -scale * cross_matrix(s.a),
+                          ca = -scale * cross_matrix(s.b);
     const Eigen::Matrix3d to_apex[] = {(ca - ab) / 3, (ab - bc) / 3, (bc - ca) / 3};
     for (int i = 0; i < 6; ++i) {
       for (int j = 0; j <= i; ++j) {

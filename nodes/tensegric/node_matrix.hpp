@@ -1,11 +1,19 @@
 /// Symmetric sparse matrices of 3x3 blocks, one block row a free node.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <utility>
 #include <vector>
 
 namespace tensegric_fit::tensegric {
+
+/// cross_matrix(v) * w = v x w
+inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
 
 /// The pattern stands from the start; values are cleared and added to as often as wanted, so that a
 /// factorisation's symbolic part is done once.

@@ -48,13 +48,6 @@ Corners gradient_of(const Corners& p) {
   return g;
 }
 
-// cross(v) * w = v x w
-Matrix3d cross(const Vector3d& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 double strain_of(const UnitPressure& unit, const Corners& corners) {
   return unit_volume(corners) / unit.rest - 1;
 }
@@ -121,12 +114,12 @@ void add_pressure_hessian(const std::vector<UnitPressure>& units, const Position
     const double pressure = whole * unit.stiffness * strain_of(unit, corners);
     std::array<std::array<Matrix3d, 6>, 6> second;  // the volume's, lower triangle
     for (auto& row : second) row.fill(Matrix3d::Zero());
-    // By a, then b, of a . (b x c): -cross(c).
+    // By a, then b, of a . (b x c): -cross_matrix(c).
     const auto add = [&](int a, int b, const Vector3d& by) {
       if (a > b)
-        second[a][b] -= cross(by);
+        second[a][b] -= cross_matrix(by);
       else
-        second[b][a] += cross(by);
+        second[b][a] += cross_matrix(by);
     };
     for (const Face& f : kFaces) {
       add(f.a, f.b, f.weight / 6 * corners[f.c]);

@@ -18,14 +18,7 @@ import matplotlib.pyplot as plt
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOLVERS = {"relaxation": "conventional (P1)", "adaptive": "adaptive (P2)", "equilibrium": "equilibrium (ours)"}
-PAPERS = """inner_nodes: free
-uniform_stiffness: true
-strut_stiffness: 0.3
-lateral_stiffness: 1
-skin: 0
-volume_stiffness: 0
-prestress: 0.05
-"""  # the papers' model, see papers_model()
+PAPERS = ROOT / "tests/benchmarks/papers.yaml"
 BODIES = {  # arguments of virtual_booth
     "firm": [],
     "average": ["--firmness", "0.6", "--asymmetry", "0.06", "--waist", "1.1", "--hip", "1.05"],
@@ -45,13 +38,10 @@ def make_runs(options):
             folder = options.runs / name / "booth"
             run([options.programs / "virtual_booth", "--out", folder, *shape])
             bodies[name] = folder / "body.ply"
-    options.runs.mkdir(parents=True, exist_ok=True)
-    tissue = options.runs / "papers.yaml"
-    tissue.write_text(PAPERS)
     for name, mesh in bodies.items():
         for solver in SOLVERS:
             run([options.programs / "fit", "--mesh", mesh, "--garment", options.garment, "--ratio", options.ratio,
-                 "--tissue", tissue, "--solver", solver, "--out", options.runs / name / solver, "--quiet"])
+                 "--tissue", PAPERS, "--solver", solver, "--out", options.runs / name / solver, "--quiet"])
 
 
 def read_history(path):

@@ -132,7 +132,13 @@ TEST(TissueFile, IsReadAsWrittenAndChecked) {
   truth.control_mesh.thickness = 0.75;
   EXPECT_EQ(fit::tissue_yaml(take(fit::tissue_yaml(truth) + "evidence: {anything: 1}\n")),
             fit::tissue_yaml(truth));
-  for (const char* bad : {"stiffness: 1\n", "skin: -1\n", "inner_nodes: loose\n", "thickness: much\n", "[1, 2]\n"})
+  fit::Settings papers;
+  fit::take_tissue(TENSEGRIC_FIT_SOURCE_DIR "/tests/benchmarks/papers.yaml", papers);
+  truth = fit::Settings();
+  truth.model = tensegric::papers_model();
+  EXPECT_EQ(fit::tissue_yaml(papers), fit::tissue_yaml(truth));
+  for (const char* bad :
+       {"stiffness: 1\n", "skin: -1\n", "inner_nodes: loose\n", "thickness: much\n", "[1, 2]\n"})
     EXPECT_EQ(refusal_of([&] { take(bad); }), "bad_option") << bad;
   std::filesystem::remove(path);
 }

@@ -23,17 +23,14 @@ from matplotlib import pyplot
 
 RATIOS = ("0.97", "0.95")
 REPEATS = 3  # of each fit; the median time counts
-FREE = "inner_nodes: free\nuniform_stiffness: true\nstrut_stiffness: 0.3\nlateral_stiffness: 1\nskin: 0\nvolume_stiffness: 0\nprestress: 0.05\n"
+PAPERS = pathlib.Path(__file__).resolve().parents[1] / "benchmarks/papers.yaml"
 
 
-def settings(out):
-    """Name, colour and arguments of each curve, and the numbers of control triangles."""
-    free = out / "free.yaml"
-    free.write_text(FREE)
-    return [("equilibrium, inner nodes bound (default)", "tab:blue", [], (120, 480, 1920)),
-            ("equilibrium, inner nodes free (papers)", "tab:cyan", ["--tissue", free], (120, 480)),
-            ("adaptive (P2)", "tab:orange", ["--solver", "adaptive"], (120, 480)),
-            ("relaxation (P1)", "tab:red", ["--solver", "relaxation"], (120, 480))]
+# Name, colour and arguments of each curve, and the numbers of control triangles.
+CURVES = [("equilibrium, inner nodes bound (default)", "tab:blue", [], (120, 480, 1920)),
+          ("equilibrium, inner nodes free (papers)", "tab:cyan", ["--tissue", PAPERS], (120, 480)),
+          ("adaptive (P2)", "tab:orange", ["--solver", "adaptive"], (120, 480)),
+          ("relaxation (P1)", "tab:red", ["--solver", "relaxation"], (120, 480))]
 
 
 def measure(fit, data, out, body, ratio, arguments, triangles):
@@ -65,7 +62,7 @@ def main(fit, data, out):
     rows, figure = [], pyplot.figure(figsize=(10, 4.5))
     for panel, ratio in enumerate(RATIOS):
         axes = figure.add_subplot(1, 2, panel + 1)
-        for name, colour, arguments, sizes in settings(out):
+        for name, colour, arguments, sizes in CURVES:
             curve = []
             for triangles in sizes:
                 found = [measure(fit, data, out, body, ratio, arguments, triangles) for body in bodies]

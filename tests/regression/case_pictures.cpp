@@ -21,24 +21,16 @@ CasePicture picture(const std::string& caption, const cv::Mat& large) {
   return {caption, std::string(bytes.begin(), bytes.end())};
 }
 
-// Of the regions that the fit is about; a region that is seen from behind is shown from there.
-std::vector<inspect::Part> parts_of(const geometry::ControlMesh& control, const FitState& fit,
-                                    const Eigen::Isometry3d& body_from_scan) {
-  std::vector<inspect::Part> parts;
-  for (const geometry::ControlRegion& region : control.regions) {
-    const bool worn = std::any_of(fit.regions.begin(), fit.regions.end(),
-                                  [&](const RegionResult& result) { return result.name == region.name; });
-    if (!worn) continue;
-    inspect::Part part;
-    Eigen::Vector3d faced = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3i& t : geometry::region_triangles(control, region)) {
-      faced += geometry::area_vector(control.outer[t[0]], control.outer[t[1]], control.outer[t[2]]);
-      for (int k = 0; k < 3; ++k) part.nodes.push_back(control.outer[t[k]]);
-    }
-    part.behind = (body_from_scan.linear() * faced).x() < 0;
-    parts.push_back(std::move(part));
-  }
-  return parts;
+// Of the regions that the fit is about.
+std::vector<inspect::Part> worn_parts(const geometry::ControlMesh& control, const FitState& fit,
+                                      const Eigen::Isometry3d& body_from_scan) {
+  const std::vector<inspect::Part> all = inspect::parts_of(control, body_from_scan);
+  std::vector<inspect::Part> worn;
+  for (std::size_t r = 0; r < all.size(); ++r)
+    if (std::any_of(fit.regions.begin(), fit.regions.end(),
+                    [&](const RegionResult& result) { return result.name == control.regions[r].name; }))
+      worn.push_back(all[r]);
+  return worn;
 }
 
 std::vector<Eigen::Vector3d> line_points(const LineResult& line, const std::vector<Eigen::Vector3d>& nodes) {
@@ -65,8 +57,8 @@ std::vector<CasePicture> pictures_of(const Recording& recording) {
   const std::vector<Eigen::Vector3d> after = node::points_in(deformed.vertices),
                                      outer = node::points_in(fit.outer);
   const std::vector<double> distortion(deformed.distortion.begin(), deformed.distortion.end());
-  inspect::FitScene scene{body, after, distortion, measures, parts_of(control, fit, measures.body_from_scan),
-                          {},   {}};
+  inspect::FitScene scene{
+      body, after, distortion, measures, worn_parts(control, fit, measures.body_from_scan), {}, {}};
   for (const LineResult& line : fit.lines) {
     scene.lines_before.push_back(line_points(line, control.outer));
     scene.lines_after.push_back(line_points(line, outer));
