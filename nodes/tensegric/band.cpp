@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "geometry/section.hpp"
 #include "geometry/status.hpp"
+#include "tensegric/band_length.hpp"
 #include "tensegric/tension_law.hpp"
 
 namespace tensegric_fit::tensegric {
@@ -16,18 +15,6 @@ namespace refusal = geometry::refusal;
 
 constexpr double kSmooth = 1e-3;       // m
 constexpr double kSmoothShare = 0.03;  // of the mean segment at rest, where that is less
-
-// f(l) = l from `smooth` on, below it an even polynomial that meets it with two equal derivatives.
-struct SegmentLength {
-  double value, slope_over_length, curvature;
-};
-
-SegmentLength segment_length(double l, double smooth) {
-  if (l >= smooth) return {l, 1 / l, 0};
-  const double t = l / smooth;
-  return {smooth * (0.375 + 0.75 * t * t - 0.125 * t * t * t * t), (1.5 - 0.5 * t * t) / smooth,
-          (1.5 - 1.5 * t * t) / smooth};
-}
 
 std::vector<int> stops_of(const geometry::ControlMesh& control, const GarmentLine& line) {
   std::vector<int> stops;
@@ -61,6 +48,23 @@ geometry::Fibre over_nodes(const std::vector<int>& nodes, const Positions& rest)
   return fibre;
 }
 
+// Of weights by node. What two points share in full is none of a segment's.
+std::vector<std::pair<int, double>> difference(const std::vector<std::pair<int, double>>& to,
+                                               const std::vector<std::pair<int, double>>& from) {
+  std::vector<std::pair<int, double>> result;
+  auto a = to.begin(), b = from.begin();
+  while (a != to.end() || b != from.end()) {
+    const bool of_a = b == from.end() || (a != to.end() && a->first <= b->first);
+    const bool of_b = a == to.end() || (b != from.end() && b->first <= a->first);
+    const int node = of_a ? a->first : b->first;
+    double weight = 0;
+    if (of_a) weight += (a++)->second;
+    if (of_b) weight -= (b++)->second;
+    if (weight != 0) result.emplace_back(node, weight);
+  }
+  return result;
+}
+
 Thread thread_of(const geometry::Fibre& fibre, const Positions& rest) {
   Thread thread{fibre.share, fibre.points, {}, {}};
   for (const geometry::CarriedPoint& point : fibre.points) {
@@ -68,14 +72,8 @@ Thread thread_of(const geometry::Fibre& fibre, const Positions& rest) {
     for (const auto& [node, weight] : point.weights) offset -= weight * rest[node];
     thread.offsets.push_back(offset);
   }
-  for (std::size_t i = 1; i < fibre.points.size(); ++i) {
-    std::map<int, double> span;
-    for (const auto& [node, weight] : fibre.points[i].weights) span[node] += weight;
-    for (const auto& [node, weight] : fibre.points[i - 1].weights) span[node] -= weight;
-    thread.spans.emplace_back();
-    for (const auto& [node, weight] : span)
-      if (weight != 0) thread.spans.back().emplace_back(node, weight);
-  }
+  for (std::size_t i = 1; i < fibre.points.size(); ++i)
+    thread.spans.push_back(difference(fibre.points[i].weights, fibre.points[i - 1].weights));
   return thread;
 }
 
@@ -84,15 +82,6 @@ const geometry::LaidLine& laid_line(const std::vector<geometry::LaidLine>& laid,
     if (line.name == name) return line;
   throw Refusal(refusal::kBadGarment,
                 "line '" + name + "' is given by points on a body, and was not laid on one");
-}
-
-// Calls do_with(thread, number of the segment, its span) for each segment.
-template <class Do>
-void each_span(const Band& band, const Positions& x, const Do& do_with) {
-  for (const Thread& thread : band.threads) {
-    const std::vector<Eigen::Vector3d> at = points_of(thread, x);
-    for (std::size_t i = 1; i < at.size(); ++i) do_with(thread, i - 1, Eigen::Vector3d(at[i] - at[i - 1]));
-  }
 }
 
 }  // namespace
@@ -165,57 +154,6 @@ double straight_way(const Model& model, const Band& band, const Positions& x) {
     }
   }
   return way;
-}
-
-double length_of(const Band& band, const Positions& x) {
-  double length = 0;
-  for (const Thread& thread : band.threads)
-    length += thread.share * geometry::length_of(points_of(thread, x), false);
-  return length;
-}
-
-double smooth_length(const Band& band, const Positions& x) {
-  double length = 0;
-  each_span(band, x, [&](const Thread& thread, std::size_t, const Eigen::Vector3d& span) {
-    length += thread.share * segment_length(span.norm(), band.smooth).value;
-  });
-  return length;
-}
-
-double smooth_slope(const Band& band, const Positions& x) {
-  double change = 0, length = 0;
-  each_span(band, x, [&](const Thread& thread, std::size_t, const Eigen::Vector3d& span) {
-    const double segment = span.norm();
-    change += thread.share * segment_length(segment, band.smooth).slope_over_length * segment * segment;
-    length += thread.share * segment;
-  });
-  return length > 0 ? change / length : 0;
-}
-
-void add_length_gradient(const Band& band, const Positions& x, const std::vector<int>& free_index,
-                         double scale, Eigen::Ref<Eigen::VectorXd> gradient) {
-  each_span(band, x, [&](const Thread& thread, std::size_t i, const Eigen::Vector3d& span) {
-    const double slope = segment_length(span.norm(), band.smooth).slope_over_length;
-    const Eigen::Vector3d pull = scale * thread.share * slope * span;
-    for (const auto& [node, weight] : thread.spans[i])
-      if (free_index[node] >= 0) gradient.segment<3>(3 * free_index[node]) += weight * pull;
-  });
-}
-
-void add_length_hessian(const Band& band, const Positions& x, const std::vector<int>& free_index,
-                        double scale, NodeMatrix& hessian) {
-  each_span(band, x, [&](const Thread& thread, std::size_t i, const Eigen::Vector3d& span) {
-    const double length = span.norm(), whole = scale * thread.share;
-    const SegmentLength f = segment_length(length, band.smooth);
-    const Eigen::Vector3d u = length > 0 ? Eigen::Vector3d(span / length) : Eigen::Vector3d::Zero();
-    Eigen::Matrix3d block = whole * (f.curvature - f.slope_over_length) * u * u.transpose();
-    block.diagonal().array() += whole * f.slope_over_length;
-    const auto& parts = thread.spans[i];
-    for (std::size_t p = 0; p < parts.size(); ++p)
-      for (std::size_t q = 0; q <= p; ++q)
-        hessian.add(free_index[parts[p].first], free_index[parts[q].first],
-                    parts[p].second * parts[q].second * block);
-  });
 }
 
 }  // namespace tensegric_fit::tensegric

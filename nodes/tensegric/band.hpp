@@ -10,7 +10,6 @@
 #include "geometry/posture.hpp"
 #include "tensegric/garment.hpp"
 #include "tensegric/model.hpp"
-#include "tensegric/node_matrix.hpp"
 
 namespace tensegric_fit::tensegric {
 
@@ -52,23 +51,5 @@ void pose_band(Band& band, const Positions& rest, const geometry::BoneFrames& bo
 
 /// Sum of the straight ways between one fixed point of the band and the next, at `x`.
 double straight_way(const Model& model, const Band& band, const Positions& x);
-
-/// Length of the polyline.
-double length_of(const Band& band, const Positions& x);
-
-/// The same, smooth where a segment is shorter than `band.smooth` (1 mm, less on tiny models),
-/// so that it may pass through zero; exact elsewhere.
-double smooth_length(const Band& band, const Positions& x);
-
-/// Change of the smooth length by the polyline's own, as its segments grow in proportion.
-double smooth_slope(const Band& band, const Positions& x);
-
-/// Adds `scale` times the smooth length's gradient by the free nodes.
-void add_length_gradient(const Band& band, const Positions& x, const std::vector<int>& free_index,
-                         double scale, Eigen::Ref<Eigen::VectorXd> gradient);
-
-/// Adds `scale` times the smooth length's second derivative (positive semi-definite for scale >= 0).
-void add_length_hessian(const Band& band, const Positions& x, const std::vector<int>& free_index,
-                        double scale, NodeMatrix& hessian);
 
 }  // namespace tensegric_fit::tensegric

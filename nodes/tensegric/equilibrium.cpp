@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tensegric/band_length.hpp"
 #include "tensegric/newton.hpp"
 
 namespace tensegric_fit::tensegric {

@@ -14,7 +14,14 @@ namespace {
 constexpr int kMostTries = 12;
 constexpr double kLeastTakenBack = 1.0 / 16;
 
-std::vector<std::pair<int, int>> coupled_nodes(const Problem& problem) {
+std::vector<LengthCurvature> curvatures_of(const Problem& problem) {
+  std::vector<LengthCurvature> curvatures;
+  for (const Band& band : problem.bands) curvatures.emplace_back(band, problem.free_index);
+  return curvatures;
+}
+
+std::vector<std::pair<int, int>> coupled_nodes(const Problem& problem,
+                                               const std::vector<LengthCurvature>& curvatures) {
   std::vector<std::pair<int, int>> pairs;
   const auto couple = [&](int a, int b) {
     if (problem.free_index[a] >= 0 && problem.free_index[b] >= 0)
@@ -27,11 +34,8 @@ std::vector<std::pair<int, int>> coupled_nodes(const Problem& problem) {
   };
   for (const UnitVolume& unit : problem.units) couple_all(unit.nodes);
   for (const UnitPressure& unit : problem.pressures) couple_all(unit.nodes);
-  for (const Band& band : problem.bands)
-    for (const Thread& thread : band.threads)
-      for (const auto& span : thread.spans)
-        for (std::size_t i = 1; i < span.size(); ++i)
-          for (std::size_t j = 0; j < i; ++j) couple(span[i].first, span[j].first);
+  for (const LengthCurvature& curvature : curvatures)
+    for (const auto& pair : curvature.coupled_nodes()) pairs.push_back(pair);
   return pairs;
 }
 
@@ -58,7 +62,8 @@ Kkt::Kkt(const Problem& problem)
       regions_(static_cast<int>(problem.volumes.size())),
       bands_(static_cast<int>(problem.bands.size())),
       least_raise_(1e-3 * spring(problem.model.members.back())),
-      hessian_(problem.free_nodes, coupled_nodes(problem)),
+      curvatures_(curvatures_of(problem)),
+      hessian_(problem.free_nodes, coupled_nodes(problem, curvatures_)),
       factor_(hessian_) {}
 
 Defect Kkt::defect(const Balance& at, const Load& load) const {
@@ -76,14 +81,15 @@ Defect Kkt::defect(const Balance& at, const Load& load) const {
   }
   for (int b = 0; b < bands_; ++b) {
     const Band& band = problem_.bands[b];
-    const double error = band_condition(band, at.holds[b], smooth_length(band, at.x), load.neutral[b],
-                                        load.limit[b], at.tensions[b]);
+    const double length =
+        add_length_gradient(band, at.x, problem_.free_index, 1, result.jacobian.col(regions_ + b));
+    const double error =
+        band_condition(band, at.holds[b], length, load.neutral[b], load.limit[b], at.tensions[b]);
     result.conditions[regions_ + b] = error;
     if (at.holds[b] == Hold::length)
       result.length_error = std::max(result.length_error, std::abs(error) / load.neutral[b]);
     else
       result.tension_error = std::max(result.tension_error, std::abs(error) / problem_.force_scale);
-    add_length_gradient(band, at.x, problem_.free_index, 1, result.jacobian.col(regions_ + b));
   }
   result.gradient = result.jacobian * multipliers;
   add_member_gradient(problem_.model, at.x, problem_.free_index, result.gradient);
@@ -116,8 +122,7 @@ void Kkt::assemble(const Balance& at, double whole) {
   add_member_hessian(problem_.model, at.x, problem_.free_index, hessian_, whole);
   add_fold_hessian(problem_.units, at.x, problem_.free_index, hessian_, whole);
   add_pressure_hessian(problem_.pressures, at.x, problem_.free_index, hessian_, whole);
-  for (int b = 0; b < bands_; ++b)
-    add_length_hessian(problem_.bands[b], at.x, problem_.free_index, std::max(0.0, at.tensions[b]), hessian_);
+  for (int b = 0; b < bands_; ++b) curvatures_[b].add(at.x, std::max(0.0, at.tensions[b]), hessian_);
   for (int r = 0; r < regions_; ++r)
     add_volume_hessian(problem_.volumes[r], at.x, problem_.free_index,
                        -whole * at.pressures[r] / problem_.volumes[r].area, hessian_);

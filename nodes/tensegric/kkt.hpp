@@ -8,6 +8,7 @@
 #include <Eigen/QR>
 #include <vector>
 
+#include "tensegric/band_length.hpp"
 #include "tensegric/front_factor.hpp"
 #include "tensegric/node_matrix.hpp"
 #include "tensegric/problem.hpp"
@@ -90,6 +91,7 @@ class Kkt {
   double least_raise_;     // of the diagonal, where negative parts are taken back
   double taken_back_ = 1;  // of the negative parts: the last share that served
   int factorisations_ = 0;
+  std::vector<LengthCurvature> curvatures_;  // one a band
   NodeMatrix hessian_;
   FrontFactor factor_;
   bool usable_ = false;                        // the last factorisation

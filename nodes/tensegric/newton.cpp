@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "tensegric/band_length.hpp"
 #include "tensegric/tension_law.hpp"
 
 namespace tensegric_fit::tensegric {
@@ -48,8 +50,8 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
   penalties_ =
       Eigen::VectorXd::Zero(problem_.volumes.size() + static_cast<Eigen::Index>(problem_.bands.size()));
   int changes = 0;
+  Defect defect = kkt_.defect(at, load);
   for (int i = 0; i <= most; ++i) {
-    Defect defect = kkt_.defect(at, load);
     while ((within(defect, tolerance) && change_holds(at, load)) ||
            (i >= kStepsBeyondLimit && stop_at_limits(at, load))) {
       if (++changes > kMostHoldChanges) return false;
@@ -63,10 +65,11 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
     if (!step.move.allFinite() || !step.multipliers.allFinite()) return false;
     if (release_contradicted(at, load, step)) {
       if (++changes > kMostHoldChanges) return false;
+      defect = kkt_.defect(at, load);
       continue;
     }
     if (!advance(at, load, defect, step)) return is_balance(at, load, defect);
-    if (!recorder_.record(++iterations_, at.x, kkt_.defect(at, load).residual, merit_change_)) {
+    if (!recorder_.record(++iterations_, at.x, defect.residual, merit_change_)) {
       stop_ = Stop::caller;
       return false;
     }
@@ -94,8 +97,8 @@ void Newton::mend(Balance& at, const Load& load) const {
 }
 
 // Line search on energy plus penalties for broken conditions, with a second-order correction of the full
-// step.
-bool Newton::advance(Balance& at, const Load& load, const Defect& defect, const Step& step) {
+// step. `at` and its defect go where it ends.
+bool Newton::advance(Balance& at, const Load& load, Defect& defect, const Step& step) {
   const Eigen::Index regions = at.pressures.size();
   const auto kept = [&](Eigen::Index i) { return i < regions || at.holds[i - regions] == Hold::length; };
   double slope = defect.gradient.dot(step.move);
@@ -136,6 +139,7 @@ bool Newton::advance(Balance& at, const Load& load, const Defect& defect, const 
     if (reached <= start + 1e-4 * length * std::min(slope, 0.0) + 1e-12 * std::abs(start)) {
       merit_change_ = (reached - start) / std::max(std::abs(start), std::numeric_limits<double>::min());
       at = trial;
+      defect = std::move(there);
       return true;
     }
   }

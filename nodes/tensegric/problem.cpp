@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/status.hpp"
+#include "tensegric/band_length.hpp"
 
 namespace tensegric_fit::tensegric {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/status.hpp"
+#include "tensegric/band_length.hpp"
 #include "tensegric/equilibrium.hpp"
 #include "tensegric/problem.hpp"
 #include "tensegric/relaxation.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tensegric/band_length.hpp"
 #include "tensegric/members.hpp"
 #include "tensegric/tension_law.hpp"
 

@@ -1,10 +1,11 @@
 // Bands whose points several nodes carry.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
 
 #include "geometry/status.hpp"
-#include "tensegric/band.hpp"
+#include "tensegric/band_length.hpp"
 #include "tensegric/solver.hpp"
 #include "tensegric_bust.hpp"
 
@@ -72,6 +73,47 @@ TEST(Fibres, TheGradientIsThatOfTheLength) {
       EXPECT_NEAR(gradient[3 * node + k], (length_of(band, plus) - length_of(band, minus)) / (2 * step),
                   1e-7);
     }
+}
+
+TEST(Fibres, TheSecondDerivativeIsThatOfTheLengthWhereNodesAreHeld) {
+  const Model model = build_model(bust_mesh(), {});
+  // Each point on two nodes of its own and, faintly, on those of its neighbours: segments overlap.
+  geometry::LaidLine laid = between_nodes(model.control);
+  for (geometry::Fibre& fibre : laid.fibres)
+    for (std::size_t i = 1; i < fibre.points.size(); ++i) {
+      std::map<int, double> mixed;
+      for (const auto& [node, weight] : fibre.points[i].weights) mixed[node] += 0.8 * weight;
+      for (const auto& [node, weight] : fibre.points[i - 1].weights) mixed[node] += 0.2 * weight;
+      fibre.points[i].weights.assign(mixed.begin(), mixed.end());
+    }
+  const Band band = lay_bands(model, {"body", {"bust"}, {by_points(0.95)}}, {laid}).front();
+  const Positions x = model.rest_positions();
+  std::vector<int> free_index(x.size(), -1);
+  int free = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (i % 4 != 0) free_index[i] = free++;
+  const LengthCurvature curvature(band, free_index);
+  NodeMatrix hessian(free, curvature.coupled_nodes());
+  curvature.add(x, 2, hessian);
+
+  const unsigned seed = std::random_device{}();
+  const testing::ScopedTrace trace{__FILE__, __LINE__, "seed " + std::to_string(seed)};
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  const Eigen::VectorXd way = Eigen::VectorXd::NullaryExpr(3 * free, [&] { return normal(random); });
+  const auto gradient_at = [&](double step) {
+    Positions y = x;
+    for (std::size_t i = 0; i < y.size(); ++i)
+      if (free_index[i] >= 0) y[i] += step * way.segment<3>(3 * free_index[i]);
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(3 * free);
+    add_length_gradient(band, y, free_index, 2, gradient);
+    return gradient;
+  };
+  const double step = 1e-7;  // m: against segments of centimetres, and rounding
+  const Eigen::VectorXd change = (gradient_at(step) - gradient_at(-step)) / (2 * step);
+  const Eigen::VectorXd product = hessian.lower().selfadjointView<Eigen::Lower>() * way;
+  EXPECT_GT(change.norm(), 1);
+  EXPECT_LE((change - product).norm(), 1e-6 * change.norm());
 }
 
 TEST(Fibres, AreExactAndKeepTheVolume) {

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "geometry/status.hpp"
-#include "tensegric/band.hpp"
+#include "tensegric/band_length.hpp"
 #include "tensegric/members.hpp"
 #include "tensegric/region_volume.hpp"
 #include "tensegric/tension_law.hpp"
@@ -189,7 +189,7 @@ TEST_F(Derivatives, OfALineAlsoWhereItCollapses) {
   EXPECT_DOUBLE_EQ(smooth_length(band, x), geometry::line_length(band.nodes, x));
   x[band.nodes[4]] = x[band.nodes[5]] + Eigen::Vector3d(2e-4, 1e-4, -3e-4);  // a segment below 1 mm
   EXPECT_GT(smooth_length(band, x), geometry::line_length(band.nodes, x));
-  add_length_hessian(band, x, free_index, 1, *hessian);
+  LengthCurvature(band, free_index).add(x, 1, *hessian);
   check([&](const Positions& y) { return smooth_length(band, y); },
         [&](const Positions& y) {
           Eigen::VectorXd gradient = Eigen::VectorXd::Zero(direction.size());
