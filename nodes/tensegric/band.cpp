@@ -87,9 +87,13 @@ const geometry::LaidLine& laid_line(const std::vector<geometry::LaidLine>& laid,
 }  // namespace
 
 std::vector<Eigen::Vector3d> points_of(const Thread& thread, const Positions& x) {
-  std::vector<Eigen::Vector3d> at = thread.offsets;
-  for (std::size_t i = 0; i < at.size(); ++i)
-    for (const auto& [node, weight] : thread.points[i].weights) at[i] += weight * x[node];
+  std::vector<Eigen::Vector3d> at;
+  at.reserve(thread.offsets.size());
+  for (std::size_t i = 0; i < thread.offsets.size(); ++i) {
+    Eigen::Vector3d point = thread.offsets[i];
+    for (const auto& [node, weight] : thread.points[i].weights) point += weight * x[node];
+    at.push_back(point);
+  }
   return at;
 }
 
