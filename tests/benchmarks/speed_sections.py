@@ -289,6 +289,9 @@ def headlines(results):
             ("cold/adaptive/120", "cold/equilibrium/120", "adaptive (P2) / equilibrium, cold")):
         ratio = results.ratio(over, under)
         if ratio:
+            error = results[over].value("line_error")
+            if error is not None:
+                words += f", with lines {number(100 * error, 2)} % too long"
             rows.append([words, f"<b>{number(ratio[0], 2)}</b>", f"{number(ratio[1], 2)} to {number(ratio[2], 2)}",
                          f"{results[over].n}, {results[under].n}"])
     return "<h2>Ratios</h2>\n" + table(["time of / time of", "ratio", "from all runs", "n"], rows)
