@@ -1,17 +1,15 @@
 #!/usr/bin/python3
 """Tissue error against time on one page: solvers, 120 to 1,920 control triangles, inner nodes free and bound.
 
-  tissue_page.py FIT DATA OUT     FIT: the program; DATA: a folder with bodies in open/ and references in fem/
-
 Runs `fit` on BODY_body.ply under BODY_chest.yaml for each reference BODY_skin_rNNN.npz at 0.97 and 0.95, compares the
 moved skin with the reference, and writes OUT/page.html with the finite elements' own time at the far end.
 """
+import argparse
 import io
 import json
 import pathlib
 import statistics
 import subprocess
-import sys
 
 import matplotlib
 import numpy as np
@@ -53,8 +51,13 @@ def measure(fit, data, out, body, ratio, arguments, triangles):
     return statistics.median(times), error, report["solver"]["status"], report["lines"][0]["ratio"]
 
 
-def main(fit, data, out):
-    data, out = pathlib.Path(data), pathlib.Path(out)
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("fit", help="the program")
+    parser.add_argument("data", type=pathlib.Path, help="a folder with bodies in open/ and references in fem/")
+    parser.add_argument("out", type=pathlib.Path)
+    options = parser.parse_args()
+    fit, data, out = options.fit, options.data, options.out
     out.mkdir(parents=True, exist_ok=True)
     seconds = {(e["body"], f"{e['request']:.2f}"): e["seconds"]
                for e in json.loads((data / "fem" / "summary.json").read_text()) if e["variant"] == "skin"}
@@ -105,4 +108,4 @@ times are medians of {REPEATS}, of building and solving the model.</p><div class
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    main()
