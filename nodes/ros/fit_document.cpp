@@ -1,6 +1,7 @@
 #include "ros/fit_document.hpp"
 
 #include <fmt/format.h>
+#include <tensegric_fit/GarmentLine.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,16 +31,29 @@ double cubic_centimetres(double cubic_metres) {
   return std::round(1e9 * cubic_metres) / 1e3;
 }
 
+/// As garment files say it.
+ordered_json law_of(const LineResult& line) {
+  if (line.law == GarmentLine::STIFFNESS) return {{"stiffness", line.stiffness}};
+  if (line.law != GarmentLine::TABLE) return GarmentLine::RIGID;
+  ordered_json table = ordered_json::array();
+  for (std::size_t i = 0; i < line.table_stretch.size(); ++i)
+    table.push_back(ordered_json::array({line.table_stretch[i], line.table_tension[i]}));
+  return {{"table", std::move(table)}};
+}
+
 ordered_json garment_of(const FitState& fit) {
   ordered_json lines = ordered_json::array();
   for (const LineResult& line : fit.lines)
-    lines.push_back({{"name", line.name},
-                     {"rest_mm", millimetres(line.initial)},
-                     {"neutral_mm", millimetres(line.neutral)},
-                     {"worn_mm", millimetres(line.final)},
-                     {"request", line.request},
-                     {"ratio", line.ratio},
-                     {"tension", line.tension}});
+    lines.push_back(
+        {{"name", line.name},
+         {"rest_mm", millimetres(line.initial)},
+         {"neutral_mm", millimetres(line.neutral)},
+         {"worn_mm", millimetres(line.final)},
+         {"request", line.request},
+         {"ratio", line.ratio},
+         {"tension", line.tension},
+         {"law", law_of(line)},
+         {"tension_limit", line.tension_limit > 0 ? ordered_json(line.tension_limit) : ordered_json()}});
   return {{"name", fit.garment}, {"lines", std::move(lines)}};
 }
 

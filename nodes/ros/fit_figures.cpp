@@ -18,8 +18,10 @@ void check_sizes(const FitFigures& figures) {
   bool fits = !figures.body.vertices.empty() && figures.deformed.size() == figures.body.vertices.size() &&
               figures.distortion.size() == figures.body.vertices.size() &&
               figures.control_deformed.size() == nodes.size();
-  for (const LineResult& line : figures.scan.fit->lines)
+  for (const LineResult& line : figures.scan.fit->lines) {
     for (const std::uint32_t node : line.nodes) fits = fits && node < nodes.size();
+    fits = fits && line.table_stretch.size() == line.table_tension.size();
+  }
   if (!fits)
     throw Refusal(geometry::refusal::kBadMesh, "the fit does not belong to this body and control mesh");
 }
@@ -34,8 +36,13 @@ void check_finite(const FitFigures& figures) {
     for (const geometry::Measure& m : *measures) check({m.metres, m.confidence, m.half_width}, m.name);
   for (const geometry::Landmark& landmark : figures.measures.landmarks)
     check({landmark.confidence}, landmark.name);
-  for (const LineResult& line : scan.fit->lines)
-    check({line.initial, line.neutral, line.final, line.request, line.ratio, line.tension}, line.name);
+  for (const LineResult& line : scan.fit->lines) {
+    check({line.initial, line.neutral, line.final, line.request, line.ratio, line.tension, line.stiffness,
+           line.tension_limit},
+          line.name);
+    for (const auto* column : {&line.table_stretch, &line.table_tension})
+      for (const double value : *column) check({value}, line.name);
+  }
   for (const RegionResult& region : scan.fit->regions)
     check({region.volume_before, region.volume_after}, region.name);
   check({scan.fit->residual, scan.fit->twist, scan.fit->side_lean}, "the fit");

@@ -75,27 +75,33 @@ tensegric::GarmentLine line_in(const GarmentLine& message) {
   return line;
 }
 
+std::string word_of(TensionLaw::Kind kind) {
+  switch (kind) {
+    case TensionLaw::Kind::rigid:
+      return GarmentLine::RIGID;
+    case TensionLaw::Kind::stiffness:
+      return GarmentLine::STIFFNESS;
+    case TensionLaw::Kind::table:
+      break;
+  }
+  return GarmentLine::TABLE;
+}
+
+double limit_of(double tension_limit) {
+  return tension_limit == kNoLimit ? 0 : tension_limit;
+}
+
 GarmentLine line_of(const tensegric::GarmentLine& line) {
   GarmentLine message;
   message.name = line.name;
   message.ratio = line.ratio;
-  switch (line.law.kind) {
-    case TensionLaw::Kind::rigid:
-      message.law = GarmentLine::RIGID;
-      break;
-    case TensionLaw::Kind::stiffness:
-      message.law = GarmentLine::STIFFNESS;
-      break;
-    case TensionLaw::Kind::table:
-      message.law = GarmentLine::TABLE;
-      break;
-  }
+  message.law = word_of(line.law.kind);
   message.stiffness = line.law.stiffness;
   for (const auto& [stretch, tension] : line.law.table) {
     message.stretch.push_back(stretch);
     message.tension.push_back(tension);
   }
-  message.tension_limit = line.tension_limit == kNoLimit ? 0 : line.tension_limit;
+  message.tension_limit = limit_of(line.tension_limit);
   message.through = line.through;
   message.taut = line.taut;
   return message;
@@ -107,6 +113,8 @@ FitState named(const FitName& name) {
   message.scan_id = name.tag.scan_id;
   message.garment = name.garment;
   message.solver = to_string(name.solver);
+  message.twist = name.posture.twist;
+  message.side_lean = name.posture.side_lean;
   return message;
 }
 
@@ -159,6 +167,13 @@ FitState to_message(const FitName& name, const tensegric::Solution& solution, do
     result.straight = line.straight;
     result.reachable = line.reachable;
     result.tension = line.tension;
+    result.law = word_of(line.law.kind);
+    result.stiffness = line.law.stiffness;
+    for (const auto& [stretch, tension] : line.law.table) {
+      result.table_stretch.push_back(stretch);
+      result.table_tension.push_back(tension);
+    }
+    result.tension_limit = limit_of(line.tension_limit);
     message.line_ratios.push_back(result.ratio);
     message.lines.push_back(std::move(result));
   }
@@ -174,13 +189,15 @@ FitState to_message(const FitName& name, const tensegric::Solution& solution, do
 }
 
 FitState to_message(const FitName& name, const tensegric::Iterate& iterate,
-                    const std::vector<Eigen::Vector3d>& outer, double milliseconds) {
+                    const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner,
+                    double milliseconds) {
   FitState message = named(name);
   message.status = FitState::SOLVING;
   message.iteration = static_cast<std::uint32_t>(iterate.iteration);
   message.residual = iterate.residual;
   message.milliseconds = milliseconds;
   message.outer = flat<double>(outer);
+  message.inner = flat<double>(inner);
   message.line_ratios = iterate.line_ratios;
   message.volume_errors = iterate.volume_errors;
   return message;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/posture.hpp"
 #include "ros/scan_tag.hpp"
 #include "tensegric/garment.hpp"
 #include "tensegric/model.hpp"
@@ -28,11 +29,12 @@ Garment to_message(const std_msgs::Header& header, const GarmentRequest& request
 /// solver
 GarmentRequest request_in(const Garment& message);
 
-/// What a fit is called on the way: which scan, which garment, which solver.
+/// What a fit is of: which scan, which garment, which solver, which posture.
 struct FitName {
   ScanTag tag;
   std::string garment;
   tensegric::SolverName solver;
+  geometry::Posture posture = {};
 };
 
 /// A fit that has ended.
@@ -40,7 +42,8 @@ FitState to_message(const FitName& name, const tensegric::Solution& solution, do
 
 /// A fit on its way: status `solving`.
 FitState to_message(const FitName& name, const tensegric::Iterate& iterate,
-                    const std::vector<Eigen::Vector3d>& outer, double milliseconds);
+                    const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner,
+                    double milliseconds);
 
 /// Forces of the model's members in a fit that has ended.
 MemberForces to_message(const ScanTag& tag, const std::string& garment, const tensegric::Model& model,

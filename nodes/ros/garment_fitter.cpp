@@ -25,8 +25,9 @@ std::optional<tensegric::Solution> GarmentFitter::fit(const FittingScene& scene,
   bool stopped = false;
   tensegric::Solution solution = tensegric::solve(
       *model(), request.garment, options, warm ? &*last_ : nullptr,
-      [&](const tensegric::Iterate& iterate, const std::vector<Eigen::Vector3d>& outer) {
-        stopped = !progress(iterate, outer);
+      [&](const tensegric::Iterate& iterate, const std::vector<Eigen::Vector3d>& outer,
+          const std::vector<Eigen::Vector3d>& inner) {
+        stopped = !progress(iterate, outer, inner);
         return !stopped;
       },
       body_volumes_);

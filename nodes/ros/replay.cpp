@@ -7,7 +7,8 @@
 namespace tensegric_fit::node {
 namespace {
 
-constexpr double kFramePatience = 1;  // s; tf has a connection of its own, and says nothing of a scan in `body`
+constexpr double kFramePatience =
+    1;  // s; tf has a connection of its own, and says nothing of a scan in `body`
 
 std::string fact(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key) {
   for (const diagnostic_msgs::KeyValue& pair : status.values)
@@ -44,7 +45,7 @@ template <typename Message>
 void Replay::keep(const std::string& topic, boost::shared_ptr<const Message> FittedScan::*slot) {
   const boost::function<void(const boost::shared_ptr<const Message>&)> take =
       [this, slot](const boost::shared_ptr<const Message>& message) {
-        if constexpr (std::is_same_v<Message, FitState>)
+        if constexpr (std::is_same_v<Message, FitState> || std::is_same_v<Message, DeformedMesh>)
           if (message->status == FitState::SOLVING) return;
         if (message->scan_id == scan_id_) got_.*slot = message;
       };

@@ -57,9 +57,17 @@ void Stage::begin(const std::string& scan_id) {
 }
 
 void Stage::post(const std::string& scan_id, Work work) {
+  put({scan_id, std::move(work), false});
+}
+
+void Stage::post_passing(const std::string& scan_id, Work work) {
+  put({scan_id, std::move(work), true});
+}
+
+void Stage::put(Job job) {
   {
     std::lock_guard<std::mutex> lock(mutex_);
-    waiting_ = Job{scan_id, std::move(work)};
+    waiting_ = std::move(job);
   }
   wake_.notify_one();
 }
@@ -104,7 +112,7 @@ void Stage::serve() {
 void Stage::run(const Job& job) {
   if (superseded(job.scan_id)) return;
   const auto start = std::chrono::steady_clock::now();
-  {
+  if (!job.passing) {
     std::lock_guard<std::mutex> lock(report_mutex_);
     state_.word = "working";
     state_.message = "working on scan " + job.scan_id;
@@ -126,6 +134,7 @@ void Stage::run(const Job& job) {
 void Stage::finish(const Job& job, const Result& result, double milliseconds) {
   const bool dropped = !result.publish || superseded(job.scan_id);
   if (!dropped) result.publish();
+  if (job.passing) return;
   std::lock_guard<std::mutex> lock(report_mutex_);
   state_.word = dropped ? "superseded" : "done";
   state_.message = dropped ? "dropped work on scan " + job.scan_id + ": something newer came" : "done";

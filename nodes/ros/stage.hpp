@@ -50,6 +50,9 @@ class Stage {
   /// Work for that scan, in place of any that waits.
   void post(const std::string& scan_id, Work work);
 
+  /// The same, on the way to a result that other work will bring: nothing is said of it but trouble.
+  void post_passing(const std::string& scan_id, Work work);
+
   /// True once another scan was begun or newer work waits. For work that can stop half way.
   bool outdated(const std::string& scan_id) const;
 
@@ -63,6 +66,7 @@ class Stage {
   struct Job {
     std::string scan_id;
     Work work;
+    bool passing;
   };
   struct State {
     std::string word = "waiting", message = "waiting for input", scan_id;
@@ -73,6 +77,7 @@ class Stage {
     Facts facts;
   };
 
+  void put(Job job);
   void serve();
   bool superseded(const std::string& scan_id) const;
   void run(const Job& job);

@@ -128,13 +128,15 @@ std::optional<TensegricHandler::Output> TensegricHandler::handle(
     const Input& input, const std::function<bool()>& go_on,
     const std::function<void(const FitState&)>& tell) {
   const ControlMesh& control = *input.scene.control;
-  const FitName name{tag_in(control), input.request.garment.name, fitter_.solver_of(input.request)};
+  const FitName name{tag_in(control), input.request.garment.name, fitter_.solver_of(input.request),
+                     setup_.fitter.posture};
   const auto start = Clock::now();
   double told = 0;
-  const auto progress = [&](const tensegric::Iterate& iterate, const std::vector<Eigen::Vector3d>& outer) {
+  const auto progress = [&](const tensegric::Iterate& iterate, const std::vector<Eigen::Vector3d>& outer,
+                            const std::vector<Eigen::Vector3d>& inner) {
     const double now = milliseconds_since(start);
     if (now - told >= 1000 * setup_.progress_period) {
-      tell(to_message(name, iterate, outer, now));
+      tell(to_message(name, iterate, outer, inner, now));
       told = now;
     }
     return go_on();
@@ -143,8 +145,6 @@ std::optional<TensegricHandler::Output> TensegricHandler::handle(
   if (!solution) return std::nullopt;
 
   const auto message = boost::make_shared<FitState>(to_message(name, *solution, milliseconds_since(start)));
-  message->twist = setup_.fitter.posture.twist;
-  message->side_lean = setup_.fitter.posture.side_lean;
   return Output{message,
                 fitter_.model(),
                 std::move(*solution),

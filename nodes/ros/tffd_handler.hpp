@@ -30,16 +30,12 @@ class TffdHandler {
   /// \throw Refusal bad_option
   explicit TffdHandler(Parameters parameters);
 
-  /// A fit that has ended, and what it is a fit of.
+  /// A fit, on its way or ended, and what it is a fit of.
   using Join = ScanJoin<FitState, TriangleMesh, Landmarks, ControlMesh>;
   using Input = Join::Joined;
   template <typename Message>
   std::optional<Input> add(const boost::shared_ptr<const Message>& message) {
     return join_.add(message);
-  }
-  /// States on the way do not count.
-  std::optional<Input> add(const FitState::ConstPtr& fit) {
-    return fit->status == FitState::SOLVING ? std::nullopt : join_.add(fit);
   }
 
   struct Output {

@@ -160,8 +160,8 @@ bool Recorder::record(int iteration, const Positions& x, double residual, double
   iterate.merit_change = merit_change;
   history.push_back(iterate);
   if (!progress_) return true;
-  return progress_(iterate,
-                   {x.begin(), x.begin() + static_cast<std::ptrdiff_t>(problem_.model.control.outer.size())});
+  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(problem_.model.control.outer.size());
+  return progress_(iterate, {x.begin(), middle}, {middle, x.end()});
 }
 
 double Recorder::seconds() const {

@@ -64,6 +64,8 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
     line.final = line.reachable = length_of(band, x);
     line.request = band.request;
     line.tension = outcome.state.tensions[b];
+    line.law = band.law;
+    line.tension_limit = band.tension_limit;
     line.nodes = band.nodes;
     for (const geometry::CarriedPoint& point : thread.points) line.course_at_rest.push_back(point.rest);
     line.course = points_of(thread, x);

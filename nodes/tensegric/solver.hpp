@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct LineResult {
   double initial = 0, neutral = 0, final = 0;  ///< lengths, m
   double request = 1;                          ///< neutral / initial
   double tension = 0;                          ///< pseudo force
+  TensionLaw law;
+  double tension_limit = std::numeric_limits<double>::infinity();  ///< pseudo force
   std::vector<int> nodes;  ///< outer nodes that it runs over, in order; none where it lies on the body
   std::vector<Eigen::Vector3d> course_at_rest, course;  ///< its middle thread, scan frame
   double straight = 0;   ///< m, between the fixed nodes that it runs over: it cannot become shorter
@@ -84,7 +87,8 @@ struct Solution {
 /// Called after each iteration with the state as it stands; return false to cancel (status capped: the
 /// equilibrium solver's result is then the last state on the way to the request that was in balance, with its
 /// volumes kept, or rest where there was none; as it is when the time budget or the iterations end).
-using Progress = std::function<bool(const Iterate&, const std::vector<Eigen::Vector3d>& outer)>;
+using Progress = std::function<bool(const Iterate&, const std::vector<Eigen::Vector3d>& outer,
+                                    const std::vector<Eigen::Vector3d>& inner)>;
 
 /// Deforms the model under the garment's lines at constant region volumes. Pieces of the control mesh that no
 /// line touches stay at rest, bit for bit, where there is no gravity and no posture. `start` is null (from

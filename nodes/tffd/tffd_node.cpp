@@ -15,6 +15,7 @@ class TffdNode {
   TffdNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
       : handler_(Parameters(private_node)),
         deformed_(node.advertise<DeformedMesh>("body/deformed", 1, true)),
+        passing_(node.advertise<DeformedMesh>("body/deformed", 1)),
         display_(private_node),
         exports_(node),
         stage_("tffd", node) {
@@ -37,13 +38,18 @@ class TffdNode {
   void on(const boost::shared_ptr<const Message>& message) {
     const auto input = handler_.add(message);
     if (!input) return;
-    stage_.post(message->scan_id, [this, input = *input]() -> Stage::Result {
+    const auto work = [this, input = *input]() -> Stage::Result {
       const Output output = handler_.handle(input);
       return {[this, output] { publish(output); }, output.facts};
-    });
+    };
+    if (std::get<FitState::ConstPtr>(*input)->status == FitState::SOLVING)
+      stage_.post_passing(message->scan_id, work);
+    else
+      stage_.post(message->scan_id, work);
   }
 
   void publish(const Output& output) {
+    if (output.scan.fit->status == FitState::SOLVING) return passing_.publish(output.scan.deformed);
     deformed_.publish(output.scan.deformed);
     show(output.scan.deformed, output.bound);
     exports_.keep(output.scan);
@@ -70,7 +76,7 @@ class TffdNode {
   }
 
   TffdHandler handler_;
-  ros::Publisher deformed_;
+  ros::Publisher deformed_, passing_;  // one topic: how a fit ended is kept for late joiners
   Display display_;
   ExportDesk exports_;
   std::vector<ros::Subscriber> subscribers_;

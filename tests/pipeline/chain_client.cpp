@@ -13,7 +13,7 @@ ros::Subscriber collect(ros::NodeHandle& node, const std::string& topic,
                         std::vector<boost::shared_ptr<const Message>>& messages) {
   const boost::function<void(const boost::shared_ptr<const Message>&)> take =
       [&messages](const boost::shared_ptr<const Message>& message) {
-        if constexpr (std::is_same_v<Message, FitState>)
+        if constexpr (std::is_same_v<Message, FitState> || std::is_same_v<Message, DeformedMesh>)
           if (message->status == FitState::SOLVING) return;
         messages.push_back(message);
       };

@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 #include <tensegric_fit/ControlMesh.h>
 #include <tensegric_fit/DeformedMesh.h>
+#include <tensegric_fit/FitState.h>
 #include <tensegric_fit/Garment.h>
 #include <tensegric_fit/SetGarment.h>
 #include <tensegric_fit/TriangleMesh.h>
@@ -88,7 +89,9 @@ class Slider {
   void on_body(const TriangleMesh::ConstPtr& body) { body_ = body; }
   void on_control(const ControlMesh::ConstPtr& control) { control_ = control; }
   void on_garment(const Garment::ConstPtr& garment) { garment_ = garment; }
-  void on_deformed(const DeformedMesh::ConstPtr& deformed) { arrived_ = deformed->garment; }
+  void on_deformed(const DeformedMesh::ConstPtr& deformed) {
+    if (deformed->status != FitState::SOLVING) arrived_ = deformed->garment;
+  }
 
   void ask() {
     if (!settings_.service) return publisher_.publish(request_);

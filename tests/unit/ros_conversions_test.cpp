@@ -241,6 +241,8 @@ TEST(FitMessages, ResultsKeepTheirValues) {
   line.neutral = line.final = 0.45;
   line.request = 0.9;
   line.tension = 1.5;
+  line.law.kind = tensegric::TensionLaw::Kind::stiffness;
+  line.law.stiffness = 4;
   solution.lines = {line};
   solution.regions = {{"bust", 0.004, 0.0041}};
   solution.status = tensegric::Status::infeasible;
@@ -255,9 +257,13 @@ TEST(FitMessages, ResultsKeepTheirValues) {
   EXPECT_EQ(state.outer, (std::vector<double>{0.1, 0.2, 1.0 / 3}));
   EXPECT_EQ(state.lines.at(0).nodes, (std::vector<std::uint32_t>{3, 1, 4}));
   EXPECT_DOUBLE_EQ(state.lines.at(0).ratio, 0.9);
+  EXPECT_EQ(state.lines.at(0).law, GarmentLine::STIFFNESS);
+  EXPECT_EQ(state.lines.at(0).stiffness, 4);
+  EXPECT_EQ(state.lines.at(0).tension_limit, 0);         // none
   EXPECT_NEAR(state.volume_errors.at(0), 0.025, 1e-15);  // rounding of one division
   EXPECT_EQ(state.milliseconds, 12.5);
-  EXPECT_EQ(to_message(name, tensegric::Iterate(), solution.outer, 1).status, FitState::SOLVING);
+  EXPECT_EQ(to_message(name, tensegric::Iterate(), solution.outer, solution.inner, 1).status,
+            FitState::SOLVING);
 }
 
 TEST(ScanTag, SameScanSameIdAndAnyChangeAnother) {

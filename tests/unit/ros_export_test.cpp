@@ -1,5 +1,6 @@
 /// The export of a fit, without a master.
 #include <gtest/gtest.h>
+#include <tensegric_fit/GarmentLine.h>
 
 #include <boost/make_shared.hpp>
 #include <cmath>
@@ -87,6 +88,7 @@ class ExportFitTest : public testing::Test {
     line.initial = 0.4;
     line.neutral = line.final = 0.36;
     line.request = line.ratio = 0.9;
+    line.law = GarmentLine::RIGID;
     fit->regions.resize(1);
     fit->regions[0].name = "bust";
     fit->regions[0].volume_before = fit->regions[0].volume_after = 0.001;
@@ -181,8 +183,31 @@ TEST_F(ExportFitTest, TheDocumentIsWhatItsSchemaSays) {
   EXPECT_TRUE(accepts("/garment/name"_json_pointer, "B2"));
   EXPECT_FALSE(accepts("/version"_json_pointer, 2));
   EXPECT_FALSE(accepts("/garment/lines/0/neutral_mm"_json_pointer, nullptr));
+  EXPECT_FALSE(accepts("/garment/lines/0/law"_json_pointer, "soft"));
+  EXPECT_FALSE(accepts("/garment/lines/0/law"_json_pointer, json{{"stiffness", 0}}));
   EXPECT_FALSE(accepts("/body/bra_size/before"_json_pointer, "large"));
   EXPECT_FALSE(accepts("/body/girths/0/confidence"_json_pointer, 1.5));
+}
+
+TEST_F(ExportFitTest, TheMakerLearnsHowEachBandResists) {
+  auto fit = boost::make_shared<FitState>(*scan_.fit);
+  fit->lines.resize(3, fit->lines[0]);
+  fit->lines[1].law = GarmentLine::STIFFNESS;
+  fit->lines[1].stiffness = 2.5;
+  fit->lines[1].tension_limit = 0.5;
+  fit->lines[2].law = GarmentLine::TABLE;
+  fit->lines[2].table_stretch = {1, 1.2};
+  fit->lines[2].table_tension = {0, 3};
+  FittedScan scan = scan_;
+  scan.fit = fit;
+  export_fit(scan, root_ / "one");
+  EXPECT_TRUE(is_valid(root_ / "one" / "fit.json"));
+  const json lines = json::parse(text_of(root_ / "one" / "fit.json"))["garment"]["lines"];
+  EXPECT_EQ(lines[0]["law"], "rigid");
+  EXPECT_TRUE(lines[0]["tension_limit"].is_null());
+  EXPECT_EQ(lines[1]["law"], json::parse(R"({"stiffness": 2.5})"));
+  EXPECT_EQ(lines[1]["tension_limit"], 0.5);
+  EXPECT_EQ(lines[2]["law"], json::parse(R"({"table": [[1, 0], [1.2, 3]]})"));
 }
 
 TEST_F(ExportFitTest, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
@@ -219,6 +244,8 @@ TEST_F(ExportFitTest, WhatDoesNotFitTogetherOrIsNoNumberIsNotExported) {
   };
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(spoilt([](FitState& fit, DeformedMesh&) { fit.lines[0].neutral = kNan; }), "non_finite");
+  EXPECT_EQ(spoilt([](FitState& fit, DeformedMesh&) { fit.lines[0].stiffness = kNan; }), "non_finite");
+  EXPECT_EQ(spoilt([](FitState& fit, DeformedMesh&) { fit.lines[0].table_stretch = {1}; }), "bad_mesh");
   EXPECT_EQ(spoilt([](FitState& fit, DeformedMesh&) { fit.lines[0].nodes[0] = 99; }), "bad_mesh");
   EXPECT_EQ(spoilt([](FitState& fit, DeformedMesh&) { fit.outer.resize(6); }), "bad_mesh");
   EXPECT_EQ(spoilt([](FitState&, DeformedMesh& deformed) { deformed.vertices.resize(9); }), "bad_mesh");

@@ -12,7 +12,7 @@
 namespace tensegric_fit::node {
 namespace {
 
-const tensegric::Progress kGoOn = [](const auto&, const auto&) { return true; };
+const tensegric::Progress kGoOn = [](const auto&, const auto&, const auto&) { return true; };
 
 GarmentRequest chest_at(double ratio) {
   GarmentRequest request;
@@ -45,7 +45,7 @@ TEST_F(GarmentFitterTest, AStoppedFitIsNoneAndTheNextIsAsIfItHadNotBeen) {
     ASSERT_TRUE(fitter->fit({control_, nullptr, nullptr}, chest_at(0.95), 0, kGoOn));
   int steps = 0;
   EXPECT_FALSE(fitter_.fit({control_, nullptr, nullptr}, chest_at(0.8), 0,
-                           [&steps](const auto&, const auto&) { return ++steps < 3; }));
+                           [&steps](const auto&, const auto&, const auto&) { return ++steps < 3; }));
   EXPECT_EQ(steps, 3);  // it stopped there and then
   const auto after = fitter_.fit({control_, nullptr, nullptr}, chest_at(0.94), 0, kGoOn);
   const auto expected = undisturbed.fit({control_, nullptr, nullptr}, chest_at(0.94), 0, kGoOn);

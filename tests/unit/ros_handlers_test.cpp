@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <boost/make_shared.hpp>
+#include <chrono>
+#include <thread>
 
 #include "geometry/status.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/kept_garment.hpp"
 #include "ros/tensegric_handler.hpp"
+#include "ros/tffd_handler.hpp"
 #include "tensegric_bust.hpp"
 
 namespace tensegric_fit::node {
@@ -91,6 +94,14 @@ class TensegricHandlerTest : public testing::Test {
         Parameters(YAML::Load("{garment_directory: " + kGarments + (more.empty() ? "" : ", " + more) + "}"),
                    "tensegric"));
   }
+  static Landmarks::ConstPtr landmarks_of(const std::string& scan_id) {
+    geometry::BodyMeasures measures;
+    measures.heights = {{"hip", 0.9, 1, ""}, {"underbust", 1.12, 1, ""}};
+    measures.landmarks = {{"crotch", {0, 0, 0.8}, 1, ""}};
+    const auto landmarks = boost::make_shared<Landmarks>(to_message(ScanTag(), measures));
+    landmarks->scan_id = scan_id;
+    return landmarks;
+  }
   FitState::ConstPtr fit_of(TensegricHandler& stage, const std::optional<Input>& input) const {
     return input ? stage.handle(*input, kGoOn, kSilent)->fit : nullptr;
   }
@@ -141,6 +152,51 @@ TEST_F(TensegricHandlerTest, AStartFromRestIsNotLostWhereTheNextGarmentTakesItsP
   EXPECT_EQ(way_of(true)->iteration, from_rest->iteration);
   EXPECT_EQ(way_of(true)->outer, from_rest->outer);           // to the bit
   EXPECT_LT(way_of(false)->iteration, from_rest->iteration);  // from the last balance: that is quicker
+}
+
+TEST_F(TensegricHandlerTest, TheSkinFollowsStatesOnTheWay) {
+  TensegricHandler stage = handler("progress_period: 0.001, twist: 0.1");
+  TffdHandler skin(parameters("{}"));
+  const geometry::ControlMesh bust = tensegric::bust_mesh();
+  const auto body = boost::make_shared<TriangleMesh>(to_message(ScanTag(), {bust.outer, bust.triangles}, {}));
+  body->scan_id = "A";
+  const Landmarks::ConstPtr landmarks = landmarks_of("A");
+  const ControlMesh::ConstPtr control = control_of("A");
+  stage.put_on(chest_at(0.9));
+  stage.add(body);
+  stage.add(landmarks);
+  const auto input = stage.add(control);
+  ASSERT_TRUE(input);
+  std::vector<FitState::ConstPtr> fits;
+  const auto slowly = [] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));  // a step then takes longer than the period
+    return true;
+  };
+  const auto keep = [&](const FitState& state) { fits.push_back(boost::make_shared<FitState>(state)); };
+  fits.push_back(stage.handle(*input, slowly, keep)->fit);
+  ASSERT_GT(fits.size(), 2u);
+
+  skin.add(TriangleMesh::ConstPtr(body));
+  skin.add(landmarks);
+  skin.add(control);
+  std::shared_ptr<const BoundBody> bound;
+  std::vector<float> first, last;
+  for (const FitState::ConstPtr& fit : fits) {
+    const auto joined = skin.add(fit);
+    ASSERT_TRUE(joined);
+    const TffdHandler::Output output = skin.handle(*joined);
+    EXPECT_EQ(output.scan.deformed->status, fit->status);
+    if (bound) {
+      EXPECT_EQ(output.bound, bound);  // the posture of all is that of the last
+    }
+    bound = output.bound;
+    last = output.scan.deformed->vertices;
+    if (first.empty()) first = last;
+    if (fit != fits.back()) {
+      EXPECT_EQ(fit->status, FitState::SOLVING);
+    }
+  }
+  EXPECT_NE(first, last);
 }
 
 TEST_F(TensegricHandlerTest, StartedAgainItWearsWhatItWore) {

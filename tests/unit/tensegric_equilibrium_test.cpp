@@ -265,17 +265,18 @@ TEST_F(Equilibrium, HistoryAndProgress) {
   SolverOptions options;
   options.track = {control.node("bust_point_L")};
   int calls = 0;
-  const Solution s = solve(model, chest(0.95), options, nullptr, [&calls](const Iterate&, const auto& outer) {
+  const auto count = [&calls](const Iterate&, const auto& outer, const auto& inner) {
     ++calls;
-    return outer.size() == 77;
-  });
+    return outer.size() == 77 && inner.size() == 77;
+  };
+  const Solution s = solve(model, chest(0.95), options, nullptr, count);
   ASSERT_EQ(static_cast<int>(s.history.size()), s.iterations + 1);
   EXPECT_EQ(calls, s.iterations + 1);
   EXPECT_EQ(s.history.front().line_ratios[0], 1);
   EXPECT_NEAR(s.history.back().line_ratios[0], 0.95, 1e-6);
   EXPECT_EQ(s.history.back().tracked[0], s.outer[options.track[0]]);
   const Solution cancelled =
-      solve(model, chest(0.95), {}, nullptr, [](const Iterate&, const auto&) { return false; });
+      solve(model, chest(0.95), {}, nullptr, [](const Iterate&, const auto&, const auto&) { return false; });
   EXPECT_EQ(cancelled.status, Status::capped);
   EXPECT_TRUE(is_finite(cancelled));
 }

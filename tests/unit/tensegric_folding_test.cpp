@@ -223,8 +223,9 @@ TEST_F(Folding, TimeBudgetAndCancelling) {
   EXPECT_NE(none.note.find("time budget"), std::string::npos);
   options.time_budget = 600;
   EXPECT_EQ(solve(model, chest(0.90), options).status, Status::converged);
-  const Solution cancelled = solve(model, chest(0.90), {}, nullptr,
-                                   [](const Iterate& iterate, const auto&) { return iterate.iteration < 8; });
+  const Solution cancelled =
+      solve(model, chest(0.90), {}, nullptr,
+            [](const Iterate& iterate, const auto&, const auto&) { return iterate.iteration < 8; });
   EXPECT_EQ(cancelled.status, Status::capped);
   EXPECT_NE(cancelled.note.find("cancelled"), std::string::npos);
   EXPECT_NEAR(cancelled.regions[0].volume_after / cancelled.regions[0].volume_before, 1, 1e-9);

@@ -1,0 +1,137 @@
+/// A fit that takes its time, over real topics: the skin is seen on its way.
+#include <gtest/gtest.h>
+#include <tensegric_fit/SetGarment.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "chain_client.hpp"
+
+namespace tensegric_fit::tests {
+namespace {
+
+bool on_its_way(const DeformedMesh::ConstPtr& shape) {
+  return shape->status == FitState::SOLVING;
+}
+
+class SlowFitTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    client_ = std::make_unique<ChainClient>();
+    ASSERT_TRUE(client_->ready()) << "the chain did not come up";
+    ASSERT_NE(client_->fit(booth_scan("a")), "") << "no deformed body came out";
+  }
+  static void TearDownTestSuite() { client_.reset(); }
+
+  /// Every test begins with a garment that does not pull.
+  void SetUp() override {
+    listen_to_shapes();
+    put_on(1);
+    ASSERT_TRUE(wait_for([this] { return ended() && moved(*shapes_.back()) == 0; }));
+    shapes_.clear();
+  }
+
+  void listen_to_shapes() {
+    const boost::function<void(const DeformedMesh::ConstPtr&)> on_shape =
+        [this](const DeformedMesh::ConstPtr& shape) { shapes_.push_back(shape); };
+    every_ = ros::NodeHandle().subscribe<DeformedMesh>("body/deformed", 1000, on_shape);
+  }
+
+  static void put_on(double ratio) {
+    SetGarment call;
+    call.request.name = "B1";
+    call.request.lines = {"chest"};
+    call.request.ratios = {ratio};
+    ASSERT_TRUE(ros::service::call("set_garment", call));
+    ASSERT_TRUE(call.response.accepted) << call.response.message;
+  }
+
+  bool ended() const { return !shapes_.empty() && !on_its_way(shapes_.back()); }
+  bool under_way() const { return !shapes_.empty() && on_its_way(shapes_.back()); }
+
+  /// How far the skin is from rest, metres: where it is farthest.
+  static double moved(const DeformedMesh& shape) {
+    const std::vector<float>& rest = client_->bodies.back()->vertices;
+    double farthest = 0;
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      farthest = std::max<double>(farthest, std::abs(shape.vertices.at(i) - rest[i]));
+    return farthest;
+  }
+
+  static std::unique_ptr<ChainClient> client_;
+  ros::Subscriber every_;
+  std::vector<DeformedMesh::ConstPtr> shapes_;  // those on the way, too
+};
+
+std::unique_ptr<ChainClient> SlowFitTest::client_;
+
+TEST_F(SlowFitTest, TheSkinIsSeenOnItsWayAndTheFitHasTheLastWord) {
+  put_on(0.85);
+  ASSERT_TRUE(wait_for([this] { return ended(); }));
+  listen(1);  // for any that come late
+  ASSERT_TRUE(ended());
+  EXPECT_EQ(std::count_if(shapes_.begin(), shapes_.end(), on_its_way) + 1,
+            static_cast<std::ptrdiff_t>(shapes_.size()));
+  const double whole = moved(*shapes_.back());
+  EXPECT_GT(whole, 0.005);
+  EXPECT_TRUE(std::any_of(
+      shapes_.begin(), shapes_.end(),
+      [&](const auto& shape) { return moved(*shape) > 0.05 * whole && moved(*shape) < 0.95 * whole; }))
+      << shapes_.size() << " shapes came";
+}
+
+TEST_F(SlowFitTest, TheNewestGarmentTakesThePlaceOfOneUnderWay) {
+  client_->fits.clear();
+  put_on(0.85);
+  ASSERT_TRUE(wait_for([this] { return under_way(); }));
+  put_on(0.97);
+  ASSERT_TRUE(wait_for([this] { return ended(); }));
+  listen(1);
+  ASSERT_EQ(client_->fits.size(), 1u);  // the first was given up
+  EXPECT_NEAR(client_->fits.back()->lines.at(0).ratio, 0.97, 1e-4);
+  EXPECT_TRUE(ended());
+  EXPECT_LT(moved(*shapes_.back()), 0.01);
+}
+
+TEST_F(SlowFitTest, TheNextCustomerTakesThePlaceOfOneUnderWay) {
+  put_on(0.85);
+  ASSERT_TRUE(wait_for([this] { return under_way(); }));
+  const std::string scan_id = client_->fit(booth_scan("b"));
+  ASSERT_NE(scan_id, "");
+  listen(1);
+  EXPECT_TRUE(ended());
+  EXPECT_EQ(shapes_.back()->scan_id, scan_id);
+  bool next = false;
+  for (const DeformedMesh::ConstPtr& shape : shapes_) {
+    EXPECT_FALSE(next && shape->scan_id != scan_id) << "one of the last customer came after her";
+    next = shape->scan_id == scan_id;
+    for (const TriangleMesh::ConstPtr& body : client_->bodies) {
+      if (body->scan_id != shape->scan_id) continue;
+      EXPECT_EQ(shape->vertices.size(), body->vertices.size());
+    }
+  }
+}
+
+TEST_F(SlowFitTest, WhoJoinsLateGetsHowItEndedAndNothingOnItsWay) {
+  put_on(0.85);
+  ASSERT_TRUE(wait_for([this] { return ended(); }));
+  every_.shutdown();  // a second subscriber in one process would be served by roscpp, not by the node
+  client_.reset();
+  shapes_.clear();
+  listen_to_shapes();
+  ASSERT_TRUE(wait_for([this] { return !shapes_.empty(); }));
+  listen(0.5);
+  EXPECT_EQ(shapes_.size(), 1u);
+  EXPECT_TRUE(ended());
+}
+
+}  // namespace
+}  // namespace tensegric_fit::tests
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "slow_fit_test");
+  ros::NodeHandle node;  // keeps ROS up between clients
+  return RUN_ALL_TESTS();
+}
