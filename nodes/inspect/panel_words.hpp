@@ -27,7 +27,8 @@ std::string working(const std::string& stage);
 // What became of a request.
 inline constexpr char kAsked[] = "Fitting ...",
                       kNoAnswer[] = "The fitting pipeline does not answer; what is shown is the last fit.",
-                      kEmptyFolder[] = "Name a folder for the export.";
+                      kEmptyFolder[] = "Name a folder for the export.",
+                      kNothingToExport[] = "Nothing was exported: no body under a garment is shown so far.";
 std::string solving(int iteration);
 std::string not_accepted(const std::string& message);
 std::string exported(int files, const std::string& folder);

@@ -1,4 +1,5 @@
-"""Real rviz on a display of its own, with a running chain, driven by keyboard."""
+"""Real rviz on displays of its own, with a running chain, driven by keyboard."""
+import contextlib
 import os
 import shutil
 import signal
@@ -37,14 +38,22 @@ class Session:
         for tool in ("Xvfb", "xdotool", "import", "rviz", "roslaunch"):
             if shutil.which(tool) is None:
                 raise NotHere("%s is not installed" % tool)
-        self.out, self.started, self.message, self.count = out, [], {}, {}
+        self.out, self.started, self.message, self.said = out, [], {}, []
         os.makedirs(out, exist_ok=True)
-        self.port = free_port()
+        self.port, self.has_master = free_port(), False
         os.environ.update({"ROS_MASTER_URI": "http://localhost:%d" % self.port, "ROS_HOSTNAME": "localhost",
                            "LIBGL_ALWAYS_SOFTWARE": "1", "HOME": out, "ROS_HOME": os.path.join(out, "ros_home"),
                            "XDG_RUNTIME_DIR": out})
 
     def __enter__(self):
+        os.environ["DISPLAY"] = self.new_display()
+        return self
+
+    def __exit__(self, *_):
+        for process in reversed(self.started):
+            self.end(process)
+
+    def new_display(self):
         read, write = os.pipe()
         self.start("xvfb", "Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", pass_fds=[write])
         os.close(write)
@@ -52,12 +61,18 @@ class Session:
             number = answer.readline().strip()
         if not number:
             raise NotHere("no display can be made: see xvfb.log")
-        os.environ["DISPLAY"] = ":" + number
-        return self
+        return ":" + number
 
-    def __exit__(self, *_):
-        for process in reversed(self.started):
-            self.end(process)
+    @staticmethod
+    @contextlib.contextmanager
+    def at(display):
+        """Keys, windows and pictures are those of that display."""
+        usual = os.environ["DISPLAY"]
+        os.environ["DISPLAY"] = display
+        try:
+            yield
+        finally:
+            os.environ["DISPLAY"] = usual
 
     def start(self, name, *command, **options):
         with open(os.path.join(self.out, name + ".log"), "w") as log:
@@ -72,9 +87,9 @@ class Session:
         except subprocess.TimeoutExpired:
             process.kill()
 
-    def start_chain(self, *command):
-        """`command`: what roslaunch takes. Listens to what comes out from now on."""
-        self.start("chain", "roslaunch", "-p", str(self.port), *command)
+    def start_master(self):
+        """It outlives the chains. Listens to what comes out from now on."""
+        self.start("master", "roscore", "-p", str(self.port))
 
         def master_is_up():
             with socket.socket() as probe:
@@ -82,11 +97,22 @@ class Session:
 
         wait_for("ROS master", master_is_up)
         import rospy
-        from tensegric_fit.msg import DeformedMesh, FitState, Landmarks
+        from rosgraph_msgs.msg import Log
+        from tensegric_fit.msg import DeformedMesh, FitState, Landmarks, TriangleMesh
 
         rospy.init_node("rviz_session", anonymous=True, disable_signals=True)
-        for topic, kind in (("control/deformed", FitState), ("body/deformed", DeformedMesh), ("body/landmarks", Landmarks)):
+        wait_for("run_id of the master", lambda: rospy.has_param("/run_id"))  # else a chain would bring its own
+        for topic, kind in (("body/mesh", TriangleMesh), ("control/deformed", FitState), ("body/deformed", DeformedMesh),
+                            ("body/landmarks", Landmarks)):
             rospy.Subscriber(topic, kind, self.keep, topic)
+        rospy.Subscriber("/rosout", Log, lambda line: self.said.append(line.msg))
+        self.has_master = True
+
+    def start_chain(self, *command):
+        """`command`: what roslaunch takes."""
+        if not self.has_master:
+            self.start_master()
+        return self.start("chain", "roslaunch", *command)
 
     def keep(self, message, topic):
         self.message[topic] = message
@@ -95,14 +121,14 @@ class Session:
         """Whether the deformed body of this garment, all its lines at this ratio, is there."""
         fit, body = self.message.get("control/deformed"), self.message.get("body/deformed")
         return (fit is not None and body is not None and fit.garment == body.garment == garment
-                and fit.status == "converged" and all(abs(line.request - ratio) < 1e-6 for line in fit.lines))
+                and fit.status == body.status == "converged" and all(abs(line.request - ratio) < 1e-6 for line in fit.lines))
 
-    def start_rviz(self, config):
-        rviz = self.start("rviz", "rviz", "-d", config)
+    def start_rviz(self, config, name="rviz"):
+        rviz = self.start(name, "rviz", "-d", config)
         wait_for("window", self.windows)
         subprocess.check_call(["xdotool", "windowfocus", self.windows()[-1]])  # there is no window manager to do it
         time.sleep(8)  # the window settles, the body is drawn
-        assert rviz.poll() is None, "rviz has ended: see rviz.log"
+        assert rviz.poll() is None, "rviz has ended: see %s.log" % name
         return rviz
 
     @staticmethod
@@ -119,7 +145,7 @@ class Session:
 
     @staticmethod
     def write(words):
-        subprocess.check_call(["xdotool", "type", "--delay", "60", words])
+        subprocess.check_call(["xdotool", "type", "--delay", "60", "--", words])
 
     def put_on(self, garment):
         """By keyboard, as someone would at the panel."""

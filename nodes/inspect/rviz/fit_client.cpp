@@ -103,10 +103,11 @@ void FitClient::reset() {
   });
 }
 
-void FitClient::export_to(const std::string& folder) {
-  post(kExportCall, [this, folder] {
+void FitClient::export_to(const std::string& folder, const std::string& scan_id) {
+  post(kExportCall, [this, folder, scan_id] {
     ExportFit call;
     call.request.directory = folder;
+    call.request.scan_id = scan_id;
     if (!export_.exists() || !export_.call(call)) return tell(on_exported, false, words::kPipelineNotRunning);
     tell(on_exported, call.response.exported,
          call.response.exported ? words::exported(static_cast<int>(call.response.files.size()), folder)

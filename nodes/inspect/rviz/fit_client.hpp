@@ -34,7 +34,8 @@ class FitClient : public QObject {
 
   void wear(const SetGarment::Request& request);
   void reset();
-  void export_to(const std::string& folder);
+  /// Of that scan's fit and no other's.
+  void export_to(const std::string& folder, const std::string& scan_id);
   /// Whether a garment or a reset waits for its answer.
   bool is_asking();
 

@@ -61,7 +61,7 @@ void FitPanel::onInitialize() {
   client_->on_worn = [this](bool done, const std::string& words) { take_answer(done, words); };
   client_->on_exported = [this](bool done, const std::string& words) {
     export_->setEnabled(true);
-    answer_->setText(text(done ? words : words::not_exported(words)));
+    answer(done ? words : words::not_exported(words));
   };
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, [this] {
@@ -76,6 +76,7 @@ void FitPanel::choose(const QString& garment) {
   SetGarment::Request request;
   request.name = garment.trimmed().toStdString();
   if (request.name.empty()) return;
+  typing_ = false;
   session_.settle();
   changed_here_ = false;
   worn_asked(request);
@@ -118,14 +119,14 @@ void FitPanel::send() {
 
 void FitPanel::worn_asked(const SetGarment::Request& request) {
   asked_at_ = Clock::now();
-  answer_->clear();
+  answer("");
   client_->wear(request);
 }
 
 void FitPanel::take_answer(bool done, const std::string& words) {
   asked_at_ = Clock::now();
-  if (done) return answer_->clear();
-  answer_->setText(text(words::not_accepted(words)));
+  if (done) return answer("");
+  answer(words::not_accepted(words));
   if (worn_) session_.adopt(worn_->name, lines_in(*worn_));
   build_lines();
   build_regions();
@@ -198,7 +199,7 @@ void FitPanel::take_body(const TriangleMesh& body) {
     body_.take_body(body.scan_id, node::mesh_in(body));
     new_girths_ = true;
   } catch (const geometry::Refusal& refusal) {
-    answer_->setText(refusal.what());
+    answer(refusal.what());
   }
 }
 
@@ -208,11 +209,12 @@ void FitPanel::take_landmarks(const Landmarks& landmarks) {
     measured_scan_ = landmarks.scan_id;
     new_girths_ = true;
   } catch (const geometry::Refusal& refusal) {
-    answer_->setText(refusal.what());
+    answer(refusal.what());
   }
 }
 
 void FitPanel::take_deformed(const DeformedMesh& deformed) {
+  if (deformed.status == FitState::SOLVING) return;  // figures are those of fits that have ended
   try {
     body_.take_worn({deformed.scan_id,
                      deformed.garment,
@@ -220,7 +222,7 @@ void FitPanel::take_deformed(const DeformedMesh& deformed) {
                      {deformed.distortion.begin(), deformed.distortion.end()}});
     new_girths_ = true;
   } catch (const geometry::Refusal& refusal) {
-    answer_->setText(refusal.what());
+    answer(refusal.what());
   }
 }
 
@@ -268,14 +270,23 @@ void FitPanel::show_girths() {
   tightness_->setVisible(!words.empty());
 }
 
+void FitPanel::answer(const std::string& words) {
+  if (answer_->text() == text(words)) return;
+  answer_->setText(text(words));
+  if (!words.empty()) ROS_INFO("fit panel: %s", words.c_str());
+}
+
 void FitPanel::show_state() {
   const PipelineWatch::State state = watch_.state(seconds(Clock::now()));
+  if (state.trouble && pipeline_->text() != text(state.words)) ROS_WARN("fit panel: %s", state.words.c_str());
   pipeline_->setText(text(state.words));
   pipeline_->setStyleSheet(state.trouble ? "color: #b2182b" : "");
-  if (!garment_->hasFocus()) garment_->setCurrentText(text(session_.now().garment));
+  const QString garment = text(session_.now().garment);
+  if (!(typing_ && garment_->hasFocus()) && !client_->is_asking() && garment_->currentText() != garment)
+    garment_->setCurrentText(garment);
   progress_->setMaximum(state.all);
   progress_->setValue(state.done);
-  if (client_->is_asking() && Clock::now() - asked_at_ > kPatience) answer_->setText(words::kNoAnswer);
+  if (client_->is_asking() && Clock::now() - asked_at_ > kPatience) answer(words::kNoAnswer);
 }
 
 }  // namespace tensegric_fit::inspect

@@ -76,6 +76,7 @@ class FitPanel : public rviz::Panel {
   void show_lines();
   void show_girths();
   void show_state();
+  void answer(const std::string& words);  // to the clerk, and to the log
 
   using Clock = std::chrono::steady_clock;
 
@@ -91,6 +92,7 @@ class FitPanel : public rviz::Panel {
   bool new_girths_ = false;
   Clock::time_point asked_at_{};
   bool changed_here_ = false;  // what was asked for last is on the panel already
+  bool typing_ = false;        // a garment's name
 
   QComboBox* garment_;
   QLabel *pipeline_, *fit_, *answer_, *tightness_, *volumes_;

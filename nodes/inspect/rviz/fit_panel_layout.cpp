@@ -8,7 +8,6 @@
 #include <QDateTime>
 #include <QDir>
 #include <QHBoxLayout>
-#include <QScrollArea>
 #include <QShortcut>
 #include <QVBoxLayout>
 
@@ -16,6 +15,7 @@
 #include "inspect/panel_words.hpp"
 #include "inspect/rviz/fit_panel.hpp"
 #include "inspect/rviz/qt_text.hpp"
+#include "inspect/rviz/upright_scroll.hpp"
 #include "inspect/words.hpp"
 
 namespace tensegric_fit::inspect {
@@ -70,13 +70,9 @@ FitPanel::FitPanel(QWidget* parent) : rviz::Panel(parent) {
   answer_ = sentence(layout, "color: #8a4b00");
   build_lines();
 
-  auto* scroll = new QScrollArea;
-  scroll->setWidgetResizable(true);
-  scroll->setWidget(inside);
-  scroll->setFrameShape(QFrame::NoFrame);
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
-  all->addWidget(scroll);
+  all->addWidget(new UprightScroll(inside));
   setMinimumWidth(kWidth);
   const auto* back =
       new QShortcut(QKeySequence::Undo, this, nullptr, nullptr, Qt::WidgetWithChildrenShortcut);
@@ -99,6 +95,7 @@ void FitPanel::build_garment(QVBoxLayout* layout) {
   row->addWidget(put_on_);
   layout->addLayout(row);
   connect(garment_, qOverload<int>(&QComboBox::activated), this, [this] { choose(garment_->currentText()); });
+  connect(garment_->lineEdit(), &QLineEdit::textEdited, this, [this] { typing_ = true; });
   connect(garment_->lineEdit(), &QLineEdit::returnPressed, this, [this] { choose(garment_->currentText()); });
   connect(put_on_, &QPushButton::clicked, this, [this] { choose(garment_->currentText()); });
 }
@@ -147,6 +144,7 @@ void FitPanel::build_lines() {
   rows_.clear();
   auto* grid = new QGridLayout(lines_box_);
   grid->setContentsMargins(0, 0, 0, 0);
+  grid->setVerticalSpacing(2);
   grid->setColumnStretch(LineRow::kSlider, 1);
   if (session_.now().lines.empty()) {
     grid->addWidget(new QLabel(words::kNoLines), 0, 0);
@@ -202,7 +200,7 @@ void FitPanel::build_regions() {
         if (session_.switch_region(name.toStdString(), on))
           send();
         else
-          answer_->setText(words::kRegionHelp);
+          answer(words::kRegionHelp);
         build_regions();
         show_lines();
       });
@@ -236,15 +234,19 @@ void FitPanel::compare(bool on) {
 void FitPanel::start_export() {
   const QString folder = folder_->text().trimmed();
   if (folder.isEmpty()) {
-    answer_->setText(words::kEmptyFolder);
+    answer(words::kEmptyFolder);
     return;
   }
-  QString name = text(body_.scan_id() + "_" + session_.now().garment).replace('/', '-');
+  if (!body_.is_worn()) {
+    answer(words::kNothingToExport);
+    return;
+  }
+  QString name = text(body_.scan_id() + "_" + body_.garment()).replace('/', '-');
   name += QDateTime::currentDateTime().toString("_yyyyMMdd-hhmmss");
   QDir().mkpath(folder);  // where that cannot be, the export says why
   export_->setEnabled(false);
-  answer_->clear();
-  client_->export_to(QDir(folder).filePath(name).toStdString());
+  answer("");
+  client_->export_to(QDir(folder).filePath(name).toStdString(), body_.scan_id());
 }
 
 void FitPanel::load(const rviz::Config& config) {

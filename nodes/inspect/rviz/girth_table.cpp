@@ -13,6 +13,7 @@ namespace tensegric_fit::inspect {
 namespace {
 
 constexpr int kRowHeight = 20;  // pixels
+constexpr int kFewest = 6;      // rows that are always seen
 const std::vector<std::string> kFirst{"bust", "underbust", "waist", "hip", "neck"};
 
 using Girths = std::vector<geometry::ChangedMeasure>;
@@ -38,7 +39,9 @@ GirthTable::GirthTable() : QTableWidget(0, 4) {
   horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
   setEditTriggers(QAbstractItemView::NoEditTriggers);
   setSelectionMode(QAbstractItemView::NoSelection);
-  setTabKeyNavigation(false);  // Tab goes on to the next part of the panel
+  setMinimumHeight((kFewest + 1) * kRowHeight);
+  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Ignored);  // what is left on the panel
+  setTabKeyNavigation(false);                                   // Tab goes on to the next part of the panel
 }
 
 void GirthTable::set(int row, int column, const std::string& words) {

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kTicks = 200;                  // of the slider, for a ratio of 1: half a per cent each
 constexpr double kWholeCircumference = 300;  // cm
+constexpr int kShortestSlider = 60, kLongestName = 110;  // pixels
 
 QDoubleSpinBox* box(const char* unit, double low, double high, double step) {
   auto* made = new QDoubleSpinBox;
@@ -38,7 +39,7 @@ LineRow::LineRow(const std::string& line, int number, QGridLayout* grid)
   slider_->setRange(static_cast<int>(std::lround(kTicks * FitSession::kLeast)),
                     static_cast<int>(std::lround(kTicks * FitSession::kMost)));
   slider_->setPageStep(kTicks / 20);
-  slider_->setMinimumWidth(70);
+  slider_->setMinimumWidth(kShortestSlider);
   warning_->setWordWrap(true);
   warning_->setStyleSheet("color: #b2182b");
   warning_->hide();
@@ -46,7 +47,10 @@ LineRow::LineRow(const std::string& line, int number, QGridLayout* grid)
   for (QWidget* widget : {static_cast<QWidget*>(slider_), static_cast<QWidget*>(per_cent_),
                           static_cast<QWidget*>(centimetres_)})
     widget->setAccessibleName(name);
-  auto* label = new QLabel(QString("&%1 %2").arg(number).arg(name));
+  auto* label = new QLabel;
+  label->setText(QString("&%1 %2").arg(number).arg(
+      label->fontMetrics().elidedText(name, Qt::ElideMiddle, kLongestName)));
+  label->setToolTip(name);
   label->setBuddy(slider_);
   const int row = 2 * number - 1;  // below the headings
   grid->addWidget(label, row, kName);
