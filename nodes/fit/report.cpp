@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "fit/effects.hpp"
 #include "geometry/csv.hpp"
@@ -165,19 +163,6 @@ std::vector<int> tracked_nodes(const geometry::ControlMesh& control) {
   for (const char* name : {"bust_point_L", "bust_point_R"})
     if (control.node(name) >= 0) nodes.push_back(control.node(name));
   return nodes;
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  const std::string unfinished = path + ".part";
-  std::ofstream file(unfinished, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (!file) {
-    std::error_code ignored;
-    std::filesystem::remove(unfinished, ignored);
-    throw std::runtime_error(path + ": cannot be written");
-  }
-  std::filesystem::rename(unfinished, path);
 }
 
 }  // namespace tensegric_fit::fit

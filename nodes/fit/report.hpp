@@ -32,7 +32,4 @@ std::string history_csv(const Body& body, const Fitting& fitting, const tensegri
 /// Outer nodes whose way the history shows: the bust points, where the control mesh has them.
 std::vector<int> tracked_nodes(const geometry::ControlMesh& control);
 
-/// Writes a whole file or none. \throw std::runtime_error where it cannot be written
-void write_text(const std::string& path, const std::string& text);
-
 }  // namespace tensegric_fit::fit

@@ -11,6 +11,7 @@
 #include "booth/scan_file.hpp"
 #include "control_mesh/shape_control.hpp"
 #include "fit/report.hpp"
+#include "fit/result_folder.hpp"
 #include "fit/tissue_file.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/shipped_files.hpp"
@@ -22,33 +23,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kResults[] = {"report.json",  "body.ply",      "control.ply", "control_deformed.ply",
-                                    "deformed.ply", "history.csv",   "front.png",   "side.png",
-                                    "back.png",     "distortion.png"};
+const ResultNames kResults = {"report.json",  "body.ply",      "control.ply", "control_deformed.ply",
+                              "deformed.ply", "history.csv",   "front.png",   "side.png",
+                              "back.png",     "distortion.png"};
 
 constexpr int kPanel = 750;  // pixels; the height of the pictures of a fit
-
-// Names in files may hold any bytes; a report is UTF-8.
-void write_json(const fs::path& path, const nlohmann::ordered_json& json) {
-  write_text(path.string(),
-             json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-}
-
-// An old result is never taken for a new one, nor a part of one for the whole.
-void remove_results(const fs::path& folder) {
-  std::error_code not_there;
-  for (const char* name : kResults) fs::remove(folder / name, not_there);
-}
-
-// An input that this run's results would take the place of, or null.
-const std::string* endangered_input(const CommandLine& line) {
-  std::error_code not_there;
-  for (const std::string* input :
-       {&line.scan, &line.mesh, &line.garment, &line.tissue, &line.control, &line.fixed})
-    for (const char* name : kResults)
-      if (fs::equivalent(*input, fs::path(line.out) / name, not_there)) return input;
-  return nullptr;
-}
 
 class Run {
  public:
@@ -186,19 +165,21 @@ class Run {
 }  // namespace
 
 int run(const CommandLine& line) {
-  if (const std::string* input = endangered_input(line)) {
+  if (const std::string* input =
+          endangered_input({&line.scan, &line.mesh, &line.garment, &line.tissue, &line.control, &line.fixed},
+                           line.out, kResults)) {
     fmt::print(stderr, "--out: the results would overwrite the input {}\n", *input);
     return 2;
   }
   Run chain(line);
   try {
     fs::create_directories(line.out);
-    remove_results(line.out);
+    remove_results(line.out, kResults);
     chain();
     return 0;
   } catch (const geometry::Refusal& refusal) {
     fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());
-    remove_results(line.out);
+    remove_results(line.out, kResults);
     try {
       write_json(fs::path(line.out) / "report.json", report_of(chain.source(), refusal));
     } catch (const std::exception& error) {
@@ -207,7 +188,7 @@ int run(const CommandLine& line) {
     return 3;
   } catch (const std::exception& error) {
     fmt::print(stderr, "fit: {}\n", error.what());
-    remove_results(line.out);
+    remove_results(line.out, kResults);
     return 1;
   }
 }

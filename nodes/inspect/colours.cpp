@@ -8,7 +8,7 @@ namespace tensegric_fit::inspect {
 namespace {
 
 constexpr Colour kTightColour{178, 24, 43}, kLooseColour{33, 94, 172};  // of equal lightness
-constexpr Colour kWayColour{98, 48, 148}, kForceless{120, 120, 120};
+constexpr Colour kWayColour{98, 48, 148}, kForceless{120, 120, 120}, kNotCompared{158, 164, 170};
 constexpr int kSteps = 256;  // from neutral to an end
 
 cv::Vec3f lab(const Colour& colour) {
@@ -51,6 +51,10 @@ Colour mixed(const Colour& from, const Colour& to, double share) {
 Colour two_sided_colour(double share) {
   static const Ramp tight = ramp_to(kTightColour), loose = ramp_to(kLooseColour);
   return share < 0 ? at(tight, -share) : at(loose, share);
+}
+
+Colour distance_colour(double metres, bool compared) {
+  return compared ? two_sided_colour(metres / kFarthestDistance) : kNotCompared;
 }
 
 Colour way_colour(double share) {

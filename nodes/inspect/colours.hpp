@@ -30,6 +30,11 @@ std::vector<Colour> distortion_colours(const std::vector<double>& distortion);
 /// The scale under it: -1 is the tight end, 0 neutral, 1 the loose end. \pre finite
 Colour two_sided_colour(double share);
 
+/// Fixed scale of distances between two surfaces: kFarthestDistance and more inside is red, outside blue.
+inline constexpr double kFarthestDistance = 0.010;  ///< m
+/// Grey where `compared` is false.
+Colour distance_colour(double metres, bool compared);
+
 /// From neutral at 0 to violet at 1: how far something went. \pre finite
 Colour way_colour(double share);
 

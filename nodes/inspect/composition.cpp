@@ -25,6 +25,27 @@ void write(cv::Mat& picture, const std::string& text, int strip, cv::Point at, d
   cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, scale, kInk, 1, cv::LINE_AA);
 }
 
+// The two-sided scale of colours: words at its ends, figures below ends and middle.
+struct ScaleStrip {
+  std::string low_word, high_word, figures[3];
+};
+
+cv::Mat with_scale(const cv::Mat& picture, const ScaleStrip& scale) {
+  const int strip = strip_height(picture), height = strip / 2;
+  cv::Mat result;
+  cv::copyMakeBorder(picture, result, 0, 2 * strip, 0, 0, cv::BORDER_CONSTANT, kPaper);
+  const int width = result.cols / 2, left = (result.cols - width) / 2, top = picture.rows + strip / 3;
+  for (int x = 0; x < width; ++x) {
+    const Colour c = two_sided_colour(2.0 * x / std::max(1, width - 1) - 1);
+    cv::line(result, {left + x, top}, {left + x, top + height}, cv::Scalar(c[2], c[1], c[0]));
+  }
+  const int under = top + height + strip / 2, beside = top + height / 2;
+  for (int i = 0; i < 3; ++i) write(result, scale.figures[i], strip, {left + i * width / 2, under}, 0.5);
+  write(result, scale.low_word, strip, {left - strip / 2, beside}, 1);
+  write(result, scale.high_word, strip, {left + width + strip / 2, beside}, 0);
+  return result;
+}
+
 std::string per_cent(double ratio) {
   return std::to_string(std::lround(100 * ratio)) + " %";
 }
@@ -47,21 +68,12 @@ cv::Mat with_caption(const cv::Mat& picture, const std::string& text) {
 }
 
 cv::Mat with_distortion_scale(const cv::Mat& picture) {
-  const int strip = strip_height(picture), height = strip / 2;
-  cv::Mat result;
-  cv::copyMakeBorder(picture, result, 0, 2 * strip, 0, 0, cv::BORDER_CONSTANT, kPaper);
-  const int width = result.cols / 2, left = (result.cols - width) / 2, top = picture.rows + strip / 3;
-  for (int x = 0; x < width; ++x) {
-    const Colour c = distortion_colour(kTightest + (kLoosest - kTightest) * x / std::max(1, width - 1));
-    cv::line(result, {left + x, top}, {left + x, top + height}, cv::Scalar(c[2], c[1], c[0]));
-  }
-  const int under = top + height + strip / 2, beside = top + height / 2;
-  write(result, per_cent(kTightest), strip, {left, under}, 0.5);
-  write(result, per_cent(1), strip, {left + width / 2, under}, 0.5);
-  write(result, per_cent(kLoosest), strip, {left + width, under}, 0.5);
-  write(result, "tighter", strip, {left - strip / 2, beside}, 1);
-  write(result, "looser", strip, {left + width + strip / 2, beside}, 0);
-  return result;
+  return with_scale(picture, {"tighter", "looser", {per_cent(kTightest), per_cent(1), per_cent(kLoosest)}});
+}
+
+cv::Mat with_distance_scale(const cv::Mat& picture) {
+  const std::string end = std::to_string(std::lround(1e3 * kFarthestDistance)) + " mm";
+  return with_scale(picture, {"worn inside", "worn outside", {"-" + end, "0", end}});
 }
 
 }  // namespace tensegric_fit::inspect

@@ -16,4 +16,7 @@ cv::Mat with_caption(const cv::Mat& picture, const std::string& text);
 /// "looser".
 cv::Mat with_distortion_scale(const cv::Mat& picture);
 
+/// The same with the fixed scale of distance_colour, millimetres.
+cv::Mat with_distance_scale(const cv::Mat& picture);
+
 }  // namespace tensegric_fit::inspect

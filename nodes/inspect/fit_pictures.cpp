@@ -24,6 +24,18 @@ std::vector<Polyline> garment_lines(const std::vector<std::vector<Eigen::Vector3
   return drawn;
 }
 
+Part part_of(const std::vector<Eigen::Vector3d>& nodes, const std::vector<Eigen::Vector3i>& triangles,
+             const Eigen::Isometry3d& body_from_scan) {
+  Part part;
+  Eigen::Vector3d faced = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3i& t : triangles) {
+    faced += geometry::area_vector(nodes[t[0]], nodes[t[1]], nodes[t[2]]);
+    for (int k = 0; k < 3; ++k) part.nodes.push_back(nodes[t[k]]);
+  }
+  part.behind = (body_from_scan.linear() * faced).x() < 0;
+  return part;
+}
+
 cv::Mat before_and_after(const FitScene& scene, MakeView make) {
   const View view = framed(make, scene);
   const cv::Mat left =
@@ -37,16 +49,20 @@ cv::Mat before_and_after(const FitScene& scene, MakeView make) {
 
 std::vector<Part> parts_of(const geometry::ControlMesh& control, const Eigen::Isometry3d& body_from_scan) {
   std::vector<Part> parts;
-  for (const geometry::ControlRegion& region : control.regions) {
-    Part part;
-    Eigen::Vector3d faced = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3i& t : geometry::region_triangles(control, region)) {
-      faced += geometry::area_vector(control.outer[t[0]], control.outer[t[1]], control.outer[t[2]]);
-      for (int k = 0; k < 3; ++k) part.nodes.push_back(control.outer[t[k]]);
-    }
-    part.behind = (body_from_scan.linear() * faced).x() < 0;
-    parts.push_back(std::move(part));
+  for (const geometry::ControlRegion& region : control.regions)
+    parts.push_back(part_of(control.outer, geometry::region_triangles(control, region), body_from_scan));
+  return parts;
+}
+
+std::vector<Part> parts_of(const geometry::TriangleMesh& control, const Eigen::Isometry3d& body_from_scan) {
+  std::vector<std::vector<Eigen::Vector3i>> pieces;
+  const std::vector<int> piece = geometry::components_of(control);
+  for (std::size_t t = 0; t < piece.size(); ++t) {
+    pieces.resize(std::max<std::size_t>(pieces.size(), piece[t] + 1));
+    pieces[piece[t]].push_back(control.triangles[t]);
   }
+  std::vector<Part> parts;
+  for (const auto& triangles : pieces) parts.push_back(part_of(control.vertices, triangles, body_from_scan));
   return parts;
 }
 

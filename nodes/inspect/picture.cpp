@@ -169,6 +169,14 @@ cv::Mat draw(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colo
   return result;
 }
 
+cv::Mat1b silhouette(const geometry::TriangleMesh& mesh, const View& view, int width, int height) {
+  check(mesh, view, width, height);
+  const Camera camera(view, width, height);
+  std::vector<Eigen::Vector3d> points(mesh.vertices.size());
+  std::transform(mesh.vertices.begin(), mesh.vertices.end(), points.begin(), camera);
+  return rasterise(points, mesh.triangles, width, height).triangle >= 0;
+}
+
 std::vector<SeenPoint> seen_points(const geometry::TriangleMesh& mesh,
                                    const std::vector<Eigen::Vector3d>& points, const View& view, int width,
                                    int height) {

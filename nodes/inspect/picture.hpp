@@ -50,6 +50,9 @@ struct Polyline {
 cv::Mat draw(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours,
              const std::vector<Polyline>& lines, const View& view, int width, int height);
 
+/// What the mesh covers of such a picture: 255, else 0. \throw Refusal as draw()
+cv::Mat1b silhouette(const geometry::TriangleMesh& mesh, const View& view, int width, int height);
+
 /// Where a point comes to lie in a picture.
 struct SeenPoint {
   Eigen::Vector2d pixel;

@@ -6,10 +6,13 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/html.hpp"
+
 namespace tensegric_fit::node {
 namespace {
 
 using geometry::ChangedMeasure;
+using geometry::html_escaped;
 
 constexpr double kUnsure = 0.5;  // confidences below come with a reason
 
@@ -48,42 +51,6 @@ figcaption, footer {{ font-size: 8pt; color: #666 }}
 </html>
 )";
 
-std::string escaped(const std::string& text) {
-  std::string html;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      default:
-        html += c;
-    }
-  }
-  return html;
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned value = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      value = value << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? kDigits[value >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
 /// "upper_arm_L" and "girth": left upper arm girth.
 std::string words_of(std::string name, const std::string& kind) {
   std::string side;
@@ -112,7 +79,7 @@ std::string rows_of(const std::string& kind, const std::vector<ChangedMeasure>& 
   for (const ChangedMeasure& measure : measures) {
     const double before = measure.before.metres;
     rows += fmt::format("<tr><td>{}{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        escaped(words_of(measure.before.name, kind)),
+                        html_escaped(words_of(measure.before.name, kind)),
                         measure.before.confidence < kUnsure ? "*" : "", centimetres(before),
                         measure.after ? centimetres(*measure.after) : "",
                         measure.after ? change(*measure.after - before) : "");
@@ -141,8 +108,9 @@ std::string notes_of(const FitFigures& figures) {
   for (const auto& [kind, measures] : {std::pair{"height", &figures.heights}, {"girth", &figures.girths}})
     for (const ChangedMeasure& measure : *measures)
       if (measure.before.confidence < kUnsure)
-        notes += fmt::format("<p>* {}: uncertain; {}.</p>\n", escaped(words_of(measure.before.name, kind)),
-                             escaped(measure.before.reason));
+        notes +=
+            fmt::format("<p>* {}: uncertain; {}.</p>\n", html_escaped(words_of(measure.before.name, kind)),
+                        html_escaped(measure.before.reason));
   return notes;
 }
 
@@ -153,12 +121,12 @@ std::string fit_sheet(const FitFigures& figures, const std::vector<SheetPicture>
   for (const SheetPicture& picture : pictures)
     drawn += fmt::format(
         "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-        escaped(picture.caption), base64(picture.png.bytes));
-  return fmt::format(kPage, fmt::arg("title", "Garment " + escaped(figures.scan.fit->garment)),
+        html_escaped(picture.caption), geometry::base64(picture.png.bytes));
+  return fmt::format(kPage, fmt::arg("title", "Garment " + html_escaped(figures.scan.fit->garment)),
                      fmt::arg("summary", summary_of(figures)),
                      fmt::arg("rows", rows_of("girth", figures.girths) + rows_of("height", figures.heights)),
                      fmt::arg("pictures", drawn), fmt::arg("notes", notes_of(figures)),
-                     fmt::arg("scan", escaped(figures.scan.body->scan_id)),
+                     fmt::arg("scan", html_escaped(figures.scan.body->scan_id)),
                      fmt::arg("version", TENSEGRIC_FIT_VERSION));
 }
 

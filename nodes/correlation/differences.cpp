@@ -1,0 +1,93 @@
+#include "correlation/differences.hpp"
+
+#include <algorithm>
+
+namespace tensegric_fit::correlation {
+namespace {
+
+using Eigen::Vector3d;
+using geometry::BodyMeasures;
+using geometry::Measure;
+
+constexpr double kUnsure = 0.5;
+
+// A body's measures, and how its frame lies in the body frame before.
+struct Measured {
+  const BodyMeasures* measures;
+  Eigen::Isometry3d body_from_scan;
+};
+
+struct Value {
+  double metres;
+  double confidence;
+  std::string reason;
+};
+
+std::optional<Value> value_in(const std::vector<Measure>& list, const std::string& name) {
+  for (const Measure& m : list)
+    if (m.name == name) return Value{m.metres, m.confidence, m.reason};
+  return std::nullopt;
+}
+
+// How far the soles of that body are above those before.
+double soles(const Measured& body) {
+  return (body.body_from_scan * body.measures->body_from_scan.inverse()).translation().z();
+}
+
+std::optional<Value> height_in(const Measured& body, const std::string& name) {
+  std::optional<Value> value = value_in(body.measures->heights, name);
+  if (value && name != "stature") value->metres += soles(body);
+  return value;
+}
+
+// "bust_point_height" or "bust_point_spread".
+std::optional<Value> effect_in(const Measured& body, const std::string& point, bool height) {
+  const geometry::Landmark *left = body.measures->find_landmark(point + "_L"),
+                           *right = body.measures->find_landmark(point + "_R");
+  if (left == nullptr || right == nullptr) return std::nullopt;
+  const Vector3d l = body.body_from_scan * left->position, r = body.body_from_scan * right->position;
+  const geometry::Landmark& unsure = left->confidence < right->confidence ? *left : *right;
+  return Value{height ? (l.z() + r.z()) / 2 : (l - r).norm(), unsure.confidence, unsure.reason};
+}
+
+// `find` looks a value up in one body; empty where it was not measured before.
+template <typename Find>
+void add(std::vector<Difference>& list, const std::string& name, const std::vector<Measured>& bodies,
+         const Find& find) {
+  std::vector<std::optional<Value>> values;
+  for (const Measured& body : bodies) values.push_back(body.measures == nullptr ? std::nullopt : find(body));
+  if (!values[0]) return;
+  Difference difference{name, values[0]->metres, std::nullopt, std::nullopt, 1, ""};
+  if (values[1]) difference.simulated = values[1]->metres;
+  if (values[2]) difference.worn = values[2]->metres;
+  for (const auto& value : values) {
+    if (!value || value->confidence >= difference.confidence) continue;
+    difference.confidence = value->confidence;
+    difference.reason = value->confidence < kUnsure ? value->reason : "";
+  }
+  list.push_back(std::move(difference));
+}
+
+}  // namespace
+
+Differences differences_of(const BodyMeasures& before, const BodyMeasures* simulated,
+                           const BodyMeasures& worn, const Eigen::Isometry3d& simulated_from_worn) {
+  const std::vector<Measured> bodies = {{&before, before.body_from_scan},
+                                        {simulated, before.body_from_scan},
+                                        {&worn, before.body_from_scan * simulated_from_worn}};
+  Differences differences;
+  for (const std::string point : {"bust_point", "buttock"}) {
+    for (const bool height : {true, false})
+      add(differences.effects, point + (height ? "_height" : "_spread"), bodies,
+          [&](const Measured& body) { return effect_in(body, point, height); });
+  }
+  for (const Measure& girth : before.girths)
+    add(differences.girths, girth.name, bodies,
+        [&](const Measured& body) { return value_in(body.measures->girths, girth.name); });
+  for (const Measure& height : before.heights)
+    add(differences.heights, height.name, bodies,
+        [&](const Measured& body) { return height_in(body, height.name); });
+  return differences;
+}
+
+}  // namespace tensegric_fit::correlation

@@ -1,0 +1,140 @@
+#include "correlation/skin_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geometry/point_tree.hpp"
+#include "geometry/status.hpp"
+#include "geometry/surface_tree.hpp"
+
+namespace tensegric_fit::correlation {
+namespace {
+
+using Eigen::Vector3d;
+using geometry::TriangleMesh;
+
+constexpr double kAlike = 0.5;                               // cosine between normals
+constexpr double kLowestThigh = 6.0 / 7;                     // of the crotch's height
+constexpr double kKnee = 0.60, kCalf = 0.53, kAnkle = 0.12;  // the same
+
+// Whether a place of the control mesh lies on its border.
+class Border {
+ public:
+  explicit Border(const TriangleMesh& control) : control_(control), vertex_(control.vertices.size(), 0) {
+    for (const geometry::Edge& edge : geometry::edges_of(control)) {
+      if (edge.right >= 0) continue;
+      edges_.push_back({edge.first, edge.second});
+      vertex_[edge.first] = vertex_[edge.second] = 1;
+    }
+  }
+
+  bool holds(const geometry::SurfacePoint& place) const {
+    const Eigen::Vector3i& t = control_.triangles[place.triangle];
+    std::vector<int> corners;  // of the vertex, edge or triangle that it lies in, ascending
+    for (int k = 0; k < 3; ++k)
+      if (place.barycentric[k] > 1e-9) corners.push_back(t[k]);
+    std::sort(corners.begin(), corners.end());
+    if (corners.size() == 1) return vertex_[corners[0]] != 0;
+    return corners.size() == 2 &&
+           std::binary_search(edges_.begin(), edges_.end(), std::array<int, 2>{corners[0], corners[1]});
+  }
+
+ private:
+  const TriangleMesh& control_;
+  std::vector<char> vertex_;
+  std::vector<std::array<int, 2>> edges_;  // ascending, as edges_of gives them
+};
+
+std::vector<char> covered_by(const TriangleMesh& control, const TriangleMesh& body,
+                             const std::vector<Vector3d>& normals) {
+  const geometry::SurfaceTree tree(control);
+  const Border border(control);
+  std::vector<char> covered(body.vertices.size(), 0);
+  for (std::size_t v = 0; v < covered.size(); ++v) {
+    const geometry::SurfacePoint place = tree.nearest(body.vertices[v]);
+    if ((place.position - body.vertices[v]).norm() > kUnderControl || border.holds(place)) continue;
+    const Eigen::Vector3i& t = control.triangles[place.triangle];
+    const Vector3d facing =
+        geometry::area_vector(control.vertices[t[0]], control.vertices[t[1]], control.vertices[t[2]])
+            .normalized();
+    covered[v] = facing.dot(normals[v]) > kAlike;
+  }
+  return covered;
+}
+
+// The box of the trunk in the body frame.
+struct Trunk {
+  explicit Trunk(const geometry::BodyMeasures& measures) {
+    const auto place = [&](const char* name) {
+      return Vector3d(measures.body_from_scan * measures.landmark(name));
+    };
+    left = place("axilla_L").y();
+    right = place("axilla_R").y();
+    low = kLowestThigh * measures.height("crotch");
+    high = std::max(place("shoulder_L").z(), place("shoulder_R").z());
+  }
+  bool holds(const Vector3d& p) const { return p.y() < left && p.y() > right && p.z() > low && p.z() < high; }
+  double left, right, low, high;
+};
+
+}  // namespace
+
+void check(const SimulatedBody& body) {
+  geometry::check_mesh(body.rest);
+  geometry::check_mesh(body.control);
+  if (body.rest.triangles.empty() || body.control.triangles.empty())
+    throw geometry::Refusal(geometry::refusal::kBadMesh, "the simulated body or its control mesh is empty");
+  if (body.deformed.size() != body.rest.vertices.size())
+    throw geometry::Refusal(
+        geometry::refusal::kBadMesh,
+        fmt::format("the body has {} vertices and the deformed body {}: they are not of one fit",
+                    body.rest.vertices.size(), body.deformed.size()));
+  if (!std::all_of(body.deformed.begin(), body.deformed.end(), [](const auto& p) { return p.allFinite(); }))
+    throw geometry::Refusal(geometry::refusal::kNonFinite, "the deformed body is not finite everywhere");
+}
+
+std::vector<SkinPart> parts_of(const SimulatedBody& body) {
+  const std::vector<Vector3d>& vertices = body.rest.vertices;
+  const std::vector<char> covered =
+      covered_by(body.control, body.rest, geometry::vertex_normals(vertices, body.rest.triangles));
+  std::vector<Vector3d> worn;
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    if (covered[v] != 0) worn.push_back(vertices[v]);
+  if (worn.empty())
+    throw geometry::Refusal(geometry::refusal::kBadMesh, "the control mesh covers no skin of the body");
+
+  const geometry::PointTree near(worn);
+  const Trunk trunk(body.measures);
+  std::vector<SkinPart> parts(vertices.size(), SkinPart::mobile);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (covered[v] != 0)
+      parts[v] = SkinPart::covered;
+    else if (trunk.holds(body.measures.body_from_scan * vertices[v]))
+      parts[v] = near.distance(vertices[v]) < kSurroundings ? SkinPart::surroundings : SkinPart::still;
+  }
+  return parts;
+}
+
+Pieces pieces_of(const SimulatedBody& body, const std::vector<SkinPart>& parts) {
+  const geometry::BodyMeasures& measures = body.measures;
+  const Trunk trunk(measures);
+  const double crotch = measures.height("crotch"), underbust = measures.height("underbust"),
+               hip = measures.height("hip");
+  Pieces pieces;
+  for (std::size_t v = 0; v < parts.size(); ++v) {
+    if (parts[v] == SkinPart::covered || parts[v] == SkinPart::surroundings) continue;
+    const Vector3d p = measures.body_from_scan * body.rest.vertices[v];
+    const int vertex = static_cast<int>(v);
+    const bool inwards = p.y() < trunk.left && p.y() > trunk.right;
+    if (parts[v] == SkinPart::still && p.z() > underbust) pieces.chest.push_back(vertex);
+    if (inwards && p.z() < hip && p.z() > kKnee * crotch) pieces.pelvis.push_back(vertex);
+    if (p.z() < kCalf * crotch && p.z() > kAnkle * crotch)
+      (p.y() > 0 ? pieces.left_shank : pieces.right_shank).push_back(vertex);
+  }
+  return pieces;
+}
+
+}  // namespace tensegric_fit::correlation

@@ -1,0 +1,39 @@
+#include "fit/correlate_line.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace tensegric_fit::fit {
+
+std::optional<int> parse(int argc, char** argv, CorrelateLine& line) {
+  CLI::App app(
+      "How the body that `fit` simulated differs from a scan of the person in the real garment. Exit: 0 "
+      "done, "
+      "2 usage, 3 input refused, 1 the results cannot be written.");
+  app.add_option("--fit", line.fit, "Folder that `fit --garment` wrote")->required();
+  auto* worn = app.add_option("--worn", line.worn,
+                              "Second scan, with the garment on: FILE.ply, .pcd or .bag, metres, any frame");
+  auto* mesh = app.add_option("--mesh", line.mesh, "Body mesh WORN.ply, taken as it is instead of a scan");
+  app.add_option("--thickness", line.options.thickness,
+                 "Of the garment, metres: what its outside stands off the skin that it covers")
+      ->capture_default_str();
+  app.add_option("--body-triangles", line.settings.reconstruction.body_triangles,
+                 "Triangles of the worn body's mesh")
+      ->capture_default_str()
+      ->check(CLI::Range(2000, 1000000))
+      ->excludes(mesh);
+  app.add_option("--out", line.out, "Folder for the results")->capture_default_str();
+  app.add_flag("--quiet", line.quiet, "No progress");
+  worn->excludes(mesh);
+  try {
+    app.parse(argc, argv);
+    for (const CLI::Option* option : app.get_options())
+      for (const std::string& value : option->results())
+        if (value.empty()) throw CLI::ValidationError(option->get_name(), "is empty");
+    if (line.worn.empty() && line.mesh.empty()) throw CLI::RequiredError("--worn or --mesh");
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return std::nullopt;
+}
+
+}  // namespace tensegric_fit::fit

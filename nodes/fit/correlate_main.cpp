@@ -1,0 +1,7 @@
+#include "fit/correlate_run.hpp"
+
+int main(int argc, char** argv) {
+  tensegric_fit::fit::CorrelateLine line;
+  if (const auto exit_code = tensegric_fit::fit::parse(argc, argv, line)) return *exit_code;
+  return tensegric_fit::fit::run(line);
+}

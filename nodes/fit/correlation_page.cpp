@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/correlation_report.hpp"
+#include "geometry/html.hpp"
+
+namespace tensegric_fit::fit {
+namespace {
+
+using correlation::Difference;
+using geometry::html_escaped;
+
+constexpr double kUnsure = 0.5;  // confidences below come with a reason
+
+constexpr char kPage[] = R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<title>Simulated and worn</title>
+<style>
+@page {{ size: A4; margin: 12mm }}
+body {{ font: 10pt sans-serif; color: #333; max-width: 240mm; margin: 0 auto; padding: 3mm }}
+h1 {{ font-size: 15pt; margin: 0 0 2mm }}
+h2 {{ font-size: 11pt; margin: 5mm 0 1mm }}
+p {{ margin: 1mm 0 }}
+table {{ border-collapse: collapse }}
+th, td {{ padding: .6mm 1.6mm; text-align: right; border-bottom: .2mm solid #ddd }}
+th:first-child, td:first-child {{ text-align: left }}
+.wide {{ overflow-x: auto }}
+figure {{ margin: 0 0 3mm; break-inside: avoid }}
+img {{ width: 100% }}
+figcaption, footer, .note {{ font-size: 8pt; color: #666 }}
+</style>
+</head>
+<body>
+<h1>Simulated and worn</h1>
+<p>{summary}</p>
+<p class="note">{lines}. Garment thickness allowed for: {thickness:.1f} mm.</p>
+<h2>Distance of the worn surface from the simulated one, mm</h2>
+<div class="wide"><table>
+<tr><th></th><th>mean</th><th>median</th><th>mean size</th><th>rms</th><th>95 % below</th><th>compared</th></tr>
+{distances}</table></div>
+<p class="note">Mean and median carry a sign: positive where the worn surface lies outside. Still skin is what the garment leaves alone: it says how well the two scans lie on each other.</p>
+{pictures}
+<h2>What the garment did, cm</h2>
+<div class="wide"><table>
+<tr><th></th><th>before</th><th>simulated</th><th>worn</th><th>change simulated</th><th>change worn</th><th>worn less simulated</th></tr>
+{rows}</table></div>
+{notes}<footer>Worn scan {worn}; simulated on {scan}. Heights are above the soles of the scan before. Measured alike on all three bodies.</footer>
+</body>
+</html>
+)";
+
+// "upper_arm_L" and "girth": left upper arm girth; bust_point_spread stays as it is.
+std::string words_of(std::string name, const std::string& kind) {
+  std::string side;
+  for (const auto& [ending, word] : {std::pair{"_L", "left "}, {"_R", "right "}}) {
+    if (name.size() < 2 || name.compare(name.size() - 2, 2, ending) != 0) continue;
+    side = word;
+    name.resize(name.size() - 2);
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return side + name + (kind.empty() || name == "stature" ? "" : " " + kind);
+}
+
+std::string centimetres(const std::optional<double>& metres) {
+  return metres ? fmt::format("{:.1f}", 100 * *metres) : "";
+}
+
+std::string change(const std::optional<double>& from, const std::optional<double>& to) {
+  if (!from || !to) return "";
+  const double millimetres = std::round(1e3 * (*to - *from));
+  return millimetres == 0 ? "0" : fmt::format("{:+.1f}", millimetres / 10);
+}
+
+struct Rows {
+  std::string table, notes;
+};
+
+void add_rows(const std::vector<Difference>& differences, const std::string& kind, Rows& rows) {
+  for (const Difference& d : differences) {
+    const std::string name = html_escaped(words_of(d.name, kind));
+    const bool unsure = d.confidence < kUnsure;
+    rows.table += fmt::format(
+        "<tr><td>{}{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", name,
+        unsure ? "*" : "", centimetres(d.before), centimetres(d.simulated), centimetres(d.worn),
+        change(d.before, d.simulated), change(d.before, d.worn), change(d.simulated, d.worn));
+    if (unsure)
+      rows.notes += fmt::format("<p class=\"note\">* {}: uncertain; {}.</p>\n", name, html_escaped(d.reason));
+  }
+}
+
+std::string distance_row(const std::string& name, const correlation::Summary& s) {
+  return fmt::format(
+      "<tr><td>{}</td><td>{:+.1f}</td><td>{:+.1f}</td><td>{:.1f}</td><td>{:.1f}</td><td>{:.1f}</"
+      "td><td>{:.0f} "
+      "%</td></tr>\n",
+      name, 1e3 * s.mean, 1e3 * s.median, 1e3 * s.mean_size, 1e3 * s.rms, 1e3 * s.p95, 100 * s.compared);
+}
+
+std::string lines_of(const FittedFolder& fitted) {
+  std::string text = "Simulated lines:";
+  for (const FittedFolder::Line& line : fitted.lines)
+    text +=
+        fmt::format(" {} asked {:.3f}, reached {:.3f};", html_escaped(line.name), line.request, line.ratio);
+  text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+std::string correlation_page(const Correlated& correlated, const std::vector<PagePicture>& pictures) {
+  const correlation::Summary &covered = correlated.result.covered, &still = correlated.result.still;
+  Rows rows;
+  add_rows(correlated.differences.effects, "", rows);
+  add_rows(correlated.differences.girths, "girth", rows);
+  add_rows(correlated.differences.heights, "height", rows);
+  std::string drawn;
+  for (const PagePicture& picture : pictures)
+    drawn += fmt::format(
+        "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+        html_escaped(picture.caption), geometry::base64(picture.png));
+  return fmt::format(
+      kPage,
+      fmt::arg("summary",
+               fmt::format("Under the garment the real body lies <b>{:.1f} mm</b> from the simulated "
+                           "one on average ({:+.1f} mm with its sign); where the garment leaves "
+                           "the skin alone, {:.1f} mm.",
+                           1e3 * covered.mean_size, 1e3 * covered.mean, 1e3 * still.mean_size)),
+      fmt::arg("lines", lines_of(correlated.fitted)), fmt::arg("thickness", 1e3 * correlated.thickness),
+      fmt::arg("distances", distance_row("covered skin", covered) + distance_row("still skin", still)),
+      fmt::arg("pictures", drawn), fmt::arg("rows", rows.table), fmt::arg("notes", rows.notes),
+      fmt::arg("worn", html_escaped(correlated.worn.file)),
+      fmt::arg("scan", html_escaped(correlated.fitted.scan)));
+}
+
+}  // namespace tensegric_fit::fit
