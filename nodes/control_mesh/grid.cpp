@@ -68,8 +68,9 @@ geometry::ControlMesh grid_of(const Template& pattern) {
       for (int column = 0; column <= pattern.middle(); ++column) {
         const int node = node_at(pattern, row, column, side);
         if (node < 0) continue;
-        grid.outer_fixed[node] = pattern.fixed[row][column] == '#';
-        grid.inner_fixed[node] = grid.outer_fixed[node] && pattern.inner_fixed;
+        const char held = pattern.fixed[row][column];
+        grid.outer_fixed[node] = held == '#';
+        grid.inner_fixed[node] = held == 'o' || (held == '#' && pattern.inner_fixed);
       }
     for (const TemplateNode& node : pattern.nodes)
       grid.names[node_at(pattern, node.row, node.column, side)] = name_on(node.name, side);

@@ -216,7 +216,7 @@ Template load_template(const std::string& path) {
     pattern.nodes.push_back(
         node_from(node, pattern, path + ", node " + std::to_string(pattern.nodes.size() + 1)));
   check_nodes(pattern, path);
-  pattern.fixed = picture(root, "fixed", pattern.rows, pattern.middle() + 1, "#.", path);
+  pattern.fixed = picture(root, "fixed", pattern.rows, pattern.middle() + 1, "#o.", path);
   pattern.inner_fixed = required<bool>(root, "inner_fixed", path, kCode);
   pattern.thickness = thickness_from(root, pattern, path);
   for (const YAML::Node& region : list_of(root, "regions", path))

@@ -52,7 +52,8 @@ struct Template {
   /// rows-1 words of columns/2 characters: '\' joins (r,c) to (r+1,c+1), '/' joins (r+1,c) to (r,c+1), ' ' is
   /// no cell
   std::vector<std::string> diagonals;
-  std::vector<std::string> fixed;              ///< rows of columns/2+1: '#' fixed, '.' free
+  /// rows of columns/2+1: '#' fixed, 'o' skin that is free over bone (its inner node is fixed), '.' free
+  std::vector<std::string> fixed;
   bool inner_fixed = true;                     ///< are the inner nodes below fixed outer nodes fixed too
   std::vector<std::vector<double>> thickness;  ///< rows of columns/2+1, metres
   std::vector<TemplateRegion> regions;

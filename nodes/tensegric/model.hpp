@@ -29,11 +29,11 @@ InnerNodes inner_nodes_from(const std::string& word);
 struct ModelOptions {
   InnerNodes inner = InnerNodes::bound;
   bool uniform = false;  ///< all parts of a kind have one k, as in the papers, whatever tissue they stand for
-  double strut_stiffness = 0.44;    ///< of struts; edges have 1. The papers' rigid strut is the limit
-  double lateral_stiffness = 0.30;  ///< of the tensile parts from outer to inner node
-  double skin = 0.020;              ///< m of tissue that the skin is as stiff as, added to the outer edges
+  double strut_stiffness = 0.20;    ///< of struts; edges have 1. The papers' rigid strut is the limit
+  double lateral_stiffness = 0.20;  ///< of the tensile parts from outer to inner node
+  double skin = 0.022;              ///< m of tissue that the skin is as stiff as, added to the outer edges
   double volume_stiffness =
-      0.22;                ///< pressure per relative change of a unit's volume; equilibrium solver only
+      0.19;                ///< pressure per relative change of a unit's volume; equilibrium solver only
   double prestress = 0.2;  ///< mean tension of the tensile parts at rest / their mean k, at most
 };
 

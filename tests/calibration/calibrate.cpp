@@ -33,15 +33,15 @@ calibration::CalibrationBody read_body(const YAML::Node& node, const std::string
   body.body = fit::measure_mesh(
       geometry::read_ply_mesh(beside(path, geometry::required<std::string>(node, "mesh", path, kCode))),
       settings, times);
-  const tensegric::Garment garment =
-      tensegric::take_garment(beside(path, geometry::required<std::string>(node, "garment", path, kCode)),
-                              geometry::shipped_folder("garments"));
+  const std::string usual = geometry::required<std::string>(node, "garment", path, kCode);
   for (const YAML::Node& reference : node["references"]) {
-    geometry::check_keys(reference, {"ratio", "file"}, path, kCode);
+    geometry::check_keys(reference, {"ratio", "file", "garment"}, path, kCode);
     calibration::CalibrationCase one;
     const double ratio = geometry::number_in(reference, "ratio", tensegric::kLowestRatio, 1, path, kCode);
-    one.name = fmt::format("{} {:.3f}", body.name, ratio);
-    one.garment = garment;
+    const std::string worn = geometry::optional(reference, "garment", usual, path, kCode);
+    one.name = fmt::format("{}{} {:.3f}", body.name,
+                           worn == usual ? "" : " " + fs::path(worn).stem().string(), ratio);
+    one.garment = tensegric::take_garment(beside(path, worn), geometry::shipped_folder("garments"));
     tensegric::set_ratio(one.garment, "", ratio);
     one.reference = calibration::read_reference(
         beside(path, geometry::required<std::string>(reference, "file", path, kCode)), body.body.mesh.mesh);
