@@ -131,7 +131,8 @@ void check_same(const Likeness& likeness) {
   if (!likeness.chest && !likeness.pelvis)
     throw Refusal(refusal::kTooFewData,
                   "neither chest nor pelvis shows enough skin beside the garment to tell whose it is");
-  if (likeness.shanks && *likeness.shanks <= kSameShank && likeness.growth >= kCoat)
+  const bool as_tall = std::abs(likeness.stature) <= kSameStature;
+  if (as_tall && likeness.shanks && *likeness.shanks <= kSameShank && likeness.growth >= kCoat)
     throw Refusal(
         refusal::kCoatOn,
         fmt::format("underbust and waist girths are larger by {:.0f} mm and more, while the lower legs "
@@ -145,26 +146,25 @@ void check_same(const Likeness& likeness) {
                     "the worn scan is of somebody else",
                     name, 1e3 * *residual, 1e3 * kSamePiece));
   }
-  const bool bent = likeness.bend && *likeness.bend > kSameBend;
-  if (!bent && std::abs(likeness.stature) > kSameStature)
-    throw Refusal(
-        refusal::kOtherPerson,
-        fmt::format("her stature is {:+.0f} mm off, more than {:.0f} mm: the worn scan is of somebody "
-                    "else",
-                    1e3 * likeness.stature, 1e3 * kSameStature));
   const std::string again = "; she must stand as in the scan before";
-  if (bent)
+  if (likeness.bend && *likeness.bend > kSameBend)
     throw Refusal(
         refusal::kOtherPose,
         fmt::format("chest and pelvis match by themselves, but the chest is turned by {:.1f} degrees "
                     "against the pelvis, more than {:.0f}{}",
                     *likeness.bend * kDegrees, kSameBend * kDegrees, again));
+  if (!as_tall)
+    throw Refusal(
+        refusal::kOtherPerson,
+        fmt::format("her stature is {:+.0f} mm off, more than {:.0f} mm: the worn scan is of somebody "
+                    "else",
+                    1e3 * likeness.stature, 1e3 * kSameStature));
   if (likeness.still > kSameStill)
     throw Refusal(
-        refusal::kOtherPose,
-        fmt::format("chest and pelvis match by themselves, but not together: {:.1f} mm off, more than "
-                    "{:.0f}{}",
-                    1e3 * likeness.still, 1e3 * kSameStill, again));
+        refusal::kOtherPerson,
+        fmt::format("the skin that the garment leaves alone is {:.1f} mm off, more than {:.0f} mm, though "
+                    "she stands alike: the worn scan is of somebody else",
+                    1e3 * likeness.still, 1e3 * kSameStill));
   for (const auto& [side, turn] : {std::pair{"left", likeness.left_arm}, {"right", likeness.right_arm}})
     if (turn && *turn > kSameArm)
       throw Refusal(

@@ -33,7 +33,7 @@ struct Likeness {
 /// measurements behind each.
 inline constexpr double kSamePiece = 0.003;    ///< m
 inline constexpr double kSameShank = 0.0015;   ///< m
-inline constexpr double kSameStill = 0.006;    ///< m
+inline constexpr double kSameStill = 0.004;    ///< m
 inline constexpr double kSameStature = 0.020;  ///< m
 inline constexpr double kSameBend = 4 * 3.14159265358979323846 / 180;
 inline constexpr double kSameArm = 15 * 3.14159265358979323846 / 180;
@@ -43,8 +43,9 @@ inline constexpr double kCoat = 0.05;  ///< m of girth: 8 mm of cloth all round
 Likeness likeness_of(const SimulatedBody& body, const std::vector<SkinPart>& parts, const WornBody& worn,
                      const SeenSurface& surface, const Alignment& alignment);
 
-/// \throw Refusal coat_on: all is larger but the lower legs; other_person: pieces of her do not match;
-/// other_pose: they do, but not together; too_few_data: neither chest nor pelvis can be compared
+/// \throw Refusal coat_on: underbust and waist are larger, stature and lower legs are not; other_person: a
+/// piece does not match, or they do not together though she stands alike; other_pose: chest and pelvis match,
+/// but not together, or an arm points elsewhere; too_few_data: neither chest nor pelvis can be compared
 void check_same(const Likeness& likeness);
 
 /// The points and normals of the deformed body at these vertices.
