@@ -8,6 +8,7 @@
 #include <tensegric_fit/CaptureAction.h>
 #include <xmlrpcpp/XmlRpcClient.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -187,6 +188,7 @@ TEST_F(LeftBoothTest, ANewGoalTakesTheOldOnesPlaceAndCancelledIsCancelled) {
 }
 
 TEST_F(LeftBoothTest, ANodeKilledInMidScanIsBackWithinFiveSeconds) {
+  constexpr double kUsual = 3;  // s, a capture on two free cores: a busy machine gets longer
   const ros::WallTime usual_start = ros::WallTime::now();
   expect_body(capture("b", with_all_sensors(true)), "b");
   const double usual = (ros::WallTime::now() - usual_start).toSec();
@@ -197,7 +199,7 @@ TEST_F(LeftBoothTest, ANodeKilledInMidScanIsBackWithinFiveSeconds) {
     ASSERT_TRUE(kill_node("/left/" + stage));
     const ros::WallTime killed = ros::WallTime::now();
     expect_body(customer_->result(), "a");
-    EXPECT_LT((ros::WallTime::now() - killed).toSec(), 5 + usual) << stage;
+    EXPECT_LT((ros::WallTime::now() - killed).toSec(), 5 * std::max(1.0, usual / kUsual)) << stage;
   }
 }
 

@@ -49,7 +49,7 @@ class Slider {
     if (settings_.service)
       client_ = node_.serviceClient<SetGarment>("set_garment", true);
     else
-      publisher_ = node_.advertise<Garment>("garment", 4);
+      publisher_ = node_.advertise<Garment>("garment", 4, true);  // latched: the panel may be connected first
     return settings_.service ? client_.waitForExistence(ros::Duration(kPatience))
                              : wait([this] { return publisher_.getNumSubscribers() > 0; });
   }
