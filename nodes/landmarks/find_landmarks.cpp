@@ -1,6 +1,7 @@
 #include "landmarks/find_landmarks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 
 #include "geometry/status.hpp"
@@ -8,6 +9,7 @@
 #include "landmarks/bust.hpp"
 #include "landmarks/girth_levels.hpp"
 #include "landmarks/girth_spread.hpp"
+#include "landmarks/hanging_breast.hpp"
 #include "landmarks/limb_girths.hpp"
 #include "landmarks/lower_trunk.hpp"
 #include "landmarks/neck.hpp"
@@ -22,6 +24,7 @@ using geometry::BodyMeasures;
 using geometry::TriangleMesh;
 
 constexpr double kUnderbustBelowFold = 0.003;  // the tape lies just under the fold
+constexpr double kHiddenFold = 0.001;          // more than that above the fold found: inferred
 constexpr double kWaistAboveHip = 0.10, kWaistBelowUnderbust = 0.015;
 
 TriangleMesh in_frame(const TriangleMesh& mesh, const Eigen::Isometry3d& frame) {
@@ -154,6 +157,7 @@ double lower_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
 double bust(const BodyShape& body, const Trunk& trunk, Record& record) {
   double height = 0, confidence = 1, underbust = 1e9, fold_confidence = 1;
   std::string reason, fold_reason;
+  std::array<Vector3d, 2> tips;
   for (Side side : {kLeft, kRight}) {
     const BustPoint tip = find_bust_point(body, trunk, side);
     record.landmark(std::string("bust_point") + kSuffix[side], tip.point, tip.confidence, tip.reason);
@@ -162,7 +166,14 @@ double bust(const BodyShape& body, const Trunk& trunk, Record& record) {
       confidence = tip.confidence;
       reason = tip.reason;
     }
-    const Fold fold = find_fold(body, tip.point, side);
+    tips[side] = tip.point;
+    Fold fold = find_fold(body, tip.point, side);
+    const double hidden = fold_above_web(body, trunk, fold.lowest, tip.point, side);
+    fold.lowest.z() += hidden;
+    if (hidden > kHiddenFold) {
+      fold.confidence = std::min(fold.confidence, 0.45);
+      fold.reason = "the breast hangs over its fold; where it is one with the chest";
+    }
     record.landmark(std::string("underbust") + kSuffix[side], fold.below_bust_point, fold.confidence,
                     fold.reason);
     underbust = std::min(underbust, fold.lowest.z());
@@ -178,7 +189,12 @@ double bust(const BodyShape& body, const Trunk& trunk, Record& record) {
   record.height("underbust", underbust, fold_confidence, fold_reason);
   const double level = underbust - kUnderbustBelowFold;
   record.girth(
-      "underbust", [&](double offset) { return tape_loop(trunk.outline_at(level + offset)); },
+      "underbust",
+      [&](double offset) {
+        std::vector<Outline> outline = trunk.outline_at(level + offset);
+        for (Outline& section : outline) section = without_hanging_breasts(section, tips, body.stature);
+        return tape_loop(outline);
+      },
       fold_confidence, fold_reason);
   return underbust;
 }

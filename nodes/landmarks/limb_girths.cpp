@@ -16,6 +16,8 @@ constexpr double kUpper = 0.03, kLower = 0.09;  // below the axilla: sections wh
 constexpr double kFurtherDown = 0.02;  // both, where skin that fills the armpit joins the arm to the trunk
 constexpr double kLowerThigh = 0.10;   // below the thigh's girth: the same of the thigh
 constexpr double kArmRadius = 0.06, kThighRadius = 0.10, kBothThighs = 0.25, kBetweenThighs = 0.015;
+constexpr double kHandBeside = 0.06;  // a hand stays farther than this from the parting
+constexpr double kGroove = 0.0095;    // 16 mm
 
 // Of the box round them.
 Vector3d middle_of(const std::vector<Vector3d>& points) {
@@ -55,22 +57,50 @@ const Outline* outline_near(const std::vector<Outline>& outlines, const Eigen::V
   return best;
 }
 
-// One side's half of what the plane cuts near `origin`: of two thighs that touch, this one. They part where
-// they are narrowest.
-std::vector<Vector3d> half_section(const BodyShape& body, const Vector3d& origin, const Vector3d& axis,
-                                   Side side) {
+// One side's half of what a plane cuts: of two thighs that touch, this one.
+struct Half {
+  std::vector<Vector3d> points;
+  double parting;  // y of the plane between the two, where they are narrowest
+};
+
+Half half_section(const BodyShape& body, const Vector3d& origin, const Vector3d& axis, Side side) {
   const double near = kBetweenThighs * body.stature, middle = body.crotch.above.y;
   const double between =
       narrowest_bridge(body.sliced.outlines_at(origin.z()), middle - near, middle + near).y;
   const Vector3d reach = Vector3d::Constant(kBothThighs * body.stature);
-  std::vector<Vector3d> half;
+  Half half{{}, between};
   for (const geometry::SectionLoop& loop :
        cut(body, triangles_in_box(body, origin - reach, origin + reach), origin, axis)) {
     if (!loop.closed || (middle_of(loop.points) - origin).norm() > kBothThighs / 2 * body.stature) continue;
-    std::copy_if(loop.points.begin(), loop.points.end(), std::back_inserter(half),
+    const bool is_hand = std::all_of(loop.points.begin(), loop.points.end(), [&](const Vector3d& p) {
+      return std::abs(p.y() - between) > kHandBeside * body.stature;
+    });
+    if (is_hand) continue;
+    std::copy_if(loop.points.begin(), loop.points.end(), std::back_inserter(half.points),
                  [&](const Vector3d& p) { return kSign[side] * (p.y() - between) >= 0; });
   }
   return half;
+}
+
+// The half without the corners that skin over the grooves before and behind the parting makes of it: the
+// thigh's own are as far as `groove` round.
+std::vector<Vector3d> rounded(const Half& half, double groove) {
+  std::vector<Vector3d> points;
+  const Vector3d *front = nullptr, *back = nullptr;  // of what lies along the parting
+  for (const Vector3d& p : half.points) {
+    const double off = std::abs(p.y() - half.parting);
+    if (off >= groove) points.push_back(p);
+    if (off > groove / 4) continue;
+    if (front == nullptr || p.x() > front->x()) front = &p;
+    if (back == nullptr || p.x() < back->x()) back = &p;
+  }
+  if (front == nullptr || (*front - *back).norm() < 2 * groove) return half.points;
+  const Vector3d inwards = groove * (*front - *back).normalized();
+  for (Vector3d p : {Vector3d(*front - inwards), Vector3d(*back + inwards)}) {
+    p.y() = half.parting;
+    points.push_back(p);
+  }
+  return points;
 }
 
 // The tape round one of two thighs that touch; empty where there is no skin. `place` lies in the leg below.
@@ -78,13 +108,13 @@ std::vector<Vector3d> tape_of_half(const BodyShape& body, Vector3d place, double
   Vector3d middles[2];
   for (const int below : {1, 0}) {
     place.z() = height - below * kLowerThigh * body.stature;
-    const std::vector<Vector3d> half = half_section(body, place, Vector3d::UnitZ(), side);
-    if (half.size() < 3) return {};
-    middles[below] = place = middle_of(half);
+    const Half half = half_section(body, place, Vector3d::UnitZ(), side);
+    if (half.points.size() < 3) return {};
+    middles[below] = place = middle_of(half.points);
   }
   // The halves' middles are not the thighs': across, the tape lies level.
   const Vector3d way = middles[0] - middles[1], axis = Vector3d(way.x(), 0, way.z()).normalized();
-  return geometry::tape(half_section(body, place, axis, side), axis);
+  return geometry::tape(rounded(half_section(body, place, axis, side), kGroove * body.stature), axis);
 }
 
 }  // namespace

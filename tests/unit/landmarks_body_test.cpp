@@ -178,6 +178,28 @@ TEST(Landmarks, SkinThatFillsTheGapBetweenTheThighsDoesNotLowerTheCrotch) {
   EXPECT_FALSE(web.find_landmark("crotch")->reason.empty());
 }
 
+TEST(Landmarks, SkinThatFillsTheGapUnderAHangingBreastDoesNotLowerTheFold) {
+  test::Parts parts;
+  parts.breasts_hang = true;
+  const BodyMeasures open = measure(test::person_mesh(parts));
+  parts.web_below_fold = 0.015;
+  const BodyMeasures web = measure(test::person_mesh(parts));
+  // Half a cell of the grid, of 12 mm; the web alone is 12 mm lower. The girth changes by 2 mm a mm there.
+  EXPECT_NEAR(web.height("underbust"), open.height("underbust"), 0.006);
+  EXPECT_NEAR(girth(web, "underbust"), girth(open, "underbust"), 0.015);
+  EXPECT_LT(web.find_landmark("underbust_R")->confidence, 0.5);
+}
+
+TEST(Landmarks, AHandBesideThighsThatTouchIsNotMeasuredWithThem) {
+  test::Parts parts;
+  parts.web_below_crotch = 0.12;
+  const BodyMeasures alone = measure(test::person_mesh(parts));
+  parts.hand_beside_thigh = true;
+  const BodyMeasures beside = measure(test::person_mesh(parts));
+  EXPECT_LT(alone.find_landmark("crotch")->confidence, 0.5);             // else nothing touches
+  EXPECT_NEAR(girth(beside, "thigh_L"), girth(alone, "thigh_L"), 1e-3);  // another yaw by a hand's weight
+}
+
 TEST(Landmarks, AMannequinWithoutHeadAndArmsIsMeasuredAsFarAsItGoes) {
   test::Parts parts;
   parts.head = parts.arms = false;

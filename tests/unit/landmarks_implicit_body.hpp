@@ -32,12 +32,18 @@ inline double melt(double a, double b) {
   return std::min(a, b) - h * h * k / 4;
 }
 
+/// Metres: of breasts that hang.
+inline constexpr double kHangingFold = 1.175;
+
 struct Parts {
   bool head = true, arms = true, right_arm = true;
   bool arms_out = false;         ///< level, to the sides
   double left_breast_lower = 0;  ///< metres
   double web_below_crotch = 0;   ///< metres of a thin skin between the thighs, as a scan's hole filling makes
-  double belly = 0;              ///< metres by which a round belly reaches further forward than the breasts
+  bool hand_beside_thigh = false;  ///< a left hand 0.1 m away from the thigh
+  bool breasts_hang = false;       ///< 60 mm below the fold, clear of the chest
+  double web_below_fold = 0;       ///< metres of a thin skin from such a breast to the chest
+  double belly = 0;                ///< metres by which a round belly reaches further forward than the breasts
 };
 
 /// x forward, y left, z up, soles at 0. The breasts' foremost points are (0.155, +-0.085, 1.24), least girth
@@ -53,6 +59,11 @@ inline double person(const Eigen::Vector3d& p, const Parts& parts) {
     d = melt(d, capsule(p, {-0.03, side * 0.10, 0.04}, {0.14, side * 0.11, 0.03}, 0.04, 0.03));
     d = melt(d, ellipsoid(p, {-0.05, side * 0.07, 0.90}, {0.09, 0.08, 0.09}));
     d = melt(d, ellipsoid(p, {0.09, side * 0.085, 1.24 - lower}, {0.065, 0.06, 0.06}));
+    if (parts.breasts_hang) d = melt(d, ellipsoid(p, {0.135, side * 0.085, 1.19}, {0.040, 0.050, 0.085}));
+    if (parts.web_below_fold > 0) {
+      const Eigen::Vector3d q = (p - Eigen::Vector3d(0.10, side * 0.085, kHangingFold)).cwiseAbs();
+      d = std::min(d, std::max({q.x() - 0.04, q.y() - 0.010, q.z() - parts.web_below_fold}));
+    }
     d = melt(d, capsule(p, {0, side * 0.05, 1.40}, {0, side * 0.17, 1.36}, 0.05, 0.05));
     const double hand_y = parts.arms_out ? 0.70 : 0.42, hand_z = parts.arms_out ? 1.26 : 0.80;
     if (parts.arms && (side > 0 || parts.right_arm))
@@ -60,6 +71,7 @@ inline double person(const Eigen::Vector3d& p, const Parts& parts) {
   }
   d = melt(d, capsule(p, {0, 0, 1.38}, {0.02, 0, 1.50}, 0.055, 0.05));
   if (parts.head) d = melt(d, ellipsoid(p, {0.03, 0, 1.58}, {0.10, 0.08, 0.12}));
+  if (parts.hand_beside_thigh) d = std::min(d, capsule(p, {0, 0.27, 0.80}, {0, 0.27, 0.62}, 0.03, 0.03));
   if (parts.web_below_crotch > 0) {
     const Eigen::Vector3d q = (p - Eigen::Vector3d(0, 0, 0.76)).cwiseAbs();
     d = std::min(d, std::max({q.x() - 0.015, q.y() - 0.05, q.z() - parts.web_below_crotch}));

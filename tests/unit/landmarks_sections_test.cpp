@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "landmarks/arm_cut.hpp"
+#include "landmarks/hanging_breast.hpp"
 #include "landmarks/junction.hpp"
 #include "landmarks/outline.hpp"
 #include "landmarks/sliced_mesh.hpp"
@@ -80,6 +81,33 @@ TEST(ArmCut, FusedArmsComeOffAndTheTapeIsThePostsOwn) {
 TEST(ArmCut, AnOutlineWithoutArmsStaysAsItIs) {
   const landmarks::Outline outline = landmarks::outline_of(ellipse(0.10, 0.15));
   EXPECT_EQ(landmarks::without_arms(outline, 1.65).points, outline.points);
+}
+
+// The same post with a breast 80 mm broad before its left side, joined to it by skin 20 mm broad.
+double post_with_breast(const Eigen::Vector3d& p) {
+  const double post = test::ellipsoid({p.x(), p.y(), 0}, {0, 0, 0}, {0.10, 0.14, 1}) * 0.1;
+  const double breast = std::hypot(p.x() - 0.14, p.y() - 0.06) - 0.04;
+  const double skin = std::max({std::abs(p.y() - 0.06) - 0.010, p.x() - 0.14, 0.05 - p.x()});
+  return std::max({std::min({post, breast, skin}), -p.z(), p.z() - 0.2});
+}
+
+TEST(HangingBreast, ComesOffAndTheTapeIsThePostsOwn) {
+  const landmarks::SlicedMesh sliced(
+      test::surface_of(post_with_breast, {-0.15, -0.2, -0.02}, {0.22, 0.2, 0.22}, 0.005));
+  const std::vector<landmarks::Outline> outlines = sliced.outlines_at(0.1);
+  ASSERT_EQ(outlines.size(), 1u);
+  const std::array<Eigen::Vector3d, 2> tips{Eigen::Vector3d(0.18, 0.06, 0.15),
+                                            Eigen::Vector3d(0.10, -0.06, 0.15)};
+  const landmarks::Outline post = landmarks::without_hanging_breasts(outlines.front(), tips, 1.65);
+  // What is left of the 20 mm bridge stands out by up to 5 mm on a grid of 5 mm.
+  EXPECT_NEAR(landmarks::tape_length({post}), ellipse_perimeter(0.10, 0.14), 0.010);
+  EXPECT_GT(landmarks::tape_length(outlines), ellipse_perimeter(0.10, 0.14) + 0.05);
+}
+
+TEST(HangingBreast, ASectionWithoutALobeStaysAsItIs) {
+  const landmarks::Outline outline = landmarks::outline_of(ellipse(0.10, 0.15));
+  const std::array<Eigen::Vector3d, 2> tips{Eigen::Vector3d(0.10, 0.08, 1), Eigen::Vector3d(0.10, -0.08, 1)};
+  EXPECT_EQ(landmarks::without_hanging_breasts(outline, tips, 1.65).points, outline.points);
 }
 
 TEST(Junction, IsWhereTheLimbIsJoinedOverItsDepthNotWhereSkinFillsTheGap) {
