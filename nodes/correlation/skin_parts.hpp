@@ -27,7 +27,7 @@ void check(const SimulatedBody& body);
 /// alike, and are not compared.
 enum class SkinPart : char { covered, surroundings, still, mobile };
 
-inline constexpr double kUnderControl = 0.03;  ///< m; a control mesh's chords lie up to 20 mm under a breast
+inline constexpr double kUnderControl = 0.03;  ///< m; between its nodes a control mesh lies below the skin
 inline constexpr double kSurroundings = 0.04;  ///< m; t-FFD moves nothing there, but tissue and seams do
 
 /// One a vertex. The trunk reaches from the thighs, a seventh of the crotch's height below it, to the

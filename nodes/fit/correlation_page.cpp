@@ -82,6 +82,7 @@ struct Rows {
 
 void add_rows(const std::vector<Difference>& differences, const std::string& kind, Rows& rows) {
   for (const Difference& d : differences) {
+    if (kind == "height" && (d.name == "bust" || d.name == "hip")) continue;  // as bust point and buttock
     const std::string name = html_escaped(words_of(d.name, kind));
     const bool unsure = d.confidence < kUnsure;
     rows.table += fmt::format(
@@ -93,12 +94,19 @@ void add_rows(const std::vector<Difference>& differences, const std::string& kin
   }
 }
 
+// With a sign, and none where nothing is seen of it.
+std::string signed_millimetres(double metres) {
+  const double tenths = std::round(1e4 * metres);
+  return tenths == 0 ? "0.0" : fmt::format("{:+.1f}", tenths / 10);
+}
+
 std::string distance_row(const std::string& name, const correlation::Summary& s) {
   return fmt::format(
-      "<tr><td>{}</td><td>{:+.1f}</td><td>{:+.1f}</td><td>{:.1f}</td><td>{:.1f}</td><td>{:.1f}</"
+      "<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.1f}</td><td>{:.1f}</td><td>{:.1f}</"
       "td><td>{:.0f} "
       "%</td></tr>\n",
-      name, 1e3 * s.mean, 1e3 * s.median, 1e3 * s.mean_size, 1e3 * s.rms, 1e3 * s.p95, 100 * s.compared);
+      name, signed_millimetres(s.mean), signed_millimetres(s.median), 1e3 * s.mean_size, 1e3 * s.rms,
+      1e3 * s.p95, 100 * s.compared);
 }
 
 std::string lines_of(const FittedFolder& fitted) {
@@ -127,9 +135,9 @@ std::string correlation_page(const Correlated& correlated, const std::vector<Pag
       kPage,
       fmt::arg("summary",
                fmt::format("Under the garment the real body lies <b>{:.1f} mm</b> from the simulated "
-                           "one on average ({:+.1f} mm with its sign); where the garment leaves "
+                           "one on average ({} mm with its sign); where the garment leaves "
                            "the skin alone, {:.1f} mm.",
-                           1e3 * covered.mean_size, 1e3 * covered.mean, 1e3 * still.mean_size)),
+                           1e3 * covered.mean_size, signed_millimetres(covered.mean), 1e3 * still.mean_size)),
       fmt::arg("lines", lines_of(correlated.fitted)), fmt::arg("thickness", 1e3 * correlated.thickness),
       fmt::arg("distances", distance_row("covered skin", covered) + distance_row("still skin", still)),
       fmt::arg("pictures", drawn), fmt::arg("rows", rows.table), fmt::arg("notes", rows.notes),

@@ -19,12 +19,18 @@ std::vector<inspect::Colour> plain_colours(const geometry::TriangleMesh& mesh,
 
 }  // namespace
 
+std::vector<inspect::Colour> lit_skin(const geometry::TriangleMesh& mesh,
+                                      const std::vector<inspect::Colour>& colours,
+                                      const Eigen::Isometry3d& body_from_scan) {
+  const Eigen::Vector3d light =
+      -Eigen::Vector3d(0.7, 0.8, 0.8).normalized();  // the way it shines, body frame
+  return inspect::lit(mesh, colours, body_from_scan.linear().transpose() * light);
+}
+
 std::vector<inspect::Colour> skin_colours(const geometry::TriangleMesh& mesh,
                                           const std::vector<double>& distortion,
                                           const Eigen::Isometry3d& body_from_scan) {
-  const Eigen::Vector3d light =
-      -Eigen::Vector3d(0.7, 0.8, 0.8).normalized();  // the way it shines, body frame
-  return inspect::lit(mesh, plain_colours(mesh, distortion), body_from_scan.linear().transpose() * light);
+  return lit_skin(mesh, plain_colours(mesh, distortion), body_from_scan);
 }
 
 sensor_msgs::Image::ConstPtr front_image(const std_msgs::Header& header, const geometry::TriangleMesh& mesh,

@@ -23,8 +23,13 @@ class Display {
   KeptPublisher<sensor_msgs::Image> image;
 };
 
-/// Neutral skin, or skin coloured by distortion, in the light that falls on the body from the front, above
-/// and her left. `distortion` is empty or has one value a vertex.
+/// Colours in the light that falls on the body from the front, above and her left. One a vertex.
+std::vector<inspect::Colour> lit_skin(const geometry::TriangleMesh& mesh,
+                                      const std::vector<inspect::Colour>& colours,
+                                      const Eigen::Isometry3d& body_from_scan);
+
+/// Neutral skin, or skin coloured by distortion, in the same light. `distortion` is empty or has one value a
+/// vertex.
 std::vector<inspect::Colour> skin_colours(const geometry::TriangleMesh& mesh,
                                           const std::vector<double>& distortion,
                                           const Eigen::Isometry3d& body_from_scan);

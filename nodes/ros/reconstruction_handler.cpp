@@ -20,13 +20,18 @@ Hole to_message(const reconstruction::Hole& hole) {
 
 }  // namespace
 
-ReconstructionHandler::ReconstructionHandler(Parameters parameters) {
-  reconstruction::Options& options = options_;
+reconstruction::Options reconstruction_options(Parameters& parameters) {
+  reconstruction::Options options;
   options.body_triangles = parameters.integer("body_triangles", options.body_triangles, 1000, 2000000);
   options.poisson_depth = parameters.integer("poisson_depth", options.poisson_depth, 5, 10);
   options.min_points = parameters.integer("min_points", options.min_points, 100, 10000000);
   options.max_points = parameters.integer("max_points", options.max_points, 100, 100000000);
   options.support_distance = parameters.number("support_distance", options.support_distance, 0.001, 0.1);
+  return options;
+}
+
+ReconstructionHandler::ReconstructionHandler(Parameters parameters)
+    : options_(reconstruction_options(parameters)) {
   parameters.check_all_known();
 }
 

@@ -13,6 +13,9 @@
 
 namespace tensegric_fit::node {
 
+/// Options of the reconstruction by their names. \throw Refusal bad_option
+reconstruction::Options reconstruction_options(Parameters& parameters);
+
 class ReconstructionHandler {
  public:
   /// \throw Refusal bad_option

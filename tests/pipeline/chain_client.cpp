@@ -56,7 +56,7 @@ ChainClient::ChainClient() : scans_(node_.advertise<sensor_msgs::PointCloud2>("s
 
 bool ChainClient::ready() {
   return wait_for([this] {
-    bool complete = scans_.getNumSubscribers() != 0 && diagnostics.size() == 5;
+    bool complete = scans_.getNumSubscribers() != 0 && diagnostics.size() >= 5;
     for (const ros::Subscriber& subscriber : subscribers_)
       complete = complete && subscriber.getNumPublishers() != 0;
     return complete;

@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kLaunch = fs::path(TENSEGRIC_FIT_SOURCE_DIR) / "launch";
-const std::set<std::string> kStages = {"assembler",    "reconstruction", "landmarks",
-                                       "control_mesh", "tensegric",      "tffd"};
+const std::set<std::string> kStages = {"assembler", "reconstruction", "landmarks",  "control_mesh",
+                                       "tensegric", "tffd",           "correlation"};
 
 std::vector<fs::path> shipped(const std::string& folder) {
   std::vector<fs::path> files;

@@ -1,0 +1,96 @@
+/// body/mesh + body/landmarks + control/mesh + body/deformed + worn/points -> worn/correlation
+#include "inspect/correlation_pictures.hpp"
+#include "inspect/markers.hpp"
+#include "ros/correlation_handler.hpp"
+#include "ros/display.hpp"
+#include "ros/run_node.hpp"
+#include "ros/stage.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+class CorrelationNode {
+ public:
+  CorrelationNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
+      : handler_(Parameters(private_node)),
+        correlation_(node.advertise<Correlation>("worn/correlation", 1, true)),
+        display_(private_node),
+        stage_("correlation", node) {
+    subscribers_ = {node.subscribe("body/mesh", 2, &CorrelationNode::on_body, this),
+                    node.subscribe("body/landmarks", 2, &CorrelationNode::on<Landmarks>, this),
+                    node.subscribe("control/mesh", 2, &CorrelationNode::on<ControlMesh>, this),
+                    node.subscribe("body/deformed", 8, &CorrelationNode::on<DeformedMesh>, this),
+                    node.subscribe("worn/points", 2, &CorrelationNode::on_worn, this)};
+  }
+
+ private:
+  void on_body(const TriangleMesh::ConstPtr& body) {
+    stage_.begin(body->scan_id);
+    on(body);
+  }
+
+  template <typename Message>
+  void on(const boost::shared_ptr<const Message>& message) {
+    post(handler_.add(message));
+  }
+
+  void on_worn(const sensor_msgs::PointCloud2::ConstPtr& worn) {
+    const ScanTag tag = tag_of(*worn);
+    try {
+      post(handler_.add(worn, tag));
+    } catch (const geometry::Refusal& refusal) {
+      stage_.drop(tag.scan_id, refusal);
+    }
+  }
+
+  void post(const std::optional<CorrelationHandler::Input>& input) {
+    if (!input) return;
+    stage_.post(handler_.scan_id(), [this, input = *input]() -> Stage::Result {
+      const auto output = std::make_shared<const CorrelationHandler::Output>(handler_.handle(input));
+      return {[this, output] {
+                correlation_.publish(output->correlation);
+                show(output);
+              },
+              output->facts};
+    });
+  }
+
+  void show(const std::shared_ptr<const CorrelationHandler::Output>& output) {
+    const std_msgs::Header header = output->correlation->header;
+    const auto values = [output] {
+      const Correlation& correlation = *output->correlation;
+      return std::pair{std::vector<double>(correlation.distance.begin(), correlation.distance.end()),
+                       std::vector<char>(correlation.compared.begin(), correlation.compared.end())};
+    };
+    const auto colours = [values] {
+      const auto [distance, compared] = values();
+      return inspect::distance_colours(distance, compared);
+    };
+    display_.markers.offer([=] {
+      return inspect::Markers(header)
+          .body(*output->simulated, lit_skin(*output->simulated, colours(), output->body_from_scan))
+          .share();
+    });
+    display_.polygon_mesh.offer([=] { return inspect::polygon_mesh(header, *output->simulated, colours()); });
+    display_.image.offer([=] {
+      const auto [distance, compared] = values();
+      return inspect::image(
+          header, inspect::distance_picture({*output->simulated, *output->before, *output->worn, distance,
+                                             compared, output->body_from_scan,
+                                             inspect::parts_of(output->control, output->body_from_scan)}));
+    });
+  }
+
+  CorrelationHandler handler_;
+  ros::Publisher correlation_;
+  Display display_;
+  std::vector<ros::Subscriber> subscribers_;
+  Stage stage_;  // last: its worker uses all of the above
+};
+
+}  // namespace
+}  // namespace tensegric_fit::node
+
+int main(int argc, char** argv) {
+  return tensegric_fit::node::run_node<tensegric_fit::node::CorrelationNode>(argc, argv, "correlation");
+}
