@@ -136,7 +136,7 @@ void check_same(const Likeness& likeness) {
     throw Refusal(
         refusal::kCoatOn,
         fmt::format("underbust and waist girths are larger by {:.0f} mm and more, while the lower legs "
-                    "match: a coat, or other thick clothes",
+                    "match: a coat, other thick clothes, or a body that has grown",
                     1e3 * likeness.growth));
   for (const auto& [name, residual] : {std::pair{"chest", likeness.chest}, {"pelvis", likeness.pelvis}}) {
     if (!residual || *residual <= kSamePiece) continue;
