@@ -24,6 +24,7 @@ PICTURES = [
 
 
 def main(scan, pictures):
+    os.makedirs(pictures, exist_ok=True)
     with open(os.path.join(LAUNCH, "rviz", "inspect.rviz")) as file:
         config = file.read()
     with tempfile.TemporaryDirectory() as out, Session(out) as session:
