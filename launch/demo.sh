@@ -11,7 +11,9 @@ demo=$root/build/demo
 echo "report:   $demo/fit/report.json"
 echo "pictures: $demo/fit/front.png, side.png, distortion.png"
 
-if [ -n "${DISPLAY:-}" ] && [ -t 1 ]; then
+if [ -z "${DISPLAY:-}" ] || [ ! -t 1 ]; then
+  echo "rviz is not opened: it needs a display, and this output on a terminal"
+else
   echo "rviz: close its window or press Ctrl-C to end"
   set +u
   # shellcheck disable=SC1091

@@ -1,6 +1,7 @@
 #include "geometry/moved_skin.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <string>
@@ -115,6 +116,10 @@ std::vector<Vector3d> tape_after(const MovedSkin& skin, const std::vector<Vector
   }
   if (section.size() < 3) return {};
   return tape(section, before.normal);
+}
+
+double ChangedMeasure::change() const {
+  return (std::round(1e3 * *after) - std::round(1e3 * before.metres)) / 1e3;
 }
 
 std::vector<ChangedMeasure> girths_after(const BodyMeasures& measures, const MovedSkin& skin) {

@@ -29,6 +29,8 @@ std::vector<Eigen::Vector3d> tape_after(const MovedSkin& skin, const std::vector
 struct ChangedMeasure {
   Measure before;
   std::optional<double> after;
+  /// m, as somebody finds it who subtracts the two where they are shown to the millimetre. \pre after
+  double change() const;
 };
 
 /// Each girth at the plane at which it was measured; those whose tape was not drawn have none after.

@@ -19,7 +19,7 @@ namespace {
 // PCL allocates what a header promises; a header that promises more than the file can hold is broken.
 void check_header(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Refusal(refusal::kBrokenFile, path + ": cannot be read");
+  if (!file) throw Refusal(refusal::kBrokenFile, path + ": is not there, or cannot be read");
   std::string line;
   if (!std::getline(file, line) || line.compare(0, 3, "ply") != 0)
     throw Refusal(refusal::kBrokenFile, path + ": is not a PLY file");

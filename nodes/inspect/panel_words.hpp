@@ -18,7 +18,8 @@ inline constexpr char kGarmentHelp[] = "A garment's name, several joined by + (B
 
 // How the pipeline stands.
 inline constexpr char kPipelineNotRunning[] =
-    "The fitting pipeline is not running. Start it: roslaunch tensegric_fit pipeline.launch",
+    "The fitting pipeline is not running. Start it: roslaunch tensegric_fit pipeline.launch. If it runs in a "
+    "namespace: ROS_NAMESPACE=NAME roslaunch tensegric_fit inspect.launch",
                       kReady[] = "Ready.", kWaitsForScan[] = "Waiting for a scan.";
 std::string silent(const std::string& stage);
 std::string stage_refused(const std::string& stage, const std::string& message);

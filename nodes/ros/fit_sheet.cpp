@@ -82,7 +82,7 @@ std::string rows_of(const std::string& kind, const std::vector<ChangedMeasure>& 
                         html_escaped(words_of(measure.before.name, kind)),
                         measure.before.confidence < kUnsure ? "*" : "", centimetres(before),
                         measure.after ? centimetres(*measure.after) : "",
-                        measure.after ? change(*measure.after - before) : "");
+                        measure.after ? change(measure.change()) : "");
   }
   return rows;
 }

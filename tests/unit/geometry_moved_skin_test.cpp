@@ -63,6 +63,13 @@ class MovedSkinTest : public testing::Test {
   BodyMeasures measures_;
 };
 
+TEST(ChangedMeasure, ChangesByWhatIsReadOffTheTwo) {
+  ChangedMeasure girth;
+  girth.before.metres = 0.91244;  // shown as 91.2
+  girth.after = 0.86860;          // shown as 86.9; -4.38 by itself
+  EXPECT_NEAR(girth.change(), -0.043, 1e-12);
+}
+
 TEST_F(MovedSkinTest, SkinThatStaysChangesNothing) {
   const std::vector<Vector3d> after = mesh_.vertices;
   EXPECT_EQ(girth(after), measures_.girths[0].metres);

@@ -61,7 +61,7 @@ void FitPanel::onInitialize() {
   client_->on_worn = [this](bool done, const std::string& words) { take_answer(done, words); };
   client_->on_exported = [this](bool done, const std::string& words) {
     export_->setEnabled(true);
-    answer(done ? words : words::not_exported(words));
+    answer(done ? words : words::not_exported(words), done);
   };
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, [this] {
@@ -270,9 +270,10 @@ void FitPanel::show_girths() {
   tightness_->setVisible(!words.empty());
 }
 
-void FitPanel::answer(const std::string& words) {
+void FitPanel::answer(const std::string& words, bool done) {
   if (answer_->text() == text(words)) return;
   answer_->setText(text(words));
+  answer_->setStyleSheet(done ? "" : "color: #8a4b00");
   if (!words.empty()) ROS_INFO("fit panel: %s", words.c_str());
 }
 

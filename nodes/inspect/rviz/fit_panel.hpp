@@ -76,7 +76,7 @@ class FitPanel : public rviz::Panel {
   void show_lines();
   void show_girths();
   void show_state();
-  void answer(const std::string& words);  // to the clerk, and to the log
+  void answer(const std::string& words, bool done = false);  // to the clerk, and to the log
 
   using Clock = std::chrono::steady_clock;
 

@@ -67,7 +67,7 @@ FitPanel::FitPanel(QWidget* parent) : rviz::Panel(parent) {
   layout->addWidget(table_ = new GirthTable, 1);
   volumes_ = sentence(layout);
   build_export(layout);
-  answer_ = sentence(layout, "color: #8a4b00");
+  answer_ = sentence(layout);
   build_lines();
 
   auto* all = new QVBoxLayout(this);

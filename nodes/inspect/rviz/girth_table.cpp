@@ -65,7 +65,7 @@ void GirthTable::show_girths(Girths girths) {
     set(row, 0, spoken(girth.before.name));
     set(row, 1, words::centimetres(girth.before.metres));
     set(row, 2, girth.after ? words::centimetres(*girth.after) : words::kNoSize);
-    set(row, 3, girth.after ? words::change(*girth.after - girth.before.metres) : words::kNoSize);
+    set(row, 3, girth.after ? words::change(girth.change()) : words::kNoSize);
   }
 }
 
