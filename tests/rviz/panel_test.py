@@ -15,7 +15,7 @@ import sys
 import time
 
 sys.dont_write_bytecode = True  # not into the sources
-from session import HERE, LAUNCH, NotHere, Session, wait_for
+from session import HERE, LAUNCH, Session, run_test, wait_for
 
 LEAST, MOST = 0.5, 1.2  # ratios that the panel's sliders end at
 
@@ -233,27 +233,16 @@ SCENES = (sliders_at_their_ends_and_nonsense_typed, a_garment_file_spoilt_while_
 
 
 def main(scan, out):
-    try:
-        with Shop(out) as shop:
-            try:
-                shop.open(scan)
-                for scene in SCENES:
-                    shop.wear("B1")
-                    shop.said.clear()
-                    scene(shop)
-                    assert shop.rviz.poll() is None, "rviz has ended in: " + scene.__name__
-                    print("passed: " + scene.__name__.replace("_", " "))
-            except AssertionError:
-                shop.picture(os.path.join(out, "failed.png"))
-                raise
-    except NotHere as missing:
-        print("skipped: %s" % missing)
-        return 77
-    except AssertionError as failure:
-        print("failed: %s" % failure)
-        return 1
-    print("passed")
-    return 0
+    def play(shop):
+        shop.open(scan)
+        for scene in SCENES:
+            shop.wear("B1")
+            shop.said.clear()
+            scene(shop)
+            assert shop.rviz.poll() is None, "rviz has ended in: " + scene.__name__
+            print("passed: " + scene.__name__.replace("_", " "))
+
+    return run_test(lambda: Shop(out), play)
 
 
 if __name__ == "__main__":

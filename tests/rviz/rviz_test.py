@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib import image
 
 sys.dont_write_bytecode = True  # not into the sources
-from session import HERE, LAUNCH, NotHere, Session, wait_for
+from session import HERE, LAUNCH, Session, run_test, wait_for
 
 BACKGROUND = (238, 240, 243)  # of launch/rviz/inspect.rviz
 EYE = {"distance": 1.1, "yaw": 0.45, "pitch": 0.1, "focus": (0.05, 0.0, 1.18), "field": math.pi / 4}  # of the same file
@@ -79,23 +79,12 @@ def compare(landmarks, before, after):
 
 
 def main(scan, out):
-    try:
-        with Session(out) as session:
-            try:
-                drive(session, scan)
-                compare(session.message["body/landmarks"], *(pixels_of(os.path.join(out, name + ".png"))
-                                                             for name in ("before", "after")))
-            except AssertionError:
-                session.picture(os.path.join(out, "failed.png"))
-                raise
-    except NotHere as missing:
-        print("skipped: %s" % missing)
-        return 77
-    except AssertionError as failure:
-        print("failed: %s" % failure)
-        return 1
-    print("passed")
-    return 0
+    def drive_and_compare(session):
+        drive(session, scan)
+        compare(session.message["body/landmarks"], *(pixels_of(os.path.join(out, name + ".png"))
+                                                     for name in ("before", "after")))
+
+    return run_test(lambda: Session(out), drive_and_compare)
 
 
 if __name__ == "__main__":

@@ -31,6 +31,25 @@ def wait_for(what, condition, seconds=PATIENCE):
     raise AssertionError("in %d s there was no %s" % (seconds, what))
 
 
+def run_test(session, drive):
+    """Exit code for ctest, after a word: 0; 1 with a picture of where it failed; 77, skipped, where something is missing."""
+    try:
+        with session() as running:
+            try:
+                drive(running)
+            except AssertionError:
+                running.picture(os.path.join(running.out, "failed.png"))
+                raise
+    except NotHere as missing:
+        print("skipped: %s" % missing)
+        return 77
+    except AssertionError as failure:
+        print("failed: %s" % failure)
+        return 1
+    print("passed")
+    return 0
+
+
 class Session:
     """Context manager. `out` gets the logs."""
 
