@@ -105,8 +105,12 @@ std::vector<Stroke> Overlays::edges(const BodyView& body, double blend) const {
 
 std::vector<Stroke> Overlays::lines(const BodyView& body, double blend) const {
   const auto nodes = outer(body, blend);
-  return nodes && is_of(fit_, body) ? line_strokes(control_->value, *nodes, fit_->value.lines)
-                                    : std::vector<Stroke>{};
+  if (!nodes || !is_of(fit_, body)) return {};
+  std::vector<TenseLine> lines = fit_->value.lines;
+  for (TenseLine& line : lines)
+    if (line.course.size() == line.course_at_rest.size())
+      line.course = between(line.course_at_rest, line.course, blend);
+  return line_strokes(control_->value, *nodes, lines);
 }
 
 std::vector<Stroke> Overlays::members(const BodyView& body, double blend) const {

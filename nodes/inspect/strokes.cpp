@@ -8,6 +8,20 @@ namespace {
 constexpr double kLift = 0.003;  // metres
 constexpr Colour kEdge{60, 60, 60};
 
+// Points on the skin, lifted as the control node next to them is.
+std::vector<Eigen::Vector3d> lifted_course(const std::vector<Eigen::Vector3d>& course,
+                                           const std::vector<Eigen::Vector3d>& outer,
+                                           const std::vector<Eigen::Vector3d>& lifted_outer) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3d& point : course) {
+    std::size_t next = 0;
+    for (std::size_t i = 1; i < outer.size(); ++i)
+      if ((outer[i] - point).squaredNorm() < (outer[next] - point).squaredNorm()) next = i;
+    points.push_back(point + lifted_outer[next] - outer[next]);
+  }
+  return points;
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3d> lifted(const std::vector<Eigen::Vector3d>& outer,
@@ -33,15 +47,15 @@ std::vector<Stroke> line_strokes(const geometry::ControlMesh& control,
   const std::vector<Eigen::Vector3d> positions = lifted(outer, control.triangles);
   std::vector<Stroke> strokes;
   for (const TenseLine& line : lines) {
-    if (line.nodes.size() < 2) continue;
     Stroke stroke{{}, tension_colour(line.tension)};
+    if (line.nodes.empty() && !outer.empty()) stroke.points = lifted_course(line.course, outer, positions);
     for (const int node : line.nodes) {
       if (node < 0 || node >= static_cast<int>(positions.size()))
         throw geometry::Refusal(geometry::refusal::kBadMesh,
                                 "a garment line runs over nodes that are not there");
       stroke.points.push_back(positions[node]);
     }
-    strokes.push_back(std::move(stroke));
+    if (stroke.points.size() > 1) strokes.push_back(std::move(stroke));
   }
   return strokes;
 }

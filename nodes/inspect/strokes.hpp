@@ -15,10 +15,12 @@ struct Stroke {
   Colour colour;
 };
 
-/// A garment line over outer nodes of a control mesh, with the force along it.
+/// A garment line with the force along it.
 struct TenseLine {
-  std::vector<int> nodes;
-  double tension;  ///< pseudo force
+  std::vector<int> nodes;  ///< outer nodes of the control mesh that it runs over
+  double tension;          ///< pseudo force
+  /// Where it runs, for a line that lies on the skin and not over nodes; m, one a point.
+  std::vector<Eigen::Vector3d> course_at_rest{}, course{};
 };
 
 /// The nodes a little above the skin: chords between them would sink into it.

@@ -59,6 +59,21 @@ TensionLaw law_in(const GarmentLine& line) {
   return law;
 }
 
+// Of a line that is given by points.
+std::vector<Eigen::Vector3d> course_in(const GarmentLine& line) {
+  if (line.points.empty() && (line.width != 0 || line.smooth != 0))
+    refuse(line, "width and smooth are for lines that are given by points");
+  if (line.points.empty()) return {};
+  if (!line.through.empty()) refuse(line, "it has both `through` and `points`");
+  if (line.points.size() % 3 != 0 || line.points.size() < 6)
+    refuse(line, "it needs x y z of two points or more");
+  for (const double value : {line.width, line.smooth})
+    if (!(value >= 0 && value <= tensegric::kWidestBand))
+      refuse(line, fmt::format("width {:g} and smooth {:g} must be in [0, {:g}] metres", line.width,
+                               line.smooth, tensegric::kWidestBand));
+  return points_in(line.points);
+}
+
 tensegric::GarmentLine line_in(const GarmentLine& message) {
   tensegric::GarmentLine line;
   line.name = message.name;
@@ -72,6 +87,9 @@ tensegric::GarmentLine line_in(const GarmentLine& message) {
   line.tension_limit = message.tension_limit == 0 ? kNoLimit : message.tension_limit;
   line.through = message.through;
   line.taut = message.taut;
+  line.points = course_in(message);
+  line.width = message.width;
+  line.smooth = message.smooth;
   return line;
 }
 
@@ -104,6 +122,9 @@ GarmentLine line_of(const tensegric::GarmentLine& line) {
   message.tension_limit = limit_of(line.tension_limit);
   message.through = line.through;
   message.taut = line.taut;
+  message.points = flat<double>(line.points);
+  message.width = line.width;
+  message.smooth = line.smooth;
   return message;
 }
 
@@ -159,6 +180,8 @@ FitState to_message(const FitName& name, const tensegric::Solution& solution, do
     LineResult result;
     result.name = line.name;
     result.nodes.assign(line.nodes.begin(), line.nodes.end());
+    result.course_at_rest = flat<double>(line.course_at_rest);
+    result.course = flat<double>(line.course);
     result.initial = line.initial;
     result.neutral = line.neutral;
     result.final = line.final;

@@ -2,12 +2,12 @@
 
 #include "ros/body_messages.hpp"
 #include "tensegric/problem.hpp"
-#include "tffd/body_volume.hpp"
 
 namespace tensegric_fit::node {
 
 void GarmentFitter::check(const tensegric::Garment& garment) const {
-  if (const auto known = model()) tensegric::lay_garment(*known, garment, options_.solver);
+  if (const auto known = wearer())
+    tensegric::lay_garment(known->model, garment, options_.solver, {}, known->body.lay(garment));
 }
 
 tensegric::SolverName GarmentFitter::solver_of(const GarmentRequest& request) const {
@@ -18,19 +18,20 @@ std::optional<tensegric::Solution> GarmentFitter::fit(const FittingScene& scene,
                                                       const GarmentRequest& request, int rest,
                                                       const tensegric::Progress& progress) {
   if (scene.control != scene_.control) take(scene);
+  const auto now = wearer();
   tensegric::SolverOptions options = options_.solver;
   options.bones = bones_;
   options.solver = solver_of(request);
   const bool warm = last_ && last_rest_ == rest && last_->status == tensegric::Status::converged;
   bool stopped = false;
   tensegric::Solution solution = tensegric::solve(
-      *model(), request.garment, options, warm ? &*last_ : nullptr,
+      now->model, request.garment, options, warm ? &*last_ : nullptr,
       [&](const tensegric::Iterate& iterate, const std::vector<Eigen::Vector3d>& outer,
           const std::vector<Eigen::Vector3d>& inner) {
         stopped = !progress(iterate, outer, inner);
         return !stopped;
       },
-      body_volumes_);
+      body_volumes_, now->body.lay(request.garment));
   if (stopped) return std::nullopt;
   last_ = std::move(solution);
   last_rest_ = rest;
@@ -38,28 +39,27 @@ std::optional<tensegric::Solution> GarmentFitter::fit(const FittingScene& scene,
 }
 
 std::shared_ptr<const tensegric::Model> GarmentFitter::model() const {
+  const auto known = wearer();
+  return {known, known ? &known->model : nullptr};
+}
+
+std::shared_ptr<const GarmentFitter::Wearer> GarmentFitter::wearer() const {
   std::lock_guard<std::mutex> lock(mutex_);
-  return model_;
+  return wearer_;
 }
 
 void GarmentFitter::take(const FittingScene& scene) {
-  auto model = std::make_shared<const tensegric::Model>(
-      tensegric::build_model(control_in(*scene.control), options_.model));
+  const geometry::ControlMesh control = control_in(*scene.control);
   bones_ = scene.landmarks ? geometry::BoneFrames(measures_in(*scene.landmarks), options_.posture)
                            : geometry::BoneFrames();
-  body_volumes_.clear();
-  if (scene.body) {
-    const geometry::TriangleMesh body = mesh_in(*scene.body);
-    const tffd::Binding binding = tffd::Binding(body, model->control, {}).posed(bones_);
-    const auto carried = tffd::carried_triangles(binding, body.triangles, model->control);
-    for (std::size_t r = 0; r < carried.size(); ++r)
-      body_volumes_.push_back(tffd::BodyVolume(
-          binding, carried[r], geometry::region_apex(model->control, model->control.regions[r])));
-  }
+  const std::shared_ptr<const Wearer> wearer(new Wearer{tensegric::build_model(control, options_.model),
+                                                        BodyUnderGarment(scene.body, control, bones_)});
+  const bool keeps_body = options_.solver.volume == tensegric::KeptVolume::body;
+  body_volumes_ = keeps_body ? wearer->body.volumes() : std::vector<tensegric::VolumeFunction>();
   scene_ = scene;
   last_.reset();
   std::lock_guard<std::mutex> lock(mutex_);
-  model_ = std::move(model);
+  wearer_ = wearer;
 }
 
 }  // namespace tensegric_fit::node

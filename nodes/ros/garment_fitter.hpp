@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "geometry/posture.hpp"
+#include "ros/body_under_garment.hpp"
 #include "ros/fit_messages.hpp"
 #include "tensegric/model.hpp"
 #include "tensegric/solver.hpp"
@@ -20,7 +21,7 @@ namespace tensegric_fit::node {
 struct FittingScene {
   ControlMesh::ConstPtr control;
   Landmarks::ConstPtr landmarks;  ///< needed for a posture, else null
-  TriangleMesh::ConstPtr body;    ///< needed where the body's volume is kept, else null
+  TriangleMesh::ConstPtr body;
 };
 
 /// Field defaults are the parameters' defaults.
@@ -35,7 +36,7 @@ class GarmentFitter {
  public:
   explicit GarmentFitter(const FitterOptions& options) : options_(options) {}
 
-  /// Whether the garment can be laid on the newest model; any garment can where there is none yet. For any
+  /// Whether the garment can be laid on the newest body; any garment can where there is none yet. For any
   /// thread. \throw Refusal unknown_line, bad_garment
   void check(const tensegric::Garment& garment) const;
 
@@ -44,7 +45,7 @@ class GarmentFitter {
 
   /// For one thread. `rest` counts how often a start from rest was asked for: only a solution of the same
   /// count is started from, so that none of them is lost where a fit is left out or stopped. Nothing where
-  /// `progress` stopped it. \throw Refusal as build_model and solve
+  /// `progress` stopped it. \throw Refusal as build_model, BodyUnderGarment::lay and solve
   std::optional<tensegric::Solution> fit(const FittingScene& scene, const GarmentRequest& request, int rest,
                                          const tensegric::Progress& progress);
 
@@ -52,6 +53,11 @@ class GarmentFitter {
   std::shared_ptr<const tensegric::Model> model() const;
 
  private:
+  struct Wearer {
+    tensegric::Model model;
+    BodyUnderGarment body;
+  };
+  std::shared_ptr<const Wearer> wearer() const;
   void take(const FittingScene& scene);
 
   const FitterOptions options_;
@@ -62,7 +68,7 @@ class GarmentFitter {
   int last_rest_ = 0;  // of last_
 
   mutable std::mutex mutex_;
-  std::shared_ptr<const tensegric::Model> model_;
+  std::shared_ptr<const Wearer> wearer_;  // the newest
 };
 
 }  // namespace tensegric_fit::node

@@ -106,8 +106,7 @@ bool TensegricHandler::complete() const {
 }
 
 TensegricHandler::Input TensegricHandler::input() const {
-  const bool keeps_body = setup_.fitter.solver.volume == tensegric::KeptVolume::body;
-  return {{control_, needs_landmarks() ? landmarks_ : nullptr, keeps_body ? body_ : nullptr}, worn_, rests_};
+  return {{control_, needs_landmarks() ? landmarks_ : nullptr, body_}, worn_, rests_};
 }
 
 bool TensegricHandler::needs_landmarks() const {

@@ -113,7 +113,7 @@ class TensegricNode {
     display_.markers.offer([=] {
       std::vector<inspect::TenseLine> lines;
       for (const tensegric::LineResult& line : output->solution.lines)
-        lines.push_back({line.nodes, line.tension});
+        lines.push_back({line.nodes, line.tension, line.course_at_rest, line.course});
       return inspect::Markers(header)
           .control_mesh(output->model->control, output->solution.outer)
           .lines(output->model->control, output->solution.outer, lines)

@@ -208,6 +208,36 @@ TEST_F(PipelineTest, AGarmentFromTheTopicIsWornToo) {
   EXPECT_NEAR(ratio_of(*client_->fits.back(), "chest"), 0.98, 1e-4);
 }
 
+TEST_F(PipelineTest, ABandGivenByPointsLiesOnTheBody) {
+  client_->forget();
+  ASSERT_TRUE(set_garment(b1_at(0.97)).accepted);
+  ASSERT_TRUE(wait_for([] { return !client_->deformed.empty(); }));
+  SetGarment::Request own;
+  own.garment.name = "on this body";
+  own.garment.regions = {"bust"};
+  own.garment.lines.resize(1);
+  GarmentLine& band = own.garment.lines[0];
+  band.name = "band";
+  band.ratio = 0.96;
+  band.points = client_->fits.back()->lines.at(0).course_at_rest;
+  band.width = 0.03;
+  band.smooth = 0.02;
+  client_->forget();
+  const SetGarment::Response response = set_garment(own);
+  ASSERT_TRUE(response.accepted) << response.message;
+  ASSERT_TRUE(wait_for([] { return !client_->deformed.empty(); }));
+  const FitState& fit = *client_->fits.back();
+  EXPECT_EQ(fit.status, FitState::CONVERGED);
+  EXPECT_NEAR(ratio_of(fit, "band"), 0.96, 1e-6);
+  EXPECT_TRUE(fit.lines.at(0).nodes.empty());
+  EXPECT_GT(fit.lines.at(0).course.size(), band.points.size());  // it follows the skin between its points
+
+  for (double& value : band.points) value += 0.5;
+  const SetGarment::Response astray = set_garment(own);
+  EXPECT_FALSE(astray.accepted);
+  EXPECT_EQ(astray.code, "bad_garment");
+}
+
 TEST_F(PipelineTest, ARefusedGarmentLeavesTheOldOneOn) {
   client_->forget();
   SetGarment::Request request = b1_at(0.9);

@@ -78,6 +78,19 @@ TEST_F(OverlaysTest, LinesStayWhileAFitIsOnItsWay) {
   EXPECT_NEAR(overlays_.lines(body_, 1)[0].points[0].z(), 0, 0.01);  // where the nodes are now
 }
 
+TEST_F(OverlaysTest, ABandOnTheSkinGoesFromRestToWorn) {
+  const std::vector<Eigen::Vector3d> rest{{0.2, 0.1, 0}, {0.5, 0.1, 0}, {0.8, 0.1, 0}};
+  std::vector<Eigen::Vector3d> worn = rest;
+  for (Eigen::Vector3d& point : worn) point.z() += 1;
+  overlays_.take_fit("one", kCorners, {{{}, 1, rest, worn}});
+  for (const double blend : {0.0, 0.5, 1.0}) {
+    const std::vector<Stroke> lines = overlays_.lines(body_, blend);
+    ASSERT_EQ(lines.size(), 1u);
+    ASSERT_EQ(lines[0].points.size(), 3u);
+    EXPECT_NEAR(lines[0].points[1].z(), blend, 0.01);  // a little above the skin, to be seen
+  }
+}
+
 TEST_F(OverlaysTest, WhatDoesNotFitIsRefusedOrLeftOut) {
   EXPECT_THROW(overlays_.take_members("one", {kCorners, {0, 9}, {1}}), geometry::Refusal);
   EXPECT_THROW(overlays_.take_members("one", {kCorners, {0, -1}, {1}}), geometry::Refusal);

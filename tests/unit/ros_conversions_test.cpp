@@ -136,7 +136,7 @@ TEST(FitMessages, GarmentComesBackAsItWas) {
   GarmentRequest request;
   request.garment.name = "mine";
   request.garment.regions = {"bust"};
-  tensegric::GarmentLine rigid, elastic, table;
+  tensegric::GarmentLine rigid, elastic, table, laid;
   rigid.name = "chest";
   rigid.ratio = 0.9;
   rigid.through = {"side_L", "sternum", "side_R"};
@@ -148,7 +148,11 @@ TEST(FitMessages, GarmentComesBackAsItWas) {
   table.name = "cradle";
   table.law.kind = tensegric::TensionLaw::Kind::table;
   table.law.table = {{1, 0}, {1.2, 3}};
-  request.garment.lines = {rigid, elastic, table};
+  laid.name = "band";
+  laid.points = {{0.1, 0, 1.2}, {0, -0.1, 1.2}, {-0.1, 0, 1.2}};
+  laid.width = 0.03;
+  laid.smooth = 0.02;
+  request.garment.lines = {rigid, elastic, table, laid};
   request.solver = "relaxation";
 
   const GarmentRequest back = request_in(to_message(std_msgs::Header(), request));
@@ -156,8 +160,8 @@ TEST(FitMessages, GarmentComesBackAsItWas) {
   EXPECT_EQ(back.solver, "relaxation");
   EXPECT_EQ(back.garment.name, "mine");
   EXPECT_EQ(back.garment.regions, request.garment.regions);
-  ASSERT_EQ(back.garment.lines.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) {
+  ASSERT_EQ(back.garment.lines.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
     const auto &was = request.garment.lines[i], &is = back.garment.lines[i];
     EXPECT_EQ(is.name, was.name);
     EXPECT_EQ(is.ratio, was.ratio);
@@ -167,6 +171,9 @@ TEST(FitMessages, GarmentComesBackAsItWas) {
     EXPECT_EQ(is.tension_limit, was.tension_limit);
     EXPECT_EQ(is.through, was.through);
     EXPECT_EQ(is.taut, was.taut);
+    EXPECT_EQ(is.points, was.points);
+    EXPECT_EQ(is.width, was.width);
+    EXPECT_EQ(is.smooth, was.smooth);
   }
 }
 
@@ -203,6 +210,29 @@ TEST(FitMessages, ImpossibleGarmentsAreRefusedByName) {
   EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_option");
 }
 
+TEST(FitMessages, LinesByPointsFollowTheRulesOfGarmentFiles) {
+  Garment garment;
+  garment.lines.resize(1);
+  GarmentLine& line = garment.lines[0];
+  line.name = "band";
+  line.ratio = 0.9;
+  line.points = {0, 0, 1, 0.1, 0, 1};
+  line.width = 0.03;
+  EXPECT_EQ(request_in(garment).garment.lines.at(0).points.size(), 2u);
+  const auto refused = [&garment](const std::function<void(GarmentLine&)>& spoil) {
+    Garment bad = garment;
+    spoil(bad.lines[0]);
+    return code_of([&bad] { request_in(bad); });
+  };
+  EXPECT_EQ(refused([](GarmentLine& bad) { bad.points.pop_back(); }), "bad_garment");
+  EXPECT_EQ(refused([](GarmentLine& bad) { bad.points.resize(3); }), "bad_garment");  // one point
+  EXPECT_EQ(refused([](GarmentLine& bad) { bad.points[4] = std::nan(""); }), "non_finite");
+  EXPECT_EQ(refused([](GarmentLine& bad) { bad.through = {"side_L", "side_R"}; }), "bad_garment");
+  EXPECT_EQ(refused([](GarmentLine& bad) { bad.width = 5; }), "bad_garment");
+  EXPECT_EQ(refused([](GarmentLine& bad) { bad.smooth = -0.01; }), "bad_garment");
+  EXPECT_EQ(refused([](GarmentLine& bad) { bad.points.clear(); }), "bad_garment");  // a width of nothing
+}
+
 TEST(FitMessages, TablesFollowTheRulesOfGarmentFiles) {
   Garment garment;
   garment.lines.resize(1);
@@ -237,6 +267,8 @@ TEST(FitMessages, ResultsKeepTheirValues) {
   tensegric::LineResult line;
   line.name = "chest";
   line.nodes = {3, 1, 4};
+  line.course_at_rest = {{0, 0, 1}, {0, 0.5, 1}};
+  line.course = {{0, 0, 1}, {0, 0.45, 1}};
   line.initial = 0.5;
   line.neutral = line.final = 0.45;
   line.request = 0.9;
@@ -256,6 +288,8 @@ TEST(FitMessages, ResultsKeepTheirValues) {
   EXPECT_EQ(state.solver, "equilibrium");
   EXPECT_EQ(state.outer, (std::vector<double>{0.1, 0.2, 1.0 / 3}));
   EXPECT_EQ(state.lines.at(0).nodes, (std::vector<std::uint32_t>{3, 1, 4}));
+  EXPECT_EQ(state.lines.at(0).course_at_rest, (std::vector<double>{0, 0, 1, 0, 0.5, 1}));
+  EXPECT_EQ(state.lines.at(0).course, (std::vector<double>{0, 0, 1, 0, 0.45, 1}));
   EXPECT_DOUBLE_EQ(state.lines.at(0).ratio, 0.9);
   EXPECT_EQ(state.lines.at(0).law, GarmentLine::STIFFNESS);
   EXPECT_EQ(state.lines.at(0).stiffness, 4);

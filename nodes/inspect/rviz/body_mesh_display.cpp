@@ -126,7 +126,10 @@ void BodyMeshDisplay::take_control(const ControlMesh& message) {
 void BodyMeshDisplay::take_fit(const FitState& message) {
   std::vector<TenseLine> lines;
   for (const LineResult& line : message.lines)
-    lines.push_back({{line.nodes.begin(), line.nodes.end()}, line.tension});
+    lines.push_back({{line.nodes.begin(), line.nodes.end()},
+                     line.tension,
+                     node::points_in(line.course_at_rest),
+                     node::points_in(line.course)});
   overlays_.take_fit(message.scan_id, node::points_in(message.outer), std::move(lines));
 }
 

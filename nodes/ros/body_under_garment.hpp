@@ -1,0 +1,48 @@
+/// The body that a garment lies on, as far as the tensegric stage needs it: to lay lines that are given by
+/// points, and to keep the body's volume.
+#pragma once
+
+#include <tensegric_fit/TriangleMesh.h>
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "geometry/control_mesh.hpp"
+#include "geometry/fibre.hpp"
+#include "geometry/posture.hpp"
+#include "tensegric/garment.hpp"
+#include "tensegric/region_volume.hpp"
+#include "tffd/binding.hpp"
+
+namespace tensegric_fit::node {
+
+/// Bound to the control mesh (t-FFD) when it is first asked for something: most garments need none of it.
+/// For any thread.
+class BodyUnderGarment {
+ public:
+  BodyUnderGarment(TriangleMesh::ConstPtr body, const geometry::ControlMesh& control,
+                   const geometry::BoneFrames& bones)
+      : body_(std::move(body)), control_(control), bones_(bones) {}
+
+  /// The garment's lines that are given by points. \throw Refusal bad_garment: a point far from the skin
+  std::vector<geometry::LaidLine> lay(const tensegric::Garment& garment) const;
+
+  /// One a region of the control mesh.
+  std::vector<tensegric::VolumeFunction> volumes() const;
+
+ private:
+  struct Bound {
+    geometry::TriangleMesh mesh;
+    tffd::Binding binding;
+  };
+  const Bound& bound() const;
+
+  const TriangleMesh::ConstPtr body_;
+  const geometry::ControlMesh control_;
+  const geometry::BoneFrames bones_;
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<const Bound> bound_;
+};
+
+}  // namespace tensegric_fit::node
