@@ -1,21 +1,39 @@
 #include "ros/body_under_garment.hpp"
 
+#include <algorithm>
+
 #include "ros/body_messages.hpp"
 #include "tffd/body_volume.hpp"
-#include "tffd/lay_line.hpp"
 
 namespace tensegric_fit::node {
+namespace {
+
+bool same(const tffd::LineOnBody& a, const tffd::LineOnBody& b) {
+  return a.points == b.points && a.width == b.width && a.smooth == b.smooth && a.taut == b.taut;
+}
+
+}  // namespace
 
 std::vector<geometry::LaidLine> BodyUnderGarment::lay(const tensegric::Garment& garment) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
   std::vector<geometry::LaidLine> laid;
-  for (const tensegric::GarmentLine& line : garment.lines)
-    if (!line.points.empty())
-      laid.push_back({line.name, tffd::lay_line({line.points, line.width, line.smooth, line.taut},
-                                                bound().mesh, bound().binding)});
+  std::vector<Line> lines;
+  for (const tensegric::GarmentLine& line : garment.lines) {
+    if (line.points.empty()) continue;
+    const tffd::LineOnBody on_body{line.points, line.width, line.smooth, line.taut};
+    const auto known = std::find_if(lines_.begin(), lines_.end(),
+                                    [&on_body](const Line& one) { return same(one.on_body, on_body); });
+    lines.push_back(known != lines_.end()
+                        ? *known
+                        : Line{on_body, tffd::lay_line(on_body, bound().mesh, bound().binding)});
+    laid.push_back({line.name, lines.back().fibres});
+  }
+  lines_ = std::move(lines);
   return laid;
 }
 
 std::vector<tensegric::VolumeFunction> BodyUnderGarment::volumes() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
   const auto carried = tffd::carried_triangles(bound().binding, bound().mesh.triangles, control_);
   std::vector<tensegric::VolumeFunction> volumes;
   for (std::size_t r = 0; r < carried.size(); ++r)
@@ -25,11 +43,10 @@ std::vector<tensegric::VolumeFunction> BodyUnderGarment::volumes() const {
 }
 
 const BodyUnderGarment::Bound& BodyUnderGarment::bound() const {
-  std::call_once(once_, [this] {
-    geometry::TriangleMesh mesh = mesh_in(*body_);
-    tffd::Binding binding = tffd::Binding(mesh, control_, {}).posed(bones_);
-    bound_ = std::make_unique<const Bound>(Bound{std::move(mesh), std::move(binding)});
-  });
+  if (bound_) return *bound_;
+  geometry::TriangleMesh mesh = mesh_in(*body_);
+  tffd::Binding binding = tffd::Binding(mesh, control_, {}).posed(bones_);
+  bound_ = std::make_unique<const Bound>(Bound{std::move(mesh), std::move(binding)});
   return *bound_;
 }
 

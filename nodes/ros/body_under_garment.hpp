@@ -14,11 +14,12 @@
 #include "tensegric/garment.hpp"
 #include "tensegric/region_volume.hpp"
 #include "tffd/binding.hpp"
+#include "tffd/lay_line.hpp"
 
 namespace tensegric_fit::node {
 
 /// Bound to the control mesh (t-FFD) when it is first asked for something: most garments need none of it.
-/// For any thread.
+/// Lines stay laid while they are asked for: a change of ratio does not move them. For any thread.
 class BodyUnderGarment {
  public:
   BodyUnderGarment(TriangleMesh::ConstPtr body, const geometry::ControlMesh& control,
@@ -36,13 +37,18 @@ class BodyUnderGarment {
     geometry::TriangleMesh mesh;
     tffd::Binding binding;
   };
+  struct Line {
+    tffd::LineOnBody on_body;
+    std::vector<geometry::Fibre> fibres;
+  };
   const Bound& bound() const;
 
   const TriangleMesh::ConstPtr body_;
   const geometry::ControlMesh control_;
   const geometry::BoneFrames bones_;
-  mutable std::once_flag once_;
+  mutable std::mutex mutex_;
   mutable std::unique_ptr<const Bound> bound_;
+  mutable std::vector<Line> lines_;  // of the last garment
 };
 
 }  // namespace tensegric_fit::node
