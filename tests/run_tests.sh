@@ -3,4 +3,4 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 "$root/launch/build.sh" -DCATKIN_ENABLE_TESTING=ON
-ctest --test-dir "$root/build" --output-on-failure "$@"
+ctest --test-dir "$root/build" --output-on-failure -j2 "$@"  # two at a time: most of them wait for nodes

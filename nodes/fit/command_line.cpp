@@ -76,6 +76,10 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
          "Neutral length / length at rest: R for every line, or LINE=R; may be repeated, the last counts")
       ->needs(garment);
   app.add_option("--band", band, "rigid, or the stiffness of every line")->needs(garment);
+  app.add_option("--templates", line.templates,
+                 "Folder of control mesh templates, REGION.yaml, in place of the shipped")
+      ->needs(garment)
+      ->check(CLI::ExistingDirectory);
   app.add_option("--tissue", line.tissue, "What the tissue is like: a file as `calibrate` writes it")
       ->needs(garment)
       ->check(CLI::ExistingFile);

@@ -18,7 +18,7 @@ struct RatioRequest {
 };
 
 struct CommandLine {
-  std::string scan, mesh, garment, tissue, control, fixed, out = "fit_out";
+  std::string scan, mesh, garment, templates, tissue, control, fixed, out = "fit_out";
   std::vector<RatioRequest> ratios;
   std::optional<tensegric::TensionLaw> band;
   geometry::Posture posture;

@@ -107,9 +107,11 @@ class Run {
                      settings_, times_);
     }
     std::vector<control_mesh::Template> patterns;
+    const std::string folder =
+        line_.templates.empty() ? geometry::shipped_folder("templates") : line_.templates;
     for (const std::string& region : garment.regions)
-      patterns.push_back(control_mesh::load_template(geometry::yaml_file(
-          geometry::shipped_folder("templates"), region, geometry::refusal::kBadGarment)));
+      patterns.push_back(
+          control_mesh::load_template(geometry::yaml_file(folder, region, geometry::refusal::kBadGarment)));
     return prepare(body_, patterns, settings_, times_);
   }
 

@@ -165,6 +165,18 @@ TEST_F(FitProgram, ABandGivesWay) {
               1e-8);  // the law of the band, at the residual's tolerance
 }
 
+TEST_F(FitProgram, TakesControlMeshesOfOnesOwn) {
+  const std::string worn = "--mesh " + kScans +
+                           "/a/body.ply --garment B1 --ratio 0.95 --control-triangles 60 --templates " +
+                           folder_.string();
+  expect_refused(worn, "bad_garment");  // no template of the bust there
+  fs::copy_file(TENSEGRIC_FIT_SOURCE_DIR "/tests/benchmarks/bust_60.yaml", folder_ / "bust.yaml");
+  ASSERT_EQ(fit(worn), 0) << read_file(file("log"));
+  const json r = report();
+  EXPECT_EQ(r["control"]["triangles"], 60);
+  EXPECT_NEAR(r["lines"].at(0)["ratio"].get<double>(), 0.95, 1e-6);  // DESIGN §7
+}
+
 TEST_F(FitProgram, AGarmentIsWornInAnyPosture) {
   ASSERT_EQ(fit("--mesh " + kScans + "/a/body.ply --garment B1 --ratio 0.95 --twist 15 --lean -10"), 0)
       << read_file(file("log"));
