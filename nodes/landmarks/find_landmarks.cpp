@@ -14,6 +14,7 @@
 #include "landmarks/lower_trunk.hpp"
 #include "landmarks/neck.hpp"
 #include "landmarks/shoulders.hpp"
+#include "landmarks/stoop.hpp"
 #include "landmarks/trunk.hpp"
 
 namespace tensegric_fit::landmarks {
@@ -239,7 +240,9 @@ void arm(const BodyShape& body, const Trunk& trunk, const Neck& found_neck, Side
   const Axilla& axilla = trunk.axilla(side);
   const std::string suffix = kSuffix[side];
   if (axilla.found) {
-    record.landmark("axilla" + suffix, axilla.point, axilla.filled ? 0.45 : 0.9,
+    const double stoop = found_neck.found ? stoop_of(body, found_neck) : 0;
+    record.landmark("axilla" + suffix, axilla_with_stoop(axilla, stoop, body.stature),
+                    axilla.filled ? 0.45 : 0.9,
                     axilla.filled ? "the armpit is filled with skin that the scan did not see" : "");
   } else {
     record.missing("axilla" + suffix, "no arm parts from the trunk");

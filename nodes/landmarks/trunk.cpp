@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "landmarks/arm_cut.hpp"
+#include "landmarks/gap.hpp"
 #include "landmarks/junction.hpp"
+#include "landmarks/raised_arm.hpp"
 
 namespace tensegric_fit::landmarks {
 namespace {
@@ -20,9 +22,12 @@ constexpr double kDome =
 constexpr double kRoundFilling = 0.015;  // skin round a filling, smoothed with it
 constexpr double kBesideGap = 0.02;      // the bridge from arm to trunk is as near as that to the gap
 constexpr double kFurtherUp = 0.015;     // there the arm is one with the trunk
-constexpr double kHollow = 0.42;         // of the bridge, from behind
-constexpr double kUnderArm = 0.025;      // statures under the axilla where the arm tells how far it is raised
-constexpr double kRaised = 1.5;          // times that, from the trunk to the arm: 56 degrees
+constexpr double kHollow = 0.0215;       // statures from the bridge's end behind, but not beyond its middle
+// An armpit's roof is an arc from front to back, of this radius in statures; as she stoops, its lowest place
+// wanders to the front, at most to such a share of the bridge.
+constexpr double kRoof = 0.092, kFurthest = 0.9;
+constexpr double kUnderArm = 0.025;  // statures under the axilla where the arm tells how far it is raised
+constexpr double kRaised = 1.5;      // times that, from the trunk to the arm: 56 degrees
 constexpr double kUpperArm = 0.02, kLowerArm = 0.05;  // statures under the axilla, between which the arm runs
 constexpr double kLevelArm = 1.4,
                  kLeastRaised = 0.8;  // radians: of an arm without sections there; of a raised one
@@ -37,55 +42,12 @@ int trunk_among(const std::vector<Outline>& outlines, const BodyLevels& levels, 
   return -1;
 }
 
-Eigen::Vector3d nearest_on(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& p) {
-  const double along = (p - a).dot(b - a) / std::max((b - a).squaredNorm(), 1e-18);
-  return a + std::clamp(along, 0.0, 1.0) * (b - a);
-}
-
-// Middle of the narrowest place between two outlines; returns how narrow it is.
-double gap_between(const Outline& one, const Outline& other, Eigen::Vector3d& middle) {
-  double least = 1e9;
-  const auto look = [&](const Outline& points, const Outline& line) {
-    for (const Eigen::Vector3d& p : points.points) {
-      for (std::size_t i = 0; i < line.points.size(); ++i) {
-        const Eigen::Vector3d q = nearest_on(line.points[i], line.points[(i + 1) % line.points.size()], p);
-        if ((p - q).norm() >= least) continue;
-        least = (p - q).norm();
-        middle = (p + q) / 2;
-      }
-    }
-  };
-  look(one, other);
-  look(other, one);
-  return least;
-}
-
-// The narrowest place between the trunk and what is beside it, or false where nothing is near.
-bool gap_beside(const Outline& trunk, const std::vector<Outline>& outlines, Side side, double widest,
-                Eigen::Vector3d& middle) {
-  bool found = false;
-  for (const Outline& other : outlines) {
-    if (kSign[side] * (other.centroid.y() - trunk.centroid.y()) <= 0 || other.area >= trunk.area) continue;
-    Eigen::Vector3d here = Eigen::Vector3d::Zero();
-    const double gap = gap_between(trunk, other, here);
-    if (gap >= widest) continue;
-    widest = gap;
-    middle = here;
-    found = true;
-  }
-  return found;
-}
-
-double reach(const Outline& outline, Side side) {
-  return side == kLeft ? outline.high.y() : -outline.low.y();
-}
-
 }  // namespace
 
 Trunk::Trunk(const BodyShape& body) : body_(body) {
   for (Side side : {kLeft, kRight}) axillae_[side] = find_axilla(side);
   for (Side side : {kLeft, kRight})
-    if (axillae_[side].filled) axillae_[side].point = under_filling(side);
+    if (axillae_[side].filled) look_under_filling(axillae_[side]);
 }
 
 std::vector<Outline> Trunk::outline_at(double height) const {
@@ -114,30 +76,38 @@ double Trunk::axilla_height() const {
   return kAxillaShare * body_.stature;
 }
 
-int Trunk::level_of_raised_arm(Side side) const {
-  const std::vector<Level>& levels = body_.levels.levels;
-  for (int i = body_.levels.nearest(body_.crotch.height + 0.15 * body_.stature);
-       i + 2 < static_cast<int>(levels.size()) && levels[i].height < 0.9 * body_.stature; ++i)
-    if (levels[i].trunk >= 0 && levels[i + 1].trunk >= 0 &&
-        reach(levels[i].outlines[levels[i].trunk], side) > kBeyondShoulders * body_.stature)
-      return i;
-  return -1;
+void Trunk::look_under_filling(Axilla& axilla) const {
+  if (!axilla.root.found) return;
+  const Eigen::Vector3d filled = axilla.point;
+  const double height = std::max(axilla.root.height - kDome * body_.stature, filled.z()),
+               beside = kBesideGap * body_.stature;
+  axilla.point.z() = height;
+  axilla.bridge = narrowest_bridge(body_.sliced.outlines_at(height + 0.003 * body_.stature),
+                                   filled.y() - beside, filled.y() + beside);
+  if (axilla.bridge.length <= 0) return;
+  const double sign = filled.y() < 0 ? -1 : 1;
+  axilla.point.y() = sign * std::min(sign * axilla.bridge.y, sign * filled.y());
+  axilla.point = axilla_with_stoop(axilla, 0, body_.stature);
 }
 
-Eigen::Vector3d Trunk::under_filling(Side side) const {
-  const Root& root = axillae_[side].root;
-  const Eigen::Vector3d& filled = axillae_[side].point;
-  if (!root.found) return filled;
-  const double height = std::max(root.height - kDome * body_.stature, filled.z()),
-               beside = kBesideGap * body_.stature;
-  const Bridge above = narrowest_bridge(body_.sliced.outlines_at(height + 0.003 * body_.stature),
-                                        filled.y() - beside, filled.y() + beside);
-  if (above.length <= 0) return {filled.x(), filled.y(), height};
-  const double inner = kSign[side] * std::min(kSign[side] * above.y, kSign[side] * filled.y());
-  return {above.back + kHollow * (above.front - above.back), inner, height};
+Eigen::Vector3d axilla_with_stoop(const Axilla& axilla, double stoop, double stature) {
+  Eigen::Vector3d point = axilla.point;
+  const double depth = axilla.bridge.front - axilla.bridge.back;
+  if (axilla.filled && axilla.bridge.length > 0)
+    point.x() = axilla.bridge.back +
+                std::min(std::min(kHollow * stature, depth / 2) + std::max(stoop, 0.0) * kRoof * stature,
+                         kFurthest * depth);
+  return point;
 }
 
 Axilla Trunk::find_axilla(Side side) const {
+  Axilla axilla;
+  if (const RaisedArm arm = find_raised_arm(body_, side); arm.found) {
+    axilla.found = axilla.raised = true;
+    axilla.point = arm.axilla;
+    axilla.abduction = arm.abduction;
+    return axilla;
+  }
   // Going up, the trunk's section suddenly takes in the arm; the last such place is the axilla (a hand or an
   // elbow that touches the body comes before).
   const std::vector<Level>& levels = body_.levels.levels;
@@ -161,8 +131,6 @@ Axilla Trunk::find_axilla(Side side) const {
     if (reach(here, side) >= kWidestChest * waist || reach(above, side) - reach(here, side) <= jump) continue;
     if (below < 0 || parted_between(below, i)) below = i;
   }
-  if (below < 0) below = level_of_raised_arm(side);
-  Axilla axilla;
   if (below < 0) return axilla;
 
   double low = levels[below].height, high = levels[below + 1].height;

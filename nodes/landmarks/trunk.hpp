@@ -12,9 +12,14 @@ struct Axilla {
       false;  ///< arm and trunk are joined below it too: skin that touches, or a gap that was filled
   bool raised = false;   ///< the arm stands out from the trunk by some 55 degrees or more
   double abduction = 0;  ///< radians from straight down to the upper arm
-  Eigen::Vector3d point;
-  Root root;  ///< of an arm that hangs
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Root root;      ///< of an arm that hangs
+  Bridge bridge;  ///< over a filled armpit, 0.003 statures above `point`
 };
+
+/// Where the axilla of a filled armpit lies on a body that stoops by so many radians; one that was seen is
+/// where it is.
+Eigen::Vector3d axilla_with_stoop(const Axilla& axilla, double stoop, double stature);
 
 class Trunk {
  public:
@@ -36,9 +41,7 @@ class Trunk {
  private:
   Axilla find_axilla(Side side) const;
   /// Where arm and trunk would part without the skin that fills the armpit.
-  Eigen::Vector3d under_filling(Side side) const;
-  /// A level inside an arm that grows out of the trunk without a sudden step, or -1.
-  int level_of_raised_arm(Side side) const;
+  void look_under_filling(Axilla& axilla) const;
 
   const BodyShape& body_;
   Axilla axillae_[2];
