@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "landmarks/neck_plane.hpp"
 #include "landmarks/profile.hpp"
@@ -13,29 +14,39 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kHighest = 0.93;    // of stature: the mouth; a neck is lower
+constexpr double kLower = 0.08;      // statures under the thinnest level section, where a stooped neck can be
 constexpr double kNeckToHead = 0.7;  // a neck's section is smaller than this share of the head's
 constexpr double kCorner = 15;       // 1/m: chin and neck meet in a corner more hollow than that
 
 // In statures, with the girth in statures too: fat under the chin lowers the corner, and a thick neck is
 // hardly thinner anywhere. Along the skin from the corner under the chin down to the girth's plane and to the
-// notch; along the axis from the plane down to vertebra and neck side.
-constexpr double kGirth = 0.188;
-double plane_below_corner(double girth) {
-  return 0.0207 - 0.10 * (girth - kGirth);
+// notch. `throat` is the way from there to where the throat is deepest: a head that is held up on a stooped
+// back stretches it. Along the axis from the plane down to vertebra and neck side.
+constexpr double kGirth = 0.188, kThroat = 0.037, kShortest = 0.010, kLongest = 0.065;
+double plane_below_corner(double girth, double throat) {
+  return 0.0208 + 0.034 * (girth - kGirth) + 0.308 * (throat - kThroat);
 }
-double notch_below_corner(double girth) {
-  return 0.0348 - 0.166 * (girth - kGirth);
+double notch_below_corner(double girth, double throat) {
+  return 0.0355 + 0.05 * (girth - kGirth) + 0.58 * (throat - kThroat);
 }
+constexpr double kCone =
+    0.24;  // girth of a neck that is nowhere thinner than where it grows out of the trunk
+constexpr double kPlaneAboveDeepest = 0.0141;  // where chin and neck make no corner
 double side_below_plane(double girth) {
   return 0.0107 - 0.105 * (girth - kGirth);
 }
 constexpr double kBackBelowPlane = 0.0383, kSideForwards = 0.003;
-constexpr double kNotchBelowCrown = 0.162, kHead = 0.19, kAgree = 0.005;
 constexpr double kUprightLean = 23 * kDegree;
 
-// The plane of a thin neck's base leans further than that of its least girth, a thick one's less.
-double base_lean(double lean, double girth) {
-  return lean + std::clamp(-160 * (girth - kGirth), -3.0, 4.0) * kDegree;
+// Lean of the plane of the neck's base: the mean of what two planes tell, that of the least girth through its
+// middle, `here`, and that of the thinnest loop, which a stretched throat leaves behind. A thick neck's girth
+// hardly depends on the lean, so that either alone is uncertain.
+double base_lean(double here, double thinnest, double girth, double throat) {
+  const double thick = girth - kGirth, stretched = throat - kThroat;
+  const double by_least = here + std::clamp(-160 * thick, -3.0, 4.0) * kDegree;
+  const double by_thinnest =
+      (25.7 + 70 * thick + 380 * stretched) * kDegree + 0.85 * (thinnest - 22 * kDegree);
+  return (by_least + by_thinnest) / 2;
 }
 
 // Area of the trunk's section: the median of five levels, since at lips and ears one section can fall into
@@ -70,6 +81,25 @@ struct Plane {
   Vector3d origin;
   double lean;
 };
+
+// A place in the neck, from a level section that is thin. The neck leans: on a stooped body level sections
+// are thinnest at the mouth.
+Vector3d place_in_neck(const BodyShape& body, const Trunk& trunk, int thinnest) {
+  const std::vector<Level>& levels = body.levels.levels;
+  const double lowest = std::max(levels[thinnest].height - kLower * body.stature, trunk.axilla_height());
+  Vector3d place = Vector3d::Zero();
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = thinnest; i > 0 && levels[i].height > lowest; i -= 2) {
+    if (levels[i].trunk < 0) continue;
+    const Eigen::Vector2d& centre = levels[i].outlines[levels[i].trunk].centroid;
+    const Vector3d middle(centre.x(), centre.y(), levels[i].height);
+    const double girth = NeckPlanes(body, middle).girth(middle, kUprightLean);
+    if (girth >= least) continue;
+    least = girth;
+    place = middle;
+  }
+  return place;
+}
 
 // The thinnest loop round the neck, whatever its lean.
 Plane thinnest_plane(const NeckPlanes& planes, const Vector3d& middle, double stature) {
@@ -131,26 +161,18 @@ int corner_under_chin(const Profile& front, const Plane& thinnest, double statur
   return corner < 0 ? -1 : std::max(corner - near, most_hollow(corner - near, corner + near, 14, -1e9));
 }
 
-// Where the throat's profile, running down along the neck, stops receding, or -1.
-int deepest_point(const Profile& front, const Plane& thinnest) {
+// Where the throat's profile, running down along the neck from `corner` or the thinnest loop, stops receding,
+// or -1.
+int deepest_point(const Profile& front, const Plane& thinnest, int corner) {
+  const Vector3d loop_axis = NeckPlanes::normal_of(thinnest.lean);
   const Vector3d axis = NeckPlanes::normal_of(thinnest.lean - kUprightLean), forwards(axis.z(), 0, -axis.x());
+  const int count = static_cast<int>(front.points.size());
+  int first = count;  // an open mouth can reach below the loop's front
+  while (first > 0 && loop_axis.dot(front.points[first - 1] - thinnest.origin) < 0) --first;
   int deepest = -1;
-  for (int i = 0; i < static_cast<int>(front.points.size()); ++i) {
-    const Vector3d& p = front.points[i];
-    if (axis.dot(p - thinnest.origin) < 0 && (deepest < 0 || forwards.dot(p - front.points[deepest]) < -1e-9))
-      deepest = i;
-  }
+  for (int i = corner >= 0 ? corner : first; i < count; ++i)
+    if (deepest < 0 || forwards.dot(front.points[i] - front.points[deepest]) < -1e-9) deepest = i;
   return deepest;
-}
-
-// How far a point lies below the crown, along the neck of an upright body.
-double below_crown(const BodyShape& body, const Plane& thinnest, const Vector3d& point) {
-  const Vector3d up = NeckPlanes::normal_of(thinnest.lean - kUprightLean);
-  double crown = 0;
-  for (const Vector3d& v : body.mesh.vertices)
-    if (v.z() > thinnest.origin.z() && (v - thinnest.origin).norm() < kHead * body.stature)
-      crown = std::max(crown, up.dot(v - point));
-  return crown;
 }
 
 const Vector3d& along(const Profile& front, int from, double length) {
@@ -170,27 +192,18 @@ Neck find_neck(const BodyShape& body, const Trunk& trunk) {
   neck.missing = "no neck thinner than the head was found";
   const int level = thinnest_level(body, trunk);
   if (level < 0) return neck;
-  const Level& at = body.levels.levels[level];
-  const Eigen::Vector2d& centre = at.outlines[at.trunk].centroid;
-  const NeckPlanes planes(body, {centre.x(), centre.y(), at.height});
+  const Vector3d place = place_in_neck(body, trunk, level);
+  const NeckPlanes planes(body, place);
 
   // 1. The thinnest loop, and from its front the corner under the chin.
-  const Plane thinnest = thinnest_plane(planes, {centre.x(), centre.y(), at.height}, s);
+  const Plane thinnest = thinnest_plane(planes, place, s);
   const Profile front = front_of_neck(body, thinnest.origin);
-  int corner = corner_under_chin(front, thinnest, s);
-  const int deepest = deepest_point(front, thinnest);
-  if (corner < 0 && deepest < 0) return neck;
-  // Chin and throat tell of one notch; where they do not, the one that is a head's height below the crown.
+  const int corner = corner_under_chin(front, thinnest, s);
+  const int deepest = deepest_point(front, thinnest, corner);
+  if (deepest < 0) return neck;
+  const double throat = std::clamp((deepest - corner) * front.step / s, kShortest, kLongest);
   double lean = thinnest.lean, girth = planes.girth(thinnest.origin, lean) / s;
-  if (corner >= 0 && deepest >= 0) {
-    const Vector3d& by_corner = along(front, corner, notch_below_corner(girth) * s);
-    const auto off = [&](const Vector3d& notch) {
-      return std::abs(below_crown(body, thinnest, notch) / s - kNotchBelowCrown);
-    };
-    if ((by_corner - front.points[deepest]).norm() > kAgree * s &&
-        off(front.points[deepest]) < off(by_corner))
-      corner = -1;
-  } else if (corner < 0) {
+  if (corner < 0) {
     neck.confidence = 0.45;
     neck.reason = "no corner between chin and neck; from the deepest point of the throat";
   }
@@ -198,10 +211,9 @@ Neck find_neck(const BodyShape& body, const Trunk& trunk) {
   // 2. The girth is the least one round the middle of the neck's base, a given way below that corner.
   neck.origin = thinnest.origin;
   for (int pass = 0; pass < 3; ++pass) {
-    const Vector3d anchor =
-        corner >= 0 ? along(front, corner, plane_below_corner(girth) * s)
-                    : along(front, deepest, (plane_below_corner(girth) - notch_below_corner(girth)) * s);
-    const double base = base_lean(lean, girth);
+    const Vector3d anchor = corner >= 0 ? along(front, corner, plane_below_corner(girth, throat) * s)
+                                        : along(front, deepest, -kPlaneAboveDeepest * s);
+    const double base = base_lean(lean, thinnest.lean, girth, throat);
     const Vector3d axis = NeckPlanes::normal_of(base);
     neck.origin += axis.dot(anchor - neck.origin) * axis;
     neck.origin = planes.middle_of_tape(neck.origin, base);
@@ -211,8 +223,13 @@ Neck find_neck(const BodyShape& body, const Trunk& trunk) {
     neck.girth = geometry::length_of(neck.tape, true);
     girth = neck.girth / s;
   }
-  neck.front = corner >= 0 ? along(front, corner, notch_below_corner(girth) * s) : front.points[deepest];
-  const double base = base_lean(lean, girth);
+  if (girth > kCone && neck.reason.empty()) {
+    neck.confidence = 0.45;
+    neck.reason = "a thick neck: its girth grows fast towards the trunk";
+  }
+  neck.front =
+      corner >= 0 ? along(front, corner, notch_below_corner(girth, throat) * s) : front.points[deepest];
+  const double base = base_lean(lean, thinnest.lean, girth, throat);
   neck.axis = NeckPlanes::normal_of(base);
   neck.forwards = {std::cos(base), 0, -std::sin(base)};
   neck.turn = base - kUprightLean;

@@ -43,6 +43,7 @@ struct Parts {
   bool hand_beside_thigh = false;  ///< a left hand 0.1 m away from the thigh
   bool breasts_hang = false;       ///< 60 mm below the fold, clear of the chest
   double web_below_fold = 0;       ///< metres of a thin skin from such a breast to the chest
+  double head_forward = 0;         ///< metres by which the head is held forward
   double belly = 0;                ///< metres by which a round belly reaches further forward than the breasts
 };
 
@@ -69,8 +70,9 @@ inline double person(const Eigen::Vector3d& p, const Parts& parts) {
     if (parts.arms && (side > 0 || parts.right_arm))
       d = melt(d, capsule(p, {0, side * 0.19, 1.34}, {0, side * hand_y, hand_z}, 0.045, 0.03));
   }
-  d = melt(d, capsule(p, {0, 0, 1.38}, {0.02, 0, 1.50}, 0.055, 0.05));
-  if (parts.head) d = melt(d, ellipsoid(p, {0.03, 0, 1.58}, {0.10, 0.08, 0.12}));
+  const double ahead = parts.head_forward;
+  d = melt(d, capsule(p, {0, 0, 1.38}, {0.02 + ahead, 0, 1.50}, 0.055, 0.05));
+  if (parts.head) d = melt(d, ellipsoid(p, {0.03 + ahead, 0, 1.58}, {0.10, 0.08, 0.12}));
   if (parts.hand_beside_thigh) d = std::min(d, capsule(p, {0, 0.27, 0.80}, {0, 0.27, 0.62}, 0.03, 0.03));
   if (parts.web_below_crotch > 0) {
     const Eigen::Vector3d q = (p - Eigen::Vector3d(0, 0, 0.76)).cwiseAbs();
