@@ -9,6 +9,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kStep = 0.001;
+constexpr double kBelowOrigin = 0.010;  // m; a box ends with triangles
 constexpr int kSmoothing =
     6;  // steps each way of a triangle filter: takes half a millimetre of noise down to a tenth
 
@@ -81,11 +82,16 @@ Profile cut_profile(const BodyShape& body, const std::vector<int>& triangles, co
                     const Vector3d& outward) {
   Profile profile{{}, kStep, Vector3d::UnitZ().cross(outward)};
   double longest = 0;
+  bool longest_reaches = false;
   for (const geometry::SectionLoop& loop : cut(body, triangles, origin, profile.sideways)) {
-    const double drop =
-        loop.points.front().z() - loop.points.back().z();  // skin that looks outward runs down
-    if (loop.closed || drop <= longest) continue;
+    if (loop.closed) continue;
+    double lowest = loop.points.front().z();  // skin that looks outward runs down from its first point
+    for (const Vector3d& p : loop.points) lowest = std::min(lowest, p.z());
+    const double drop = loop.points.front().z() - lowest;
+    const bool reaches = loop.points.front().z() > origin.z() - kBelowOrigin;
+    if (reaches == longest_reaches ? drop <= longest : longest_reaches) continue;
     longest = drop;
+    longest_reaches = reaches;
     profile.points = loop.points;
   }
   // Noise makes a way longer: even steps are taken again where it is smoothed away.

@@ -19,8 +19,8 @@ struct Profile {
 };
 
 /// The skin of the box [low, high] cut by the vertical plane through `origin` that holds `outward`
-/// (horizontal, unit): the longest piece that looks outward, smoothed over 3 mm. Empty where the plane misses
-/// the box's skin.
+/// (horizontal, unit): the longest piece that looks outward and begins at the height of
+/// `origin` or above, or else below it; smoothed over 3 mm. Empty where the plane misses the box's skin.
 Profile cut_profile(const BodyShape& body, const std::vector<int>& triangles, const Eigen::Vector3d& origin,
                     const Eigen::Vector3d& outward);
 

@@ -35,7 +35,7 @@ std::vector<Place> places_below(const BodyShape& body, const std::vector<int>& s
   const Profile profile = cut_profile(body, skin, {bust_point.x(), y, bust_point.z()}, Vector3d::UnitX());
   std::vector<Place> places;
   const int count = static_cast<int>(profile.points.size());
-  // Beside a slim trunk the plane meets it again below: that profile does not belong to the breast.
+  // No skin of the breast in this plane.
   if (count == 0 || profile.points.front().z() < bust_point.z()) return places;
   int level = 0;  // of the bust point; the fold of a breast that hangs can be as high
   while (level < count && profile.points[level].z() > bust_point.z()) ++level;
