@@ -14,6 +14,9 @@ namespace {
 constexpr double kBehindPubis = 0.044, kSlimThigh = 0.092, kFatBefore = 0.08;
 constexpr double kThighBelowCrotch = 0.03;
 
+// Statures over the crotch: buttocks stand out 0.048 to 0.062 up, rolls of the back from 0.10 on.
+constexpr double kLowestSeat = -0.02, kHighestSeat = 0.09;
+
 constexpr double kThigh = 0.13;  // statures under the buttock point: the back of the thigh, below the fold
 constexpr double kFoldByProportion = 0.065;
 constexpr double kFoldDepth = 0.003;  // m under the straight edge; less is no fold
@@ -30,8 +33,8 @@ bool find_buttock(const BodyShape& body, Side side, Eigen::Vector3d& point) {
   if (level.trunk < 0) return false;
   const Eigen::Vector2d& middle = level.outlines[level.trunk].centroid;
   const std::vector<int> seat =
-      vertices_in_box(body, {middle.x() - s, middle.y() + std::min(near, far), crotch - 0.02 * s},
-                      {middle.x(), middle.y() + std::max(near, far), crotch + 0.13 * s});
+      vertices_in_box(body, {middle.x() - s, middle.y() + std::min(near, far), crotch + kLowestSeat * s},
+                      {middle.x(), middle.y() + std::max(near, far), crotch + kHighestSeat * s});
   if (seat.empty()) return false;
   const Eigen::Vector3d back = -Eigen::Vector3d::UnitX();
   // 35 mm of skin: wide enough that half a millimetre of noise moves the apex by a millimetre only.

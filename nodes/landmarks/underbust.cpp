@@ -14,7 +14,9 @@ constexpr double kApart = 0.005;        // between two profiles
 constexpr int kReach = 8;               // millimetres each way over which a profile's hollowness is taken
 constexpr double kRim = 0.012;          // metres along the skin; the nipple's own rim is hollow too
 constexpr double kSteepest = 2;         // of a fold seen from the front
-constexpr double kBelow = 0.13;  // statures under the bust point: where the fold of a hanging breast still is
+// Statures under the bust point: folds are 0.01 to 0.05 below, a big belly's own fold over the groin 0.08 or
+// more.
+constexpr double kBelow = 0.08;
 constexpr double kAbove = 0.02;
 constexpr double kHollow = 15;  // 1/m: a radius of 70 mm is a rib cage's roundness, not a fold
 
