@@ -1,6 +1,7 @@
 #include "landmarks/limb_girths.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "landmarks/profile.hpp"
@@ -127,7 +128,7 @@ LimbGirth find_upper_arm_girth(const BodyShape& body, const Trunk& trunk, const 
   // From the middle of the arm's root, out for a raised arm and down to its section for one that hangs; then
   // square to the way from one section's middle to the next.
   const Vector3d root = (shoulder + axilla.point) / 2;
-  Vector3d axis = Vector3d(0, kSign[side], -0.3).normalized();
+  Vector3d axis(0, kSign[side] * std::sin(axilla.abduction), -std::cos(axilla.abduction));
   const std::vector<Outline> below = body.sliced.outlines_at(axilla.point.z() - kBelowAxilla * s);
   const Outline* arm = nullptr;
   if (!axilla.raised) arm = outline_near(below, {root.x(), root.y() + kSign[side] * 0.02 * s}, 0.07 * s);

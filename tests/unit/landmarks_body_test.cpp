@@ -313,6 +313,23 @@ TEST(Landmarks, AnAxillaIsFoundForEachPoseOfTheArm) {
   }
 }
 
+TEST(Landmarks, AnAxillaStaysUnderAnArmThatIsHeldOutLevelOrHigher) {
+  test::Parts parts;
+  parts.arms_out = true;
+  const BodyMeasures low = measure(test::person_mesh(parts));
+  for (const double higher : {0.05, 0.10, 0.15}) {  // the upper arm's underside rises outwards from 0.11 on
+    parts.hands_higher = higher;
+    const BodyMeasures measures = measure(test::person_mesh(parts));
+    for (const char* name : {"axilla_L", "axilla_R"})
+      // The corner of arm and trunk opens by some degrees: a few millimetres of its round, 20 mm wide.
+      EXPECT_LT((measures.landmark(name) - low.landmark(name)).norm(), 0.015) << name << higher;
+    for (const char* name : {"upper_arm_L", "upper_arm_R"})  // a capsule, 45 mm thick at the shoulder
+      EXPECT_NEAR(girth(measures, name), girth(low, name), 0.010) << higher;
+    for (const char* name : {"bust", "underbust", "waist", "hip"})
+      EXPECT_NEAR(girth(measures, name), girth(low, name), 0.002) << name << higher;
+  }
+}
+
 TEST(Landmarks, ASideWithoutAnArmIsToldByTheOther) {
   TriangleMesh mesh = plain_person();
   const BodyMeasures both = measure(mesh);

@@ -37,7 +37,8 @@ inline constexpr double kHangingFold = 1.175;
 
 struct Parts {
   bool head = true, arms = true, right_arm = true;
-  bool arms_out = false;         ///< level, to the sides
+  bool arms_out = false;         ///< to the sides, a little under level
+  double hands_higher = 0;       ///< metres, of such arms
   double left_breast_lower = 0;  ///< metres
   double web_below_crotch = 0;   ///< metres of a thin skin between the thighs, as a scan's hole filling makes
   bool hand_beside_thigh = false;  ///< a left hand 0.1 m away from the thigh
@@ -66,7 +67,8 @@ inline double person(const Eigen::Vector3d& p, const Parts& parts) {
       d = std::min(d, std::max({q.x() - 0.04, q.y() - 0.010, q.z() - parts.web_below_fold}));
     }
     d = melt(d, capsule(p, {0, side * 0.05, 1.40}, {0, side * 0.17, 1.36}, 0.05, 0.05));
-    const double hand_y = parts.arms_out ? 0.70 : 0.42, hand_z = parts.arms_out ? 1.26 : 0.80;
+    const double hand_y = parts.arms_out ? 0.70 : 0.42,
+                 hand_z = parts.arms_out ? 1.26 + parts.hands_higher : 0.80;
     if (parts.arms && (side > 0 || parts.right_arm))
       d = melt(d, capsule(p, {0, side * 0.19, 1.34}, {0, side * hand_y, hand_z}, 0.045, 0.03));
   }
