@@ -45,7 +45,7 @@ class Run {
       return;
     }
     const tensegric::Garment garment = load_garment();
-    if (!line_.tissue.empty()) take_tissue(line_.tissue, settings_);
+    if (const std::string tissue = tissue_file(); !tissue.empty()) take_tissue(tissue, settings_);
     if (line_.posture.twist != 0 || line_.posture.side_lean != 0)
       settings_.solver.bones = geometry::BoneFrames(body_.measures, line_.posture);
     const Fitting fitting = prepare_fitting(garment);
@@ -88,6 +88,13 @@ class Run {
     source_.points = scan.points.size();
     say("reconstruction, landmarks");
     body_ = measure_scan(scan, settings_, times_);
+  }
+
+  // The defaults are calibrated for the shipped templates as they are; finer ones have tissue of their own.
+  std::string tissue_file() const {
+    const bool finer = settings_.control_mesh.control_triangles > control_mesh::Options().control_triangles &&
+                       !line_.is_shape();
+    return line_.tissue.empty() && finer ? geometry::shipped_folder("tissue") + "/fine.yaml" : line_.tissue;
   }
 
   tensegric::Garment load_garment() const {

@@ -9,12 +9,13 @@ namespace tensegric_fit::fit {
 std::string tissue_yaml(const Settings& settings) {
   const tensegric::ModelOptions& model = settings.model;
   return fmt::format(
-      "inner_nodes: {}\nuniform_stiffness: {}\nstrut_stiffness: {:.4g}\nlateral_stiffness: {:.4g}\nskin: "
+      "inner_nodes: {}\nlayers: {}\nuniform_stiffness: {}\nstrut_stiffness: {:.4g}\nlateral_stiffness: "
+      "{:.4g}\nskin: "
       "{:.4g}\nvolume_stiffness: "
       "{:.4g}\n"
       "prestress: {:.4g}\nthickness: {:.4g}\n",
-      to_string(model.inner), model.uniform, model.strut_stiffness, model.lateral_stiffness, model.skin,
-      model.volume_stiffness, model.prestress, settings.control_mesh.thickness);
+      to_string(model.inner), model.layers, model.uniform, model.strut_stiffness, model.lateral_stiffness,
+      model.skin, model.volume_stiffness, model.prestress, settings.control_mesh.thickness);
 }
 
 void take_tissue(const std::string& path, Settings& settings) {
@@ -22,8 +23,8 @@ void take_tissue(const std::string& path, Settings& settings) {
   const char* const code = refusal::kBadOption;
   const YAML::Node file = geometry::load_yaml_map(path, code);
   geometry::check_keys(file,
-                       {"inner_nodes", "uniform_stiffness", "strut_stiffness", "lateral_stiffness", "skin",
-                        "volume_stiffness", "prestress", "thickness", "evidence"},
+                       {"inner_nodes", "layers", "uniform_stiffness", "strut_stiffness", "lateral_stiffness",
+                        "skin", "volume_stiffness", "prestress", "thickness", "evidence"},
                        path, code);
   tensegric::ModelOptions& model = settings.model;
   const auto take = [&](const char* key, double& value, double low, double high) {
@@ -31,6 +32,9 @@ void take_tissue(const std::string& path, Settings& settings) {
   };
   model.inner = tensegric::inner_nodes_from(
       geometry::optional<std::string>(file, "inner_nodes", to_string(model.inner), path, code));
+  double layers = model.layers;
+  take("layers", layers, 1, tensegric::kMostLayers);
+  model.layers = geometry::optional(file, "layers", model.layers, path, code);
   model.uniform = geometry::optional(file, "uniform_stiffness", model.uniform, path, code);
   take("strut_stiffness", model.strut_stiffness, tensegric::kSoftestStrut, tensegric::kStiffestStrut);
   take("lateral_stiffness", model.lateral_stiffness, tensegric::kSoftestLateral, tensegric::kStiffestLateral);

@@ -7,7 +7,7 @@
 
 namespace tensegric_fit::fit {
 
-/// The parameters of `settings` that say what tissue is like, as YAML: inner_nodes, strut_stiffness,
+/// The parameters of `settings` that say what tissue is like, as YAML: inner_nodes, layers, strut_stiffness,
 /// lateral_stiffness, skin, volume_stiffness, prestress, thickness (see ModelOptions and
 /// control_mesh::Options).
 std::string tissue_yaml(const Settings& settings);

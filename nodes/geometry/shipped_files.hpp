@@ -6,7 +6,7 @@
 
 namespace tensegric_fit::geometry {
 
-/// The shipped folder of that name: garments, templates.
+/// The shipped folder of that name: garments, templates, tissue.
 std::string shipped_folder(const std::string& name);
 
 /// `word` itself where it is a path or ends in .yaml, else the file of that name in `folder`.

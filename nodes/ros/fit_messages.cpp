@@ -230,6 +230,7 @@ MemberForces to_message(const ScanTag& tag, const std::string& garment, const te
                         const tensegric::Solution& solution) {
   tensegric::Positions nodes = solution.outer;
   nodes.insert(nodes.end(), solution.inner.begin(), solution.inner.end());
+  nodes.insert(nodes.end(), solution.between.begin(), solution.between.end());
   const double mean = model.mean_tension();
   MemberForces message;
   message.header = tag.header;

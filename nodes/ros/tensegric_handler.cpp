@@ -23,6 +23,7 @@ TensegricHandler::Setup TensegricHandler::setup_from(Parameters& parameters) {
   tensegric::ModelOptions& model = setup.fitter.model;
   model.inner = tensegric::inner_nodes_from(
       parameters.choice("inner_nodes", to_string(model.inner), {"free", "bound"}));
+  model.layers = parameters.integer("layers", model.layers, 1, tensegric::kMostLayers);
   model.uniform = parameters.flag("uniform_stiffness", model.uniform);
   model.lateral_stiffness = parameters.number("lateral_stiffness", model.lateral_stiffness,
                                               tensegric::kSoftestLateral, tensegric::kStiffestLateral);

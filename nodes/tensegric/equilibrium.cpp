@@ -136,16 +136,16 @@ class LoadPath {
     return change > kFirstRatioStep ? 1 / std::ceil(change / kFirstRatioStep) : 1;
   }
 
-  // Takes the nodes that are not solved for to where the posture has them, and the free skin above bound
-  // inner nodes along.
+  // Takes the nodes that are not solved for to where the posture has them, and what is free above
+  // bound inner nodes along.
   void carry(Positions& x, double from, double to) {
     const Positions before = posed(problem_, from), after = posed(problem_, to);
     const std::size_t outer = problem_.model.control.outer.size();
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (problem_.free_index[i] < 0)
         x[i] = after[i];
-      else if (i < outer && problem_.free_index[outer + i] < 0)
-        x[i] += after[outer + i] - before[outer + i];
+      else if (problem_.free_index[outer + i % outer] < 0)
+        x[i] += after[outer + i % outer] - before[outer + i % outer];
     }
     pose_problem(problem_, to);
   }

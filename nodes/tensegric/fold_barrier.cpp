@@ -43,11 +43,10 @@ Barrier barrier(const UnitVolume& unit, double share) {
 }  // namespace
 
 std::vector<UnitVolume> unit_volumes(const Model& model, const std::vector<int>& free_index) {
-  const int count = static_cast<int>(model.control.outer.size());
   const Positions rest = model.rest_positions();
   std::vector<UnitVolume> units;
-  const auto place = [&](const Eigen::Vector3i& corners, const Eigen::Vector3i& below, int side) {
-    UnitVolume unit{{corners[0], corners[1], corners[2], below[0], below[1], below[2]}, 0, 0};
+  const auto place = [&](const std::array<int, 6>& nodes, int side) {
+    UnitVolume unit{nodes, 0, 0};
     bool moves = false;
     for (int node : unit.nodes) moves = moves || free_index[node] >= 0;
     const Spokes s = spokes(unit, rest);
@@ -57,10 +56,9 @@ std::vector<UnitVolume> unit_volumes(const Model& model, const std::vector<int>&
     unit.stiffness = kStiffness * edge;
     if (moves && side * unit.rest > kFlat * upright) units.push_back(unit);
   };
-  for (const Eigen::Vector3i& t : model.control.triangles) {
-    const Eigen::Vector3i inner = t.array() + count;
-    place(t, inner, 1);
-    place(inner, t, -1);
+  for (const auto& [a, b, c, d, e, f] : model.units()) {
+    place({a, b, c, d, e, f}, 1);
+    place({d, e, f, a, b, c}, -1);
   }
   return units;
 }

@@ -11,17 +11,17 @@
 
 namespace tensegric_fit::tensegric {
 
-/// The tetrahedron of a unit's outer triangle and the centroid of its inner one, or of the inner triangle and
-/// the outer centroid. With s its volume / that at rest and s0 = 0.7, it adds the energy
+/// The tetrahedron of a unit's upper triangle and the centroid of its lower one, or of the lower triangle and
+/// the upper centroid. With s its volume / that at rest and s0 = 0.7, it adds the energy
 /// -stiffness (s - s0)^2 ln(s / s0) while s < s0: nothing above s0, two continuous derivatives, and no bound
 /// as s goes to zero.
 struct UnitVolume {
   std::array<int, 6> nodes;  ///< the triangle's corners, then those whose mean is the apex
-  double rest;               ///< 6 times the volume at rest, m^3, negative for an inner triangle
+  double rest;               ///< 6 times the volume at rest, m^3, negative for a lower triangle
   double stiffness;          ///< pseudo force times length
 };
 
-/// Two a triangle that can move. Units that are flat or turned inside out at rest have none.
+/// Two a unit that can move. Units that are flat or turned inside out at rest have none.
 std::vector<UnitVolume> unit_volumes(const Model& model, const std::vector<int>& free_index);
 
 /// Volume / volume at rest.

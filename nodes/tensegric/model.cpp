@@ -52,72 +52,73 @@ void check_held(const Model& model, const Positions& rest) {
   }
 }
 
-double area_of(const std::vector<Eigen::Vector3d>& corners, const Eigen::Vector3i& t) {
-  return geometry::area_vector(corners[t[0]], corners[t[1]], corners[t[2]]).norm() / 2;
+double area_of(const Positions& x, const std::array<int, 6>& unit, int first) {
+  return geometry::area_vector(x[unit[first]], x[unit[first + 1]], x[unit[first + 2]]).norm() / 2;
 }
 
-// The tissue of each unit, m^3: mean area of its triangles times its mean depth, which no fold makes
-// negative.
-std::vector<double> tissue_of_units(const geometry::ControlMesh& control) {
-  std::vector<double> tissue;
-  for (const Eigen::Vector3i& t : control.triangles) {
-    double depth = 0;
-    for (int k = 0; k < 3; ++k) depth += (control.outer[t[k]] - control.inner[t[k]]).norm() / 3;
-    tissue.push_back(depth * (area_of(control.outer, t) + area_of(control.inner, t)) / 2);
-  }
-  return tissue;
+// The tissue of a unit, m^3: mean area of its triangles times its mean depth, which no fold makes negative.
+double tissue_of(const Positions& x, const std::array<int, 6>& unit) {
+  double depth = 0;
+  for (int k = 0; k < 3; ++k) depth += (x[unit[k]] - x[unit[k + 3]]).norm() / 3;
+  return depth * (area_of(x, unit, 0) + area_of(x, unit, 3)) / 2;
 }
 
 // Adds members at their rest lengths, each as stiff as the tissue that it stands for: a third of each unit
 // that it belongs to.
 class MemberPlacer {
  public:
-  MemberPlacer(Model& model, const Positions& rest)
-      : model_(model), rest_(rest), count_(static_cast<int>(model.control.outer.size())) {
+  MemberPlacer(Model& model, const Positions& rest) : model_(model), rest_(rest) {
     const auto box = geometry::bounding_box(rest);
     shortest_ = kShortestMember * (box[1] - box[0]).norm();
-    const std::vector<double> tissue = tissue_of_units(model.control);
-    for (std::size_t u = 0; u < tissue.size(); ++u) {
-      const Eigen::Vector3i& t = model.control.triangles[u];
-      const double area = area_of(model.control.outer, t);
+    for (const std::array<int, 6>& unit : model.units()) {
+      const double tissue = tissue_of(rest, unit), area = area_of(rest, unit, 0);
       for (int k = 0; k < 3; ++k) {
-        const auto side = std::minmax(t[k], t[(k + 1) % 3]);
-        for (Share* share : {&sides_[side], &corners_[t[k]]}) *share += {1, tissue[u] / 3, area / 3};
+        const int next = (k + 1) % 3;
+        for (Share* share :
+             {&faces_[std::minmax(unit[k], unit[next])], &edges_[std::minmax(unit[k], unit[next])],
+              &edges_[std::minmax(unit[k + 3], unit[next + 3])], &laterals_[{unit[k], unit[k + 3]}]})
+          *share += {1, tissue / 3, area / 3};
       }
     }
   }
 
-  // Numbers of the units that share each member.
-  std::vector<int> place_all() {
+  // Densities of the ideal prism's parts, summed over the units that share them.
+  std::vector<double> place_all() {
     const ModelOptions& options = model_.options;
-    for (const Eigen::Vector3i& t : model_.control.triangles)
+    const int count = static_cast<int>(model_.control.outer.size());
+    for (const std::array<int, 6>& unit : model_.units())
       for (int k = 0; k < 3; ++k) {
-        Share own = sides_[std::minmax(t[k], t[(k + 1) % 3])];
-        own.units = 1;
-        place(t[k], count_ + t[(k + 1) % 3], true, own, options.strut_stiffness, 0);
+        const Share& face = faces_[std::minmax(unit[k], unit[(k + 1) % 3])];
+        place(unit[k], unit[(k + 1) % 3 + 3], true, options.strut_stiffness, face.tissue, 0, 1);
       }
-    for (int layer : {0, count_})
-      for (const auto& [side, share] : sides_)
-        place(layer + side.first, layer + side.second, false, share, 1,
-              layer == 0 ? options.skin * share.area : 0);
-    for (int i = 0; i < count_; ++i) {
-      const Share& share = corners_[i];
-      if (share.units == 0)
-        throw Refusal(refusal::kBadMesh, "a node of the control mesh belongs to no triangle");
-      place(i, count_ + i, false, share, options.lateral_stiffness, 0);
-    }
+    for (int level = 0; level <= options.layers; ++level)
+      for (auto edge = edges_.lower_bound({model_.first_node(level), 0});
+           edge != edges_.end() && edge->first.first < model_.first_node(level) + count; ++edge) {
+        const auto& [ends, share] = *edge;
+        place(ends.first, ends.second, false, 1, share.tissue, level == 0 ? options.skin * share.area : 0,
+              share.units / std::sqrt(3.0));
+      }
+    for (int level = 0; level < options.layers; ++level)
+      for (int i = 0; i < count; ++i) {
+        const int below = model_.first_node(level + 1) + i;
+        const Share& share = laterals_[{model_.first_node(level) + i, below}];
+        if (share.units == 0)
+          throw Refusal(refusal::kBadMesh, "a node of the control mesh belongs to no triangle");
+        place(model_.first_node(level) + i, below, false, options.lateral_stiffness, share.tissue, 0,
+              share.units);
+      }
     double mean = 0;
     for (const Member& m : model_.members)
       if (!m.strut) mean += m.stiffness / model_.tensile_parts();
     for (Member& m : model_.members) m.stiffness /= mean;
     model_.tissue = 1 / mean;
-    return units_;
+    return densities_;
   }
 
  private:
   struct Share {
     int units = 0;
-    double tissue = 0, area = 0;  // m^3, m^2
+    double tissue = 0, area = 0;  // m^3, m^2 of the upper triangles
     Share& operator+=(const Share& other) {
       units += other.units;
       tissue += other.tissue;
@@ -125,25 +126,24 @@ class MemberPlacer {
       return *this;
     }
   };
+  using Shares = std::map<std::pair<int, int>, Share>;
 
-  // `kind`: share of the tissue's stiffness; `skin`: m^3 of tissue besides.
-  void place(int a, int b, bool strut, const Share& share, double kind, double skin) {
+  // `kind`: share of the tissue's stiffness; `tissue` that it stands for, `skin` besides, m^3.
+  void place(int a, int b, bool strut, double kind, double tissue, double skin, double density) {
     const double length = (rest_[a] - rest_[b]).norm();
     if (!(length > shortest_ && std::isfinite(length)))
       throw Refusal(refusal::kBadMesh,
                     "two nodes of the tensegric model that a part joins lie on one point, or as good as");
-    const double stiffness = model_.options.uniform ? kind : (kind * share.tissue + skin) / length;
+    const double stiffness = model_.options.uniform ? kind : (kind * tissue + skin) / length;
     model_.members.push_back({a, b, strut, stiffness, length, length});
-    units_.push_back(share.units);
+    densities_.push_back(density);
   }
 
   Model& model_;
   const Positions& rest_;
-  int count_;
   double shortest_;
-  std::map<std::pair<int, int>, Share> sides_;
-  std::map<int, Share> corners_;
-  std::vector<int> units_;
+  Shares faces_, edges_, laterals_;  // faces by their upper edge
+  std::vector<double> densities_;
 };
 
 }  // namespace
@@ -171,19 +171,40 @@ InnerNodes inner_nodes_from(const std::string& word) {
 }
 
 int Model::struts() const {
-  return 3 * static_cast<int>(control.triangles.size());
+  return 3 * options.layers * static_cast<int>(control.triangles.size());
 }
 int Model::tensile_parts() const {
   return static_cast<int>(members.size()) - struts();
 }
 
+int Model::nodes() const {
+  return (options.layers + 1) * static_cast<int>(control.outer.size());
+}
+
+int Model::first_node(int level) const {
+  const int count = static_cast<int>(control.outer.size());
+  return level == 0 ? 0 : level == options.layers ? count : (level + 1) * count;
+}
+
+std::vector<std::array<int, 6>> Model::units() const {
+  std::vector<std::array<int, 6>> units;
+  for (int layer = 0; layer < options.layers; ++layer) {
+    const int upper = first_node(layer), lower = first_node(layer + 1);
+    for (const Eigen::Vector3i& t : control.triangles)
+      units.push_back({t[0] + upper, t[1] + upper, t[2] + upper, t[0] + lower, t[1] + lower, t[2] + lower});
+  }
+  return units;
+}
+
+// Between two that are fixed a node is fixed.
 bool Model::is_fixed(int node) const {
   const int count = static_cast<int>(control.outer.size());
-  return node < count ? control.outer_fixed[node] != 0 : control.inner_fixed[node - count] != 0;
+  const bool outer = control.outer_fixed[node % count] != 0, inner = control.inner_fixed[node % count] != 0;
+  return node < count ? outer : node < 2 * count ? inner : outer && inner;
 }
 
 std::vector<int> Model::free_index() const {
-  std::vector<int> index(2 * control.outer.size(), -1);
+  std::vector<int> index(nodes(), -1);
   int next = 0;
   for (std::size_t i = 0; i < index.size(); ++i)
     if (!is_fixed(static_cast<int>(i))) index[i] = next++;
@@ -198,6 +219,9 @@ int Model::free_nodes() const {
 Positions Model::rest_positions() const {
   Positions rest = control.outer;
   rest.insert(rest.end(), control.inner.begin(), control.inner.end());
+  for (int level = 1; level < options.layers; ++level)
+    for (std::size_t i = 0; i < control.outer.size(); ++i)
+      rest.push_back(control.outer[i] + level * (control.inner[i] - control.outer[i]) / options.layers);
   return rest;
 }
 
@@ -215,6 +239,7 @@ Model build_model(const geometry::ControlMesh& control, const ModelOptions& opti
   check_option(options.skin, 0, kThickestSkin, "skin");
   check_option(options.volume_stiffness, 0, kStiffestVolume, "volume_stiffness");
   check_option(options.prestress, kLowestPrestress, kHighestPrestress, "prestress");
+  check_option(options.layers, 1, kMostLayers, "layers");
   Model model;
   model.control = control;
   model.options = options;
@@ -222,8 +247,7 @@ Model build_model(const geometry::ControlMesh& control, const ModelOptions& opti
     std::fill(model.control.inner_fixed.begin(), model.control.inner_fixed.end(), 1);
   const Positions rest = model.rest_positions();
   check_held(model, rest);
-  const std::vector<int> units = MemberPlacer(model, rest).place_all();
-  const Eigen::VectorXd density = force_densities(model, units);
+  const Eigen::VectorXd density = force_densities(model, MemberPlacer(model, rest).place_all());
 
   double mean = 0, highest = 0;
   for (std::size_t i = 0; i < model.members.size(); ++i) {

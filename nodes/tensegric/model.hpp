@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -9,13 +10,15 @@
 
 namespace tensegric_fit::tensegric {
 
-/// Node positions: outer node i at i, inner node i at V + i. Metres, the scan's frame.
+/// Node positions: outer node i at i, inner node i at V + i, then those between them, level by level from
+/// outside. Metres, the scan's frame.
 using Positions = std::vector<Eigen::Vector3d>;
 
 inline constexpr double kSoftestStrut = 1e-3, kStiffestStrut = 1e6;
 inline constexpr double kLowestPrestress = 1e-6, kHighestPrestress = 0.5;
 inline constexpr double kSoftestLateral = 1e-3, kStiffestLateral = 1e3;
 inline constexpr double kThickestSkin = 10, kStiffestVolume = 1e3;
+inline constexpr int kMostLayers = 8;
 
 /// Whether inner nodes settle (the papers) or are bound to the bones below them (P2 §6).
 enum class InnerNodes { free, bound };
@@ -28,6 +31,7 @@ InnerNodes inner_nodes_from(const std::string& word);
 /// here times the tissue that it stands for / its length, so that a finer mesh is as stiff as a coarse one.
 struct ModelOptions {
   InnerNodes inner = InnerNodes::bound;
+  int layers = 1;        ///< of units, one below the other, between the skin and the inner nodes
   bool uniform = false;  ///< all parts of a kind have one k, as in the papers, whatever tissue they stand for
   double strut_stiffness = 0.20;    ///< of struts; edges have 1. The papers' rigid strut is the limit
   double lateral_stiffness = 0.20;  ///< of the tensile parts from outer to inner node
@@ -44,7 +48,7 @@ ModelOptions papers_model();
 /// A strut (two-way spring) or a tensile part (pulls only) between two nodes. Forces are pseudo forces: the
 /// tensile parts' mean stiffness is 1.
 struct Member {
-  int a, b;  ///< nodes: outer node i is i, inner node i is V + i
+  int a, b;  ///< nodes, see Positions
   bool strut;
   double stiffness;  ///< force / strain
   double rest;       ///< length at rest, m
@@ -53,12 +57,15 @@ struct Member {
 
 struct Model {
   geometry::ControlMesh control;  ///< at rest
-  std::vector<Member> members;    ///< 3F struts, then 2E + V tensile parts
+  std::vector<Member> members;    ///< 3F struts a layer, then tensile parts: E a level, V a layer
   ModelOptions options;
   double tissue = 1;  ///< stiffness of tissue, pseudo force / m^2: what 1 means in ModelOptions
   int struts() const;
   int tensile_parts() const;
-  int free_nodes() const;  ///< outer and inner
+  int nodes() const;
+  int free_nodes() const;
+  int first_node(int level) const;                ///< 0: the skin; as many as layers: the inner nodes
+  std::vector<std::array<int, 6>> units() const;  ///< prisms: corners of the upper triangle, then those below
   bool is_fixed(int node) const;
   std::vector<int> free_index() const;  ///< of each node its number among the free ones, or -1
   Positions rest_positions() const;

@@ -17,17 +17,15 @@ constexpr double kTolerance = 1e-13;  // largest net force at a free node / larg
 // bounds, by Newton steps on the dual: w = clamp(ideal + C^T y), and the dual's gradient is C w.
 class NearestBalance {
  public:
-  NearestBalance(const Model& model, const std::vector<int>& units)
-      : model_(model), free_(model.free_index()), matrix_(model.free_nodes(), pairs()) {
+  NearestBalance(const Model& model, const std::vector<double>& ideal)
+      : model_(model), free_(model.free_index()), matrix_(model.free_nodes(), pairs()), density_(ideal) {
     const Positions rest = model.rest_positions();
     double mean = 0;
     for (const Member& m : model.members) mean += m.rest / model.members.size();
     for (std::size_t i = 0; i < model.members.size(); ++i) {
       const Member& m = model.members[i];
       ideal_.push_back(m.strut ? -1 : 1);
-      const bool lateral = m.b - m.a == static_cast<int>(model.control.outer.size());
-      density_.push_back(m.strut || lateral ? units[i] : units[i] / std::sqrt(3.0));
-      column_.push_back(density_.back() / mean * (rest[m.a] - rest[m.b]));
+      column_.push_back(density_[i] / mean * (rest[m.a] - rest[m.b]));
       largest_ = std::max(largest_, column_.back().norm());
     }
   }
@@ -135,8 +133,8 @@ class NearestBalance {
 
 }  // namespace
 
-Eigen::VectorXd force_densities(const Model& model, const std::vector<int>& units) {
-  NearestBalance balance(model, units);
+Eigen::VectorXd force_densities(const Model& model, const std::vector<double>& ideal) {
+  NearestBalance balance(model, ideal);
   for (double lowest : {0.1, 0.01, 0.001, 0.0}) {
     const Eigen::VectorXd density = balance.densities(lowest);
     if (density.size() > 0) return density;

@@ -11,9 +11,8 @@ namespace tensegric_fit::tensegric {
 /// Force density (force / length) of each member: pulls at every tensile part (nothing at some of them only
 /// where there is no balance else), pushes or nothing at every strut, and no net force at any free node. The
 /// nearest such densities to those of the ideal prism, an affine image of which stands on each triangle: base
-/// and top 1/sqrt(3), lateral 1, strut -1, summed where units share a part. `units` holds for each member the
-/// number of units that share it. Only their ratios mean anything. \throw Refusal bad_mesh: no such densities
-/// exist
-Eigen::VectorXd force_densities(const Model& model, const std::vector<int>& units);
+/// and top 1/sqrt(3), lateral 1, strut -1, summed where units share a part: `ideal` has their sizes, one a
+/// member. Only their ratios mean anything. \throw Refusal bad_mesh: no such densities exist
+Eigen::VectorXd force_densities(const Model& model, const std::vector<double>& ideal);
 
 }  // namespace tensegric_fit::tensegric

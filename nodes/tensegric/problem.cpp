@@ -75,9 +75,9 @@ std::vector<char> touched_nodes(const Problem& problem) {
 void number_free_nodes(Problem& problem) {
   const std::vector<char> touched = touched_nodes(problem);
   const std::size_t outer = touched.size();
-  problem.free_index.assign(2 * outer, -1);
+  problem.free_index.assign(problem.rest.size(), -1);
   problem.free_nodes = 0;
-  for (std::size_t i = 0; i < 2 * outer; ++i)
+  for (std::size_t i = 0; i < problem.free_index.size(); ++i)
     if (touched[i % outer] && !is_held(problem, static_cast<int>(i)))
       problem.free_index[i] = problem.free_nodes++;
 }
@@ -131,14 +131,23 @@ void pose_problem(Problem& problem, double share) {
 }
 
 bool is_held(const Problem& problem, int node) {
-  const bool inner = node >= static_cast<int>(problem.model.control.outer.size());
+  const int count = static_cast<int>(problem.model.control.outer.size());
+  const bool inner = node >= count && node < 2 * count;
   return problem.model.is_fixed(node) || (inner && !problem.options.bones.still());
 }
 
 Positions positions_of(const Solution& solution) {
   Positions x = solution.outer;
   x.insert(x.end(), solution.inner.begin(), solution.inner.end());
+  x.insert(x.end(), solution.between.begin(), solution.between.end());
   return x;
+}
+
+void put_positions(const Positions& x, const Model& model, Solution& solution) {
+  const auto count = static_cast<std::ptrdiff_t>(model.control.outer.size());
+  solution.outer.assign(x.begin(), x.begin() + count);
+  solution.inner.assign(x.begin() + count, x.begin() + 2 * count);
+  solution.between.assign(x.begin() + 2 * count, x.end());
 }
 
 double relative_residual(const Problem& problem, const Eigen::VectorXd& gradient) {
@@ -160,8 +169,8 @@ bool Recorder::record(int iteration, const Positions& x, double residual, double
   iterate.merit_change = merit_change;
   history.push_back(iterate);
   if (!progress_) return true;
-  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(problem_.model.control.outer.size());
-  return progress_(iterate, {x.begin(), middle}, {middle, x.end()});
+  const auto count = static_cast<std::ptrdiff_t>(problem_.model.control.outer.size());
+  return progress_(iterate, {x.begin(), x.begin() + count}, {x.begin() + count, x.begin() + 2 * count});
 }
 
 double Recorder::seconds() const {

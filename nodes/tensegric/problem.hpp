@@ -55,6 +55,7 @@ void pose_problem(Problem& problem, double share);
 bool is_held(const Problem& problem, int node);
 
 Positions positions_of(const Solution& solution);
+void put_positions(const Positions& x, const Model& model, Solution& solution);
 
 /// Largest net force at a free node, relative to the mean tensile force at rest. `gradient` is the negative
 /// net force; infinite where it is not finite.

@@ -19,6 +19,10 @@ void add_control_gradient(const RegionVolume& region, const Positions& x, const 
   }
 }
 
+double body_volume(const RegionVolume& region, const Positions& x, Positions* by_node) {
+  return region.body({x.begin(), x.begin() + region.body_nodes}, by_node);
+}
+
 int count_free(const std::vector<int>& free_index) {
   return static_cast<int>(std::count_if(free_index.begin(), free_index.end(), [](int i) { return i >= 0; }));
 }
@@ -39,6 +43,7 @@ RegionVolume region_volume_of(const Model& model, const geometry::ControlRegion&
   result.area = result.control_area = gradient.norm();
   if (!body) return result;
   result.body = body;
+  result.body_nodes = 2 * static_cast<int>(model.control.outer.size());
   gradient.setZero();
   result.rest = add_volume_gradient(result, rest, free_index, 1, gradient);
   result.area = gradient.norm();
@@ -50,7 +55,7 @@ RegionVolume region_volume_of(const Model& model, const geometry::ControlRegion&
 }
 
 double volume(const RegionVolume& region, const Positions& x) {
-  return region.body ? region.body(x, nullptr) : control_volume(region, x);
+  return region.body ? body_volume(region, x, nullptr) : control_volume(region, x);
 }
 
 double control_volume(const RegionVolume& region, const Positions& x) {
@@ -73,7 +78,7 @@ double add_volume_gradient(const RegionVolume& region, const Positions& x, const
     return control_volume(region, x);
   }
   Positions by_node;
-  const double value = region.body(x, &by_node);
+  const double value = body_volume(region, x, &by_node);
   for (std::size_t i = 0; i < by_node.size(); ++i)
     if (free_index[i] >= 0) gradient.segment<3>(3 * free_index[i]) += scale * by_node[i];
   return value;

@@ -12,7 +12,7 @@
 
 namespace tensegric_fit::tensegric {
 
-/// Volume of the dense body under a region, m^3, for the model's nodes (outer, then inner), and where
+/// Volume of the dense body under a region, m^3, for the outer and then the inner nodes, and where
 /// `gradient` is not null its gradient by each of them.
 using VolumeFunction = std::function<double(const Positions& nodes, Positions* gradient)>;
 
@@ -23,6 +23,7 @@ struct RegionVolume {
   std::vector<Eigen::Vector3i> triangles;
   Eigen::Vector3d apex;
   VolumeFunction body;  ///< empty: the control mesh's own volume is kept
+  int body_nodes = 0;   ///< outer and inner
   double rest = 0;
   double area = 1;
   double control_rest = 0;  ///< of the control mesh, m^3

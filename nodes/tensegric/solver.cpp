@@ -18,11 +18,11 @@ namespace refusal = geometry::refusal;
 
 void check_start(const Model& model, const Solution& start) {
   const std::size_t count = model.control.outer.size();
-  if (start.outer.size() != count || start.inner.size() != count)
+  if (start.outer.size() != count || start.inner.size() != count ||
+      positions_of(start).size() != static_cast<std::size_t>(model.nodes()))
     throw Refusal(refusal::kBadOption, "the solution to start from is not of this model");
-  for (const auto* layer : {&start.outer, &start.inner})
-    for (const Eigen::Vector3d& p : *layer)
-      if (!p.allFinite()) throw Refusal(refusal::kBadOption, "the solution to start from is not finite");
+  for (const Eigen::Vector3d& p : positions_of(start))
+    if (!p.allFinite()) throw Refusal(refusal::kBadOption, "the solution to start from is not finite");
 }
 
 void add_sentence(std::string& note, const std::string& sentence) {
@@ -50,10 +50,8 @@ std::string reach_note(const std::vector<LineResult>& lines, const std::vector<B
 
 Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iterate> history) {
   const Positions& x = outcome.state.x;
-  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(problem.model.control.outer.size());
   Solution solution;
-  solution.outer.assign(x.begin(), middle);
-  solution.inner.assign(middle, x.end());
+  put_positions(x, problem.model, solution);
   for (std::size_t b = 0; b < problem.bands.size(); ++b) {
     const Band& band = problem.bands[b];
     const Thread& thread = band.threads[band.threads.size() / 2];
@@ -93,10 +91,8 @@ Outcome relax_from(Problem& problem, const Solution* start, Recorder& recorder) 
   Positions x = start == nullptr ? target : positions_of(*start);
   for (std::size_t i = 0; i < x.size(); ++i)
     if (problem.free_index[i] < 0) x[i] = target[i];
-  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
   Solution from = start == nullptr ? Solution() : *start;
-  from.outer.assign(x.begin(), middle);
-  from.inner.assign(middle, x.end());
+  put_positions(x, problem.model, from);
   return relax(problem, &from, adaptive, recorder);
 }
 

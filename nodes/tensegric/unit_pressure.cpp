@@ -63,13 +63,9 @@ double unit_volume(const Corners& corners) {
 std::vector<UnitPressure> unit_pressures(const Model& model, const std::vector<int>& free_index) {
   std::vector<UnitPressure> units;
   if (model.options.volume_stiffness == 0) return units;
-  const int count = static_cast<int>(model.control.outer.size());
   const Positions rest = model.rest_positions();
-  for (const Eigen::Vector3i& t : model.control.triangles) {
-    UnitPressure unit{{t[0], t[1], t[2], t[0] + count, t[1] + count, t[2] + count},
-                      Vector3d::Zero(),
-                      0,
-                      model.options.volume_stiffness * model.tissue};
+  for (const std::array<int, 6>& nodes : model.units()) {
+    UnitPressure unit{nodes, Vector3d::Zero(), 0, model.options.volume_stiffness * model.tissue};
     bool moves = false;
     for (int node : unit.nodes) {
       unit.origin += rest[node] / 6;

@@ -218,7 +218,7 @@ Calibration calibrate(const std::vector<CalibrationBody>& bodies,
     say("leaving out " + bodies[b].name);
     std::vector<const CalibrationBody*> others = all;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(b));
-    result.left_out.push_back(fitted_on(others, patterns, result.settings, options));
+    result.left_out.push_back(fitted_on(others, patterns, start, options));
     const auto before = errors_of(bodies[b], start), in = errors_of(bodies[b], result.settings),
                out = errors_of(bodies[b], result.left_out.back());
     for (std::size_t c = 0; c < bodies[b].cases.size(); ++c)

@@ -177,6 +177,23 @@ TEST_F(FitProgram, TakesControlMeshesOfOnesOwn) {
   EXPECT_NEAR(r["lines"].at(0)["ratio"].get<double>(), 0.95, 1e-6);  // DESIGN §7
 }
 
+TEST_F(FitProgram, FinerControlMeshesHaveTissueInLayers) {
+  for (const char* volume : {"control", "body"}) {
+    ASSERT_EQ(fit("--mesh " + kScans +
+                  "/a/body.ply --garment B1+H2 --ratio 0.95 --control-triangles 480 --volume " + volume),
+              0)
+        << read_file(file("log"));
+    const json r = report();
+    EXPECT_EQ(r["solver"]["status"], "converged");
+    EXPECT_EQ(r["control"]["struts"].get<int>(), 3 * 3 * r["control"]["triangles"].get<int>());
+    for (const json& line : r["lines"]) EXPECT_NEAR(line["ratio"].get<double>(), 0.95, 1e-6);  // DESIGN §7
+    for (const json& region : r["regions"]) {
+      const json& kept = region[std::string(volume) + "_volume"];
+      EXPECT_NEAR(kept[1].get<double>() / kept[0].get<double>(), 1, 1e-9);  // DESIGN §7
+    }
+  }
+}
+
 TEST_F(FitProgram, AGarmentIsWornInAnyPosture) {
   ASSERT_EQ(fit("--mesh " + kScans + "/a/body.ply --garment B1 --ratio 0.95 --twist 15 --lean -10"), 0)
       << read_file(file("log"));

@@ -55,6 +55,11 @@ std::vector<Case> option_cases() {
       for (double stiffness : {0.0, 1.0, 30.0, 1e3})
         add("volume stiffness/" + text(stiffness) + " at " + text(ratio), ratio).volume_stiffness = stiffness;
     }
+    for (const int layers : {0, 2, 3, 8, 9})
+      for (double ratio : {0.97, 0.9}) {
+        add("layers/" + text(layers) + " at " + text(ratio), ratio).layers = layers;
+        cases.back().refusal = layers < 1 || layers > 8 ? "bad_option" : "";
+      }
     for (double prestress : {0.0, 1e-6, 1e-3, 0.1, 0.2, 0.5, 1.0}) {
       add("prestress/" + text(prestress), 0.9).prestress = prestress;
       cases.back().refusal = prestress == 0 || prestress > 0.5 ? "bad_option" : "";

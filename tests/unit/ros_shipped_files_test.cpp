@@ -76,6 +76,19 @@ TEST(ShippedFiles, ConfigurationsNameStages) {
   }
 }
 
+// `fit` takes the one, the nodes the other.
+TEST(ShippedFiles, FineTissueIsTheSameForFitAndForNodes) {
+  const YAML::Node tissue = YAML::LoadFile(kLaunch / "tissue" / "fine.yaml");
+  const YAML::Node config = YAML::LoadFile(kLaunch / "config" / "fine.yaml");
+  for (const auto& entry : tissue) {
+    const auto key = entry.first.Scalar();
+    if (key == "evidence") continue;
+    const YAML::Node value = config[key == "thickness" ? "control_mesh" : "tensegric"][key];
+    ASSERT_TRUE(value) << key;
+    EXPECT_EQ(value.Scalar(), entry.second.Scalar()) << key;
+  }
+}
+
 TEST(ShippedFiles, RvizKnowsEveryDisplay) {
   std::ifstream description("/usr/share/rviz/plugin_description.xml");
   if (!description) GTEST_SKIP() << "rviz is not installed";
