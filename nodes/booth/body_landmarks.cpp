@@ -139,13 +139,15 @@ Vector3d axilla(const BodyShape& shape, double side) {
   return shape.project(passage(shape, side, open).narrowest);
 }
 
-// Over the shoulder joint, outwards and back; the shoulder blade turns with an arm that is raised further
-// than half a radian, by a third of the rest (scapulohumeral rhythm).
+// Over the shoulder joint, outwards and back: 0.018 statures behind the middle of the shoulder's depth, as on
+// MakeHuman's bodies. The shoulder blade lies on the chest and stoops with it, and turns with an arm that is
+// raised further than half a radian, by a third of the rest (scapulohumeral rhythm).
 Vector3d acromion(const BodyShape& shape, double side) {
   const BodyShape::Axis arm = shape.upper_arm_axis(side > 0);
   const double raised = std::max(0.0, std::acos(-arm.direction.z()) - 0.5) / 3;
   const Eigen::AngleAxisd blade(side * raised, Vector3d::UnitX());
-  return shape.exit_point(arm.origin, blade * Vector3d(-0.50, side * 0.46, 0.75).normalized());
+  const Vector3d over_joint = blade * Vector3d(-0.56, side * 0.46, 0.70).normalized();
+  return shape.exit_point(arm.origin, shape.posed_direction({0.008, 0.168 * side, 1.330}, over_joint));
 }
 
 }  // namespace
