@@ -28,10 +28,13 @@ double stoop_of(const BodyShape& body, const Neck& neck) {
   Vector3d back = top;
   const std::vector<int> skin = triangles_in_box(body, top - reach, top + reach);
   for (const geometry::SectionLoop& loop : cut(body, skin, top, Vector3d::UnitY()))
-    for (const Vector3d& p : loop.points)
-      if (p.z() < top.z() && std::abs((p - top).norm() - kUpperBack * s) < 0.005 &&
-          (back == top || p.x() < back.x()))
-        back = p;
+    for (std::size_t i = 0; i + 1 < loop.points.size(); ++i) {
+      const Vector3d &a = loop.points[i], &b = loop.points[i + 1];
+      const double beyond_a = (a - top).norm() - kUpperBack * s, beyond_b = (b - top).norm() - kUpperBack * s;
+      if ((beyond_a > 0) == (beyond_b > 0)) continue;
+      const Vector3d p = a + beyond_a / (beyond_a - beyond_b) * (b - a);
+      if (p.z() < top.z() && (back == top || p.x() < back.x())) back = p;
+    }
   if (back == top) return neck.turn;
   return kBendWithin * (std::atan2(top.x() - back.x(), top.z() - back.z()) - upright_back(neck.girth / s));
 }
