@@ -5,7 +5,6 @@
 
 #include "geometry/posture.hpp"
 #include "geometry/status.hpp"
-#include "tensegric/members.hpp"
 #include "tensegric/model.hpp"
 #include "tensegric/solver.hpp"
 #include "tensegric/unit_pressure.hpp"
@@ -44,29 +43,6 @@ TEST(Layers, EachIsAWholeLayerOfUnits) {
   for (const auto& u : model.units())
     split += unit_volume({rest[u[0]], rest[u[1]], rest[u[2]], rest[u[3]], rest[u[4]], rest[u[5]]});
   EXPECT_NEAR(split / whole, 1, 1e-12);  // they share faces: nothing is lost or counted twice
-}
-
-TEST(Layers, RestIsABalanceWithTheRightSigns) {
-  for (const int layers : {2, 3, 5}) {
-    for (const InnerNodes inner : {InnerNodes::bound, InnerNodes::free}) {
-      ModelOptions options = layered(layers);
-      options.inner = inner;
-      const Model model = build_model(bust_mesh(), options);
-      const Positions rest = model.rest_positions();
-      double highest = 0;
-      for (const Member& m : model.members) {
-        const double force = tension(m, m.rest);
-        highest = std::max(highest, std::abs(force));
-        if (m.strut)
-          EXPECT_LE(force, 0);
-        else
-          EXPECT_GE(force, 0);
-      }
-      Eigen::VectorXd gradient = Eigen::VectorXd::Zero(3 * model.free_nodes());
-      add_member_gradient(model, rest, model.free_index(), gradient);
-      EXPECT_LE(gradient.cwiseAbs().maxCoeff(), 1e-12 * highest);
-    }
-  }
 }
 
 TEST(Layers, EverySolverLeavesTheUndeformedModelStill) {

@@ -31,7 +31,9 @@ TEST(Model, CountsOfTheBust) {
 }
 
 TEST(Model, PrestressBalancesWithTheRightSigns) {
-  for (const ModelOptions& options : {ModelOptions(), papers_model()}) {
+  ModelOptions layered;
+  layered.layers = 3;
+  for (const ModelOptions& options : {ModelOptions(), papers_model(), layered}) {
     for (double thinner : {1.0, 0.5}) {
       for (bool rim_inner_fixed : {true, false}) {
         BustShape shape;
