@@ -11,10 +11,9 @@
 namespace tensegric_fit::landmarks {
 namespace {
 
-constexpr double kAxillaShare = 0.75;     // of stature, where no arm tells
-constexpr double kHighestWaist = 0.70;    // of stature
-constexpr double kWidestChest = 1.7;      // of the waist; what reaches further out is a forearm already
-constexpr double kBeyondShoulders = 0.2;  // of stature, from the middle
+constexpr double kAxillaShare = 0.75;   // of stature, where no arm tells
+constexpr double kHighestWaist = 0.70;  // of stature
+constexpr double kWidestChest = 1.7;    // of the waist; what reaches further out is a forearm already
 constexpr double kWidestGap =
     0.02;  // statures, of arm and trunk a fraction of a millimetre under the place where they join
 constexpr double kDome =
