@@ -11,7 +11,6 @@
 #include "reconstruction/floor.hpp"
 #include "reconstruction/fractures.hpp"
 #include "reconstruction/handles.hpp"
-#include "reconstruction/noise.hpp"
 #include "reconstruction/normals.hpp"
 #include "reconstruction/poisson.hpp"
 #include "reconstruction/repair.hpp"
@@ -30,10 +29,8 @@ namespace {
 using geometry::PointCloud;
 using geometry::TriangleMesh;
 
-constexpr double kUnseenEdge = 0.005;  // m; the edge of a foot rounds off below what the sensors see of it
-constexpr double kDeepestPoint = 3;    // standard deviations, of the hundreds of points at the soles' edges
-constexpr double kDuplicate = 0.0005;  // m; closer points are one
-constexpr double kCoarsest = 0.005;    // m
+constexpr double kDuplicate = 0.0005;          // m; closer points are one
+constexpr double kCoarsest = 0.005;            // m
 constexpr std::size_t kEnoughPoints = 400000;  // of a whole scan
 constexpr double kLongestLoop = 0.3;           // m round; a bridge that is thicker is the body's own
 constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher stands on something else
@@ -103,10 +100,10 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
     if (!leans)
       to_ground =
           level(Eigen::Vector3d::UnitZ(), lowest_of(body.points), geometry::bounding_box(body.points)[0]);
-    // The plane lies under the deepest point, which noise took that far down.
-    to_ground.pretranslate(Eigen::Vector3d(0, 0, kUnseenEdge - kDeepestPoint * noise_of(body.points)));
     transform(body, to_ground);
-    from_scan = to_ground * from_scan;
+    const Eigen::Translation3d down(0, 0, -ground_under(body.points));
+    transform(body, Eigen::Isometry3d(down));
+    from_scan = down * to_ground * from_scan;
   }
   return body;
 }

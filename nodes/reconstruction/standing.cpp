@@ -1,5 +1,6 @@
 #include "reconstruction/standing.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -12,6 +13,9 @@ const double kLeastUp = std::cos(20 * M_PI / 180);
 constexpr int kMostPivots = 200;
 constexpr double kFeet = 0.12;  // m; of a body that leans by 15 degrees one foot is that much above the other
 constexpr double kFar = 10;     // m, beyond every point
+// Of the lowest points, these two; the ground is as far below the first as they are apart, and kBelow more.
+constexpr std::size_t kLow = 9, kNextLow = 39;
+constexpr double kBelow = 0.002;  // m
 
 /// True where the origin lies in the triangle as seen from above.
 bool covers_origin(const Triangle& t) {
@@ -66,6 +70,18 @@ Eigen::Isometry3d resting_plane(const std::vector<Eigen::Vector3d>& points) {
   const Eigen::Vector3d normal = upward_normal(t);
   if (!(normal.z() > kLeastUp)) return level(Eigen::Vector3d::UnitZ(), lowest, middle);
   return level(normal, normal.dot(t[0] + middle), middle);
+}
+
+double ground_under(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<double> heights;
+  for (const Eigen::Vector3d& p : points) heights.push_back(p.z());
+  const auto lowest = [&](std::size_t rank) {
+    rank = std::min(rank, heights.size() - 1);
+    std::nth_element(heights.begin(), heights.begin() + rank, heights.end());
+    return heights[rank];
+  };
+  const double low = lowest(kLow);
+  return 2 * low - lowest(kNextLow) - kBelow;
 }
 
 }  // namespace tensegric_fit::reconstruction

@@ -70,6 +70,20 @@ TEST(ReconstructionSteps, SolesLieOnTheirPlaneThoughTheBodyWouldFall) {
   }
 }
 
+TEST(ReconstructionSteps, GroundLiesUnderWhatIsSeenOfTheSoles) {
+  // Edges of two soles, a quarter of a circle of 5 mm, seen but for their lowest 2 mm.
+  for (const int count : {100, 400}) {
+    std::vector<Eigen::Vector3d> edges;
+    for (int i = 0; i < count; ++i)
+      for (int k = 0; k < 30; ++k) edges.emplace_back(0.5 * i / count, 0.02 * k, 0.002 + 0.003 * k * k / 900);
+    EXPECT_NEAR(ground_under(edges), 0, 0.0035);
+    edges.emplace_back(0.1, 0.1, -0.05);  // a stray point is one of the lowest ten, no more
+    EXPECT_NEAR(ground_under(edges), 0, 0.0035);
+    for (Eigen::Vector3d& p : edges) p.z() += 0.3;
+    EXPECT_NEAR(ground_under(edges), 0.3, 0.0035);
+  }
+}
+
 TEST(ReconstructionSteps, NormalsPointOutwardWithAndWithoutHints) {
   const geometry::PointCloud scan = figure::scan_body(30000, 0.0005, 4);
   for (const bool hinted : {false, true}) {
