@@ -22,9 +22,12 @@ struct Fold {
   Eigen::Vector3d lowest;            ///< lowest point of the fold from there to 55 mm medial
   double confidence;
   std::string reason;
+  double hidden = 0;       ///< metres by which the fold as a whole tells its lowest point to be higher
+  bool in_pocket = false;  ///< between breast and chest that are too close to see far into
 };
 
-/// Inframammary fold: the most hollow point of the sagittal profile under the breast.
-Fold find_fold(const BodyShape& body, const Eigen::Vector3d& bust_point, Side side);
+/// Inframammary fold: the most hollow point of the sagittal profile under the breast. `middle`: y of the
+/// middle of the chest.
+Fold find_fold(const BodyShape& body, const Eigen::Vector3d& bust_point, double middle, Side side);
 
 }  // namespace tensegric_fit::landmarks

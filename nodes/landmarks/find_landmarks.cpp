@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 
 #include "geometry/status.hpp"
@@ -26,6 +27,7 @@ using geometry::TriangleMesh;
 
 constexpr double kUnderbustBelowFold = 0.003;  // the tape lies just under the fold
 constexpr double kHiddenFold = 0.001;          // more than that above the fold found: inferred
+constexpr double kPocketDepth = 0.010;         // a fold in a pocket is as uncertain as that
 constexpr double kWaistAboveHip = 0.10, kWaistBelowUnderbust = 0.015;
 
 TriangleMesh in_frame(const TriangleMesh& mesh, const Eigen::Isometry3d& frame) {
@@ -60,13 +62,13 @@ class Record {
     measures_.heights.push_back({name, metres, confidence, std::move(reason)});
   }
 
-  /// `tape_at` gives the tape at an offset from its level.
+  /// `tape_at` gives the tape at an offset from its level; `doubt`, in metres, is what adds to its spread.
   void girth(const std::string& name, const std::function<Tape(double)>& tape_at, double confidence = 0.9,
-             std::string reason = "") {
+             std::string reason = "", double doubt = 0) {
     const Tape tape = tape_at(0);
     if (tape.size() < 3) return;
     measures_.girths.push_back({name, geometry::length_of(tape, true), confidence, std::move(reason),
-                                half_width_of(body_, tape_at)});
+                                std::hypot(half_width_of(body_, tape_at), doubt)});
     geometry::GirthLoop loop{name, {}};
     for (const Vector3d& p : tape) loop.points.push_back(scan_from_body_ * p);
     measures_.loops.push_back(std::move(loop));
@@ -155,9 +157,50 @@ double lower_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
   return hip;
 }
 
+double underbust(const BodyShape& body, const Trunk& trunk, const std::array<Vector3d, 2>& tips,
+                 Record& record) {
+  const double middle = (tips[kLeft].y() + tips[kRight].y()) / 2;
+  double height = 1e9, seen = 1e9, confidence = 1;
+  bool in_pocket = false, inferred = false;
+  std::string reason;
+  for (Side side : {kLeft, kRight}) {
+    Fold fold = find_fold(body, tips[side], middle, side);
+    const double above_web = fold_above_web(body, trunk, fold.lowest, tips[side], side);
+    if (above_web > kHiddenFold && !fold.in_pocket) {
+      fold.confidence = std::min(fold.confidence, 0.45);
+      fold.reason = "the breast hangs over its fold; where it is one with the chest";
+    }
+    record.landmark(std::string("underbust") + kSuffix[side], fold.below_bust_point, fold.confidence,
+                    fold.reason);
+    seen = std::min(seen, fold.lowest.z());
+    height = std::min(height, fold.lowest.z() + std::max(fold.hidden, above_web));
+    in_pocket = in_pocket || fold.in_pocket;
+    inferred = inferred || (fold.in_pocket && fold.hidden > std::max(above_web, kHiddenFold));
+    if (fold.confidence < confidence) {
+      confidence = fold.confidence;
+      reason = fold.reason;
+    }
+  }
+  record.height("underbust", height, confidence, reason);
+  seen -= kUnderbustBelowFold;
+  const double level = height - kUnderbustBelowFold;
+  const auto tape_at = [&](double offset) {
+    if (inferred && level > seen) return tape_carried_up(trunk, seen, level + offset);
+    std::vector<Outline> outline = trunk.outline_at(level + offset);
+    for (Outline& section : outline) section = without_hanging_breasts(section, tips, body.stature);
+    return tape_loop(outline);
+  };
+  const double doubt =
+      in_pocket
+          ? std::abs(tape_length(trunk.outline_at(seen)) - tape_length(trunk.outline_at(seen - kPocketDepth)))
+          : 0;
+  record.girth("underbust", tape_at, confidence, reason, doubt);
+  return height;
+}
+
 double bust(const BodyShape& body, const Trunk& trunk, Record& record) {
-  double height = 0, confidence = 1, underbust = 1e9, fold_confidence = 1;
-  std::string reason, fold_reason;
+  double height = 0, confidence = 1;
+  std::string reason;
   std::array<Vector3d, 2> tips;
   for (Side side : {kLeft, kRight}) {
     const BustPoint tip = find_bust_point(body, trunk, side);
@@ -168,36 +211,12 @@ double bust(const BodyShape& body, const Trunk& trunk, Record& record) {
       reason = tip.reason;
     }
     tips[side] = tip.point;
-    Fold fold = find_fold(body, tip.point, side);
-    const double hidden = fold_above_web(body, trunk, fold.lowest, tip.point, side);
-    fold.lowest.z() += hidden;
-    if (hidden > kHiddenFold) {
-      fold.confidence = std::min(fold.confidence, 0.45);
-      fold.reason = "the breast hangs over its fold; where it is one with the chest";
-    }
-    record.landmark(std::string("underbust") + kSuffix[side], fold.below_bust_point, fold.confidence,
-                    fold.reason);
-    underbust = std::min(underbust, fold.lowest.z());
-    if (fold.confidence < fold_confidence) {
-      fold_confidence = fold.confidence;
-      fold_reason = fold.reason;
-    }
   }
   record.height("bust", height, confidence, reason);
   record.girth(
       "bust", [&](double offset) { return tape_loop(trunk.outlines_with_breasts_at(height + offset)); },
       confidence, reason);
-  record.height("underbust", underbust, fold_confidence, fold_reason);
-  const double level = underbust - kUnderbustBelowFold;
-  record.girth(
-      "underbust",
-      [&](double offset) {
-        std::vector<Outline> outline = trunk.outline_at(level + offset);
-        for (Outline& section : outline) section = without_hanging_breasts(section, tips, body.stature);
-        return tape_loop(outline);
-      },
-      fold_confidence, fold_reason);
-  return underbust;
+  return underbust(body, trunk, tips, record);
 }
 
 void waist(const BodyShape& body, const Trunk& trunk, double hip, double underbust, Record& record) {

@@ -11,8 +11,30 @@ constexpr double kApart = 0.0025;
 constexpr int kEnd = 3;  // levels, 7.5 mm; a least girth this near the end of the search is the end's
 constexpr double kNoise = 0.0005;  // m, of a girth
 constexpr int kFit = 8;  // levels each way, 20 mm, over which a parabola takes the noise out of the minimum
+constexpr double kLead = 0.005;  // m; five tapes tell how the girth changes upwards
+constexpr double kOnward = 0.7;  // of that change goes on: towards the breasts the trunk slims less and less
 
 }  // namespace
+
+std::vector<Eigen::Vector3d> tape_carried_up(const Trunk& trunk, double seen, double height) {
+  std::vector<Eigen::Vector3d> tape = tape_loop(trunk.outline_at(seen));
+  if (tape.size() < 3) return {};
+  double slope = 0;  // least squares over -2 to 2 steps
+  for (int i = -2; i <= 2; ++i) {
+    const std::vector<Outline> outline = trunk.outline_at(seen + (i - 2) * kLead);
+    if (outline.empty()) return {};
+    slope += i * tape_length(outline) / (10 * kLead);
+  }
+  const double length = geometry::length_of(tape, true);
+  const double scale = std::max(1 + kOnward * slope * (height - seen) / length, 0.5);
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : tape) middle += p / static_cast<double>(tape.size());
+  for (Eigen::Vector3d& p : tape) {
+    p = middle + scale * (p - middle);
+    p.z() = height;
+  }
+  return tape;
+}
 
 double navel_height(const BodyShape& body) {
   // Women's navel: 0.60 to 0.62 of stature, 0.14 of stature above the crotch; each errs with the proportion

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "landmarks/trunk.hpp"
 
@@ -16,6 +17,10 @@ struct WaistLevel {
 /// Level of the trunk's least tape girth inside (lowest, highest); where the girth has no inner minimum, the
 /// level of the navel by proportion.
 WaistLevel find_waist(const BodyShape& body, const Trunk& trunk, double lowest, double highest);
+
+/// The trunk's tape at `height` where the scan did not see all its skin: that at `seen` below it, in the size
+/// that the girths at `seen` and 20 mm below it lead to. Empty where there is no trunk.
+std::vector<Eigen::Vector3d> tape_carried_up(const Trunk& trunk, double seen, double height);
 
 /// About the level of the navel, and of the waist ruler where a body has no waist.
 double navel_height(const BodyShape& body);

@@ -56,6 +56,13 @@ double Profile::hollowness(int at, int reach) const {
   return (axis.dot(sideways) < 0 ? turn : -turn) / (reach * step);
 }
 
+double Profile::opening(int at, int first, int last) const {
+  if (at < last || at + last >= static_cast<int>(points.size())) return -1;
+  const Vector3d above = points[at - last] - points[at - first],
+                 below = points[at + last] - points[at + first];
+  return std::atan2(above.cross(below).norm(), above.dot(below));
+}
+
 std::vector<geometry::SectionLoop> cut(const BodyShape& body, const std::vector<int>& triangles,
                                        const Vector3d& origin, const Vector3d& normal) {
   geometry::TriangleMesh piece;

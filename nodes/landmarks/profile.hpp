@@ -16,6 +16,10 @@ struct Profile {
   /// Curvature at a point, 1/m, over `reach` steps each way; positive where the skin is hollow. Zero too near
   /// the ends.
   double hollowness(int at, int reach) const;
+
+  /// Angle in radians between the skin above a point and the skin below it, each as the chord from `first` to
+  /// `last` steps off; negative too near the ends.
+  double opening(int at, int first, int last) const;
 };
 
 /// The skin of the box [low, high] cut by the vertical plane through `origin` that holds `outward`

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "landmarks/bust.hpp"
+#include "landmarks/fold_arc.hpp"
 #include "landmarks/profile.hpp"
 
 namespace tensegric_fit::landmarks {
@@ -9,11 +11,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kMedialReach = 0.055;  // metres, from the definition of the underbust level
-constexpr double kApart = 0.005;        // between two profiles
-constexpr int kReach = 8;               // millimetres each way over which a profile's hollowness is taken
-constexpr double kRim = 0.012;          // metres along the skin; the nipple's own rim is hollow too
-constexpr double kSteepest = 2;         // of a fold seen from the front
+constexpr double kMedialReach = 0.055;      // metres, from the definition of the underbust level
+constexpr double kApart = 0.005;            // between two profiles
+constexpr int kMedial = 11;                 // profiles from the bust point's to the reach's end
+constexpr int kOutside = 4, kInside = 9;    // further profiles to both sides, where a pocket's ends are seen
+constexpr int kWallFrom = 3, kWallTo = 18;  // millimetres from the fold along the walls of a pocket
+constexpr int kReach = 8;                   // millimetres each way over which a profile's hollowness is taken
+constexpr double kRim = 0.012;              // metres along the skin; the nipple's own rim is hollow too
+constexpr double kSteepest = 2;             // of a fold seen from the front
 // Statures under the bust point: folds are 0.01 to 0.05 below, a big belly's own fold over the groin 0.08 or
 // more.
 constexpr double kBelow = 0.08;
@@ -27,6 +32,7 @@ constexpr double kSharpest =
 struct Place {
   Vector3d point;
   double hollowness;
+  double opening;
   double sum;  // of hollowness along the way
   int before;  // on the profile before, -1 on the first
 };
@@ -43,7 +49,7 @@ std::vector<Place> places_below(const BodyShape& body, const std::vector<int>& s
   while (level < count && profile.points[level].z() > bust_point.z()) ++level;
   for (int i = level + static_cast<int>(kRim / profile.step); i < count; ++i) {
     const double hollowness = std::clamp(profile.hollowness(i, kReach), 0.0, kSharpest);
-    places.push_back({profile.points[i], hollowness, hollowness, -1});
+    places.push_back({profile.points[i], hollowness, profile.opening(i, kWallFrom, kWallTo), hollowness, -1});
   }
   return places;
 }
@@ -74,43 +80,100 @@ bool carry_on(const std::vector<Place>& from, std::vector<Place>& to) {
   return any;
 }
 
-}  // namespace
+using Places = std::vector<Place>;
 
-Fold find_fold(const BodyShape& body, const Vector3d& bust_point, Side side) {
-  const double s = body.stature, inwards = -kSign[side];
-  const double medial = bust_point.y() + inwards * (kMedialReach + 0.01),
-               lateral = bust_point.y() - inwards * 0.01;
-  const std::vector<int> skin = triangles_in_box(
-      body, {bust_point.x() - 0.12 * s, std::min(medial, lateral), bust_point.z() - kBelow * s},
-      {bust_point.x() + 0.03 * s, std::max(medial, lateral), bust_point.z() + kAbove * s});
-  // The fold runs on smoothly from profile to profile: of all such ways the one that is most hollow in sum.
-  std::vector<std::vector<Place>> profiles;
-  for (int k = 0; k * kApart <= kMedialReach + 1e-9; ++k) {
-    std::vector<Place> places = places_below(body, skin, bust_point, bust_point.y() + inwards * k * kApart);
-    if (profiles.empty() ? places.empty() : !carry_on(profiles.back(), places)) {
-      if (profiles.empty()) continue;
-      break;
+// The fold runs on smoothly from profile to profile: of all such ways the one that is most hollow in sum.
+// `places_on` gives the places of the next profile; the first ones are given, or are those of the first
+// profile that has any.
+Places most_hollow_way(Places first, int profiles_ahead, const std::function<Places(int)>& places_on) {
+  std::vector<Places> profiles;
+  if (!first.empty()) profiles.push_back(std::move(first));
+  for (int k = 0; k < profiles_ahead; ++k) {
+    Places places = places_on(k);
+    if (profiles.empty()) {
+      if (!places.empty()) profiles.push_back(std::move(places));
+      continue;
     }
+    if (!carry_on(profiles.back(), places)) break;
     profiles.push_back(std::move(places));
   }
-  std::vector<Place> way;
-  if (!profiles.empty()) {
-    const auto less = [](const Place& a, const Place& b) { return a.sum < b.sum; };
-    way.push_back(*std::max_element(profiles.back().begin(), profiles.back().end(), less));
-    for (std::size_t k = profiles.size() - 1; k-- > 0;)
-      way.insert(way.begin(), profiles[k][way.front().before]);
+  Places way;
+  if (profiles.empty()) return way;
+  const auto less = [](const Place& a, const Place& b) { return a.sum < b.sum; };
+  way.push_back(*std::max_element(profiles.back().begin(), profiles.back().end(), less));
+  for (std::size_t k = profiles.size() - 1; k-- > 0;) way.push_back(profiles[k][way.back().before]);
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
+// The profiles under one breast: number k lies 5 mm times k medial of the bust point.
+struct Breast {
+  const BodyShape& body;
+  std::vector<int> skin;
+  Vector3d bust_point;
+  double inwards;  // sign of y
+
+  Places places_on(int k) const {
+    return places_below(body, skin, bust_point, bust_point.y() + inwards * k * kApart);
   }
+  double medial(double y) const { return (y - bust_point.y()) * inwards; }
+  int profile_of(const Place& place) const {
+    return static_cast<int>(std::lround(medial(place.point.y()) / kApart));
+  }
+};
+
+Breast breast_of(const BodyShape& body, const Vector3d& bust_point, Side side) {
+  const double s = body.stature, inwards = -kSign[side];
+  const double medial = bust_point.y() + inwards * ((kMedial + kInside) * kApart + 0.01),
+               lateral = bust_point.y() - inwards * (kOutside * kApart + 0.01);
+  return {body,
+          triangles_in_box(
+              body, {bust_point.x() - 0.12 * s, std::min(medial, lateral), bust_point.z() - kBelow * s},
+              {bust_point.x() + 0.03 * s, std::max(medial, lateral), bust_point.z() + kAbove * s}),
+          bust_point, inwards};
+}
+
+// From `end` on over so many profiles more, outwards or inwards.
+Places onward(const Breast& breast, const Place& end, int profiles, int step) {
+  Place start = end;
+  start.sum = 0;
+  const int from = breast.profile_of(end);
+  Places way =
+      most_hollow_way({start}, profiles, [&](int k) { return breast.places_on(from + step * (k + 1)); });
+  way.erase(way.begin());
+  return way;
+}
+
+// The fold within reach and its ends to both sides, to the middle of the chest at most.
+std::vector<FoldPlace> whole_fold(const Breast& breast, const Places& way, double middle) {
+  const int last = std::min(kMedial + kInside, static_cast<int>(breast.medial(middle) / kApart));
+  Places whole = onward(breast, way.front(), kOutside, -1);
+  std::reverse(whole.begin(), whole.end());
+  whole.insert(whole.end(), way.begin(), way.end());
+  const Places inside = onward(breast, way.back(), last - breast.profile_of(way.back()), 1);
+  whole.insert(whole.end(), inside.begin(), inside.end());
+  std::vector<FoldPlace> places;
+  for (const Place& place : whole)
+    places.push_back({breast.medial(place.point.y()), place.point.z(), place.hollowness, place.opening});
+  return places;
+}
+
+}  // namespace
+
+Fold find_fold(const BodyShape& body, const Vector3d& bust_point, double middle, Side side) {
+  const Breast breast = breast_of(body, bust_point, side);
+  const Places way = most_hollow_way({}, kMedial + 1, [&](int k) { return breast.places_on(k); });
   // On the outside the breast can run out into the flank, at the sternum into the other one: the fold is
   // where it is hollow.
   const auto is_hollow = [](const Place& place) { return place.hollowness >= kHollow; };
   const auto first = std::find_if(way.begin(), way.end(), is_hollow);
   if (first == way.end()) {
-    const Vector3d guess = bust_point - 0.035 * s * Vector3d::UnitZ();
+    const Vector3d guess = bust_point - 0.035 * body.stature * Vector3d::UnitZ();
     return {guess, guess, 0.2, "no fold under the breast"};
   }
   Fold fold;
   fold.below_bust_point = fold.lowest = first->point;
-  const std::vector<Place> hollow(first, std::find_if_not(first, way.end(), is_hollow));
+  const Places hollow(first, std::find_if_not(first, way.end(), is_hollow));
   double lowest = 1e9;
   for (int i = 0; i < static_cast<int>(hollow.size()); ++i) {
     const double height = steady_height(hollow, i);
@@ -119,6 +182,19 @@ Fold find_fold(const BodyShape& body, const Vector3d& bust_point, Side side) {
     fold.lowest = {hollow[i].point.x(), hollow[i].point.y(), height};
   }
   fold.confidence = 0.9;
+
+  // On a mesh without any skin that was not seen, what looks like a fold is one.
+  if (std::none_of(body.filled.begin(), body.filled.end(), [](char unseen) { return unseen != 0; }))
+    return fold;
+  const std::vector<FoldPlace> whole = whole_fold(breast, way, middle);
+  fold.hidden = fold_above_pocket(whole, fold.lowest.z(), kMedialReach);
+  fold.in_pocket = lies_in_pocket(whole, kMedialReach);
+  if (fold.in_pocket) {
+    fold.confidence = 0.45;
+    fold.reason = fold.hidden > 0
+                      ? "the breast hangs over its fold, which the scan did not see; told by the fold's ends"
+                      : "the fold lies up a narrow pocket, to whose end the scan may not have seen";
+  }
   return fold;
 }
 
