@@ -10,7 +10,9 @@ namespace {
 constexpr double kApart = 0.0025;
 constexpr int kEnd = 3;  // levels, 7.5 mm; a least girth this near the end of the search is the end's
 constexpr double kNoise = 0.0005;  // m, of a girth
-constexpr int kFit = 8;  // levels each way, 20 mm, over which a parabola takes the noise out of the minimum
+// Levels each way, 20 mm, over which a cubic takes the noise out of the minimum; a parabola puts it 2 mm too
+// high, since the trunk widens faster downwards.
+constexpr int kFit = 8;
 constexpr double kLead = 0.005;  // m; five tapes tell how the girth changes upwards
 constexpr double kOnward = 0.7;  // of that change goes on: towards the breasts the trunk slims less and less
 
@@ -69,15 +71,17 @@ WaistLevel find_waist(const BodyShape& body, const Trunk& trunk, double lowest, 
   if (least < 0) return by_proportion;
 
   const int first = std::max(0, least - kFit), last = std::min(count - 1, least + kFit);
-  Eigen::MatrixXd terms(last - first + 1, 3);
+  Eigen::MatrixXd terms(last - first + 1, 4);
   Eigen::VectorXd values(last - first + 1);
   for (int i = first; i <= last; ++i) {
     const double d = heights[i] - heights[least];
-    terms.row(i - first) << 1, d, d * d;
+    terms.row(i - first) << 1, d, d * d, d * d * d;
     values[i - first] = girths[i];
   }
-  const Eigen::Vector3d c = terms.colPivHouseholderQr().solve(values);
-  const double shift = c[2] > 0 ? -c[1] / (2 * c[2]) : 0;
+  const Eigen::Vector4d c = terms.colPivHouseholderQr().solve(values);
+  // Where the cubic's slope is nought and grows.
+  const double root = c[2] * c[2] - 3 * c[1] * c[3];
+  const double shift = c[2] > 0 && root > 0 ? -c[1] / (c[2] + std::sqrt(root)) : 0;
   return {heights[least] + std::clamp(shift, -kFit * kApart, kFit * kApart), 0.9, ""};
 }
 
