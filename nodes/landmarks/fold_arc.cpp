@@ -14,12 +14,11 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kHides = 90 * kDegree, kSeen = 105 * kDegree;
 constexpr double kFaint = 40;    // 1/m; at sternum and flank the fold runs out
 constexpr double kTurn = 0.006;  // m; a fold that falls again by more, away from its lowest point, is none
-constexpr double kOuter = 0.025, kInner = 0.045;    // m medial; the arc is held at both ends
-constexpr double kHeld = 0.75;                      // places seen, at each
-constexpr double kNoise = 0.0025, kPocket = 0.008;  // m, by which places seen and hidden leave the arc
-constexpr double kCurve = 8.8, kCurveSpread = 4.8;  // 1/m, of height by the square of the distance
-constexpr double kCurveWeight = 0.3;                // places
-constexpr double kLeast = 0.002, kDeepest = 0.030;  // m; less is noise
+constexpr double kOuter = 0.025, kInner = 0.045;          // m medial; the arc is held at both ends
+constexpr double kHeld = 0.75;                            // places seen, at each
+constexpr double kNoise = 0.0025, kPocket = 0.008;        // m, by which places seen and hidden leave the arc
+constexpr double kCurveSpread = 4.8, kCurveWeight = 0.3;  // 1/m; places: how far folds' curves differ
+constexpr double kLeast = 0.002, kDeepest = 0.030;        // m; less is noise
 constexpr int kRounds = 25;
 
 bool within(const FoldPlace& place, double reach) {
@@ -56,7 +55,7 @@ std::vector<FoldPlace> one_fold(const std::vector<FoldPlace>& way, double reach)
 Eigen::Vector3d fit_arc(const std::vector<FoldPlace>& places, const std::vector<double>& weights) {
   const double prior = kCurveWeight * std::pow(kNoise / kCurveSpread, 2);
   Eigen::Matrix3d normal = Eigen::Vector3d(0, 0, prior).asDiagonal();
-  Eigen::Vector3d right(0, 0, prior * kCurve);
+  Eigen::Vector3d right(0, 0, prior * kFoldCurve);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Eigen::Vector3d terms(1, places[i].medial, places[i].medial * places[i].medial);
     normal += weights[i] * terms * terms.transpose();

@@ -5,6 +5,9 @@
 
 namespace tensegric_fit::landmarks {
 
+/// 1/m: a fold rises by so much times the square of the distance from its lowest point.
+inline constexpr double kFoldCurve = 8.8;
+
 /// A place of the fold, on one of the profiles side by side.
 struct FoldPlace {
   double medial;      ///< metres from the bust point's profile towards the middle of the chest

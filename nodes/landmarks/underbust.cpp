@@ -37,11 +37,13 @@ struct Place {
   int before;  // on the profile before, -1 on the first
 };
 
+using Places = std::vector<Place>;
+
 // Places below the bust point on the profile at lateral position y, from top to bottom.
-std::vector<Place> places_below(const BodyShape& body, const std::vector<int>& skin,
-                                const Vector3d& bust_point, double y) {
+Places places_below(const BodyShape& body, const std::vector<int>& skin, const Vector3d& bust_point,
+                    double y) {
   const Profile profile = cut_profile(body, skin, {bust_point.x(), y, bust_point.z()}, Vector3d::UnitX());
-  std::vector<Place> places;
+  Places places;
   const int count = static_cast<int>(profile.points.size());
   // No skin of the breast in this plane.
   if (count == 0 || profile.points.front().z() < bust_point.z()) return places;
@@ -54,18 +56,19 @@ std::vector<Place> places_below(const BodyShape& body, const std::vector<int>& s
   return places;
 }
 
-// Height of the middle one of five neighbours: one profile that noise or a filling spoils does not tell a
-// fold's lowest point.
-double steady_height(const std::vector<Place>& way, int at) {
-  const int last = static_cast<int>(way.size()) - 1, reach = std::min({2, at, last - at});
+// Height of a place by the middle one of nine neighbours, each less what the arc of a fold rises over that
+// distance: one profile that noise or a filling spoils does not tell a fold's lowest point.
+double steady_height(const Places& way, int at) {
+  const int last = static_cast<int>(way.size()) - 1, reach = std::min({4, at, last - at});
   std::vector<double> heights;
-  for (int i = at - reach; i <= at + reach; ++i) heights.push_back(way[i].point.z());
+  for (int i = at - reach; i <= at + reach; ++i)
+    heights.push_back(way[i].point.z() - kFoldCurve * std::pow((i - at) * kApart, 2));
   std::nth_element(heights.begin(), heights.begin() + reach, heights.end());
   return heights[reach];
 }
 
 // Carries the ways on from profile to profile. False where there is nowhere to go.
-bool carry_on(const std::vector<Place>& from, std::vector<Place>& to) {
+bool carry_on(const Places& from, Places& to) {
   bool any = false;
   for (Place& next : to) {
     double best = -1;
@@ -79,8 +82,6 @@ bool carry_on(const std::vector<Place>& from, std::vector<Place>& to) {
   }
   return any;
 }
-
-using Places = std::vector<Place>;
 
 // The fold runs on smoothly from profile to profile: of all such ways the one that is most hollow in sum.
 // `places_on` gives the places of the next profile; the first ones are given, or are those of the first
