@@ -255,25 +255,24 @@ void neck(const BodyShape& body, const Neck& found, Record& record) {
   record.girth("neck", found.tape, found.confidence, found.reason);
 }
 
-void arm(const BodyShape& body, const Trunk& trunk, const Neck& found_neck, Side side, Record& record) {
+void arm(const BodyShape& body, const Trunk& trunk, const Neck& found_neck, double stoop, Side side,
+         Record& record) {
   const Axilla& axilla = trunk.axilla(side);
   const std::string suffix = kSuffix[side];
   if (axilla.found) {
-    const double stoop = found_neck.found ? stoop_of(body, found_neck) : 0;
-    record.landmark("axilla" + suffix, axilla_with_stoop(axilla, stoop, body.stature),
-                    axilla.filled ? 0.45 : 0.9,
+    record.landmark("axilla" + suffix, axilla.point, axilla.filled ? 0.45 : 0.9,
                     axilla.filled ? "the armpit is filled with skin that the scan did not see" : "");
   } else {
     record.missing("axilla" + suffix, "no arm parts from the trunk");
   }
-  const Shoulder shoulder = find_shoulder(body, trunk, found_neck, side);
+  const Shoulder shoulder = find_shoulder(body, trunk, found_neck, stoop, side);
   if (shoulder.found) {
     record.landmark("shoulder" + suffix, shoulder.point, shoulder.confidence, shoulder.reason);
   } else {
     record.missing("shoulder" + suffix, shoulder.reason);
   }
-  if (axilla.found && shoulder.found) {
-    limb("upper_arm" + suffix, find_upper_arm_girth(body, trunk, shoulder.point, side), record);
+  if (axilla.found) {
+    limb("upper_arm" + suffix, find_upper_arm_girth(body, axilla, side), record);
   } else {
     record.missing("upper_arm" + suffix, "no arm parts from the trunk");
   }
@@ -282,7 +281,8 @@ void arm(const BodyShape& body, const Trunk& trunk, const Neck& found_neck, Side
 void upper_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
   const Neck found_neck = find_neck(body, trunk);
   neck(body, found_neck, record);
-  for (Side side : {kLeft, kRight}) arm(body, trunk, found_neck, side, record);
+  const double stoop = found_neck.found ? stoop_of(body, found_neck) : 0;
+  for (Side side : {kLeft, kRight}) arm(body, trunk, found_neck, stoop, side, record);
   if (body.levels.has_head) {
     record.height("stature", body.stature);
   } else {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "landmarks/arm_axis.hpp"
 #include "landmarks/profile.hpp"
 
 namespace tensegric_fit::landmarks {
@@ -13,9 +14,7 @@ using Eigen::Vector3d;
 
 // Statures.
 constexpr double kBelowAxilla = 0.051, kBelowCrotch = 0.039, kUnderTouchingThighs = 0.012;
-constexpr double kUpper = 0.03, kLower = 0.09;  // below the axilla: sections whose middles tell the arm's way
-constexpr double kFurtherDown = 0.02;  // both, where skin that fills the armpit joins the arm to the trunk
-constexpr double kLowerThigh = 0.10;   // below the thigh's girth: the same of the thigh
+constexpr double kLowerThigh = 0.10;  // below the thigh's girth: the same of the thigh
 constexpr double kArmRadius = 0.06, kThighRadius = 0.10, kBothThighs = 0.25, kBetweenThighs = 0.015;
 constexpr double kHandBeside = 0.06;  // a hand stays farther than this from the parting
 constexpr double kGroove = 0.0095;    // 16 mm
@@ -24,38 +23,6 @@ constexpr double kGroove = 0.0095;    // 16 mm
 Vector3d middle_of(const std::vector<Vector3d>& points) {
   const auto [low, high] = geometry::bounding_box(points);
   return (low + high) / 2;
-}
-
-// The loop of material in the plane that runs round `origin` most nearly, and its middle; false where none
-// closes.
-bool loop_round(const BodyShape& body, const Vector3d& origin, const Vector3d& axis, double radius,
-                std::vector<Vector3d>& points, Vector3d& middle) {
-  const Vector3d reach = Vector3d::Constant(1.5 * radius);
-  double nearest = radius;
-  bool found = false;
-  for (const geometry::SectionLoop& loop :
-       cut(body, triangles_in_box(body, origin - reach, origin + reach), origin, axis)) {
-    if (!loop.closed || loop.points.size() < 10) continue;
-    const Vector3d here = middle_of(loop.points);
-    if ((here - origin).norm() >= nearest) continue;
-    nearest = (here - origin).norm();
-    middle = here;
-    points = loop.points;
-    found = true;
-  }
-  return found;
-}
-
-// The outline at a height whose middle is nearest to `place`, on that side of the body's middle.
-const Outline* outline_near(const std::vector<Outline>& outlines, const Eigen::Vector2d& place,
-                            double widest) {
-  const Outline* best = nullptr;
-  for (const Outline& outline : outlines) {
-    if ((outline.centroid - place).norm() >= widest) continue;
-    widest = (outline.centroid - place).norm();
-    best = &outline;
-  }
-  return best;
 }
 
 // One side's half of what a plane cuts: of two thighs that touch, this one.
@@ -120,42 +87,19 @@ std::vector<Vector3d> tape_of_half(const BodyShape& body, Vector3d place, double
 
 }  // namespace
 
-LimbGirth find_upper_arm_girth(const BodyShape& body, const Trunk& trunk, const Vector3d& shoulder,
-                               Side side) {
-  const double s = body.stature, radius = kArmRadius * s;
-  const Axilla& axilla = trunk.axilla(side);
+LimbGirth find_upper_arm_girth(const BodyShape& body, const Axilla& axilla, Side side) {
+  const double s = body.stature;
   LimbGirth girth;
-  // From the middle of the arm's root, out for a raised arm and down to its section for one that hangs; then
-  // square to the way from one section's middle to the next.
-  const Vector3d root = (shoulder + axilla.point) / 2;
-  Vector3d axis(0, kSign[side] * std::sin(axilla.abduction), -std::cos(axilla.abduction));
-  const std::vector<Outline> below = body.sliced.outlines_at(axilla.point.z() - kBelowAxilla * s);
-  const Outline* arm = nullptr;
-  if (!axilla.raised) arm = outline_near(below, {root.x(), root.y() + kSign[side] * 0.02 * s}, 0.07 * s);
-  if (arm != nullptr)
-    axis = (Vector3d(arm->centroid.x(), arm->centroid.y(), axilla.point.z() - kBelowAxilla * s) - root)
-               .normalized();
-  std::vector<Vector3d> points;
-  Vector3d on_axis = root;
-  for (int pass = 0; pass < 4; ++pass) {
-    Vector3d upper, lower;
-    const auto place = [&](double along) -> Vector3d {
-      return on_axis + (axis.dot(axilla.point - on_axis) + along * s) * axis;
-    };
-    const auto look = [&](double further) {
-      return loop_round(body, place(kUpper + further), axis, radius, points, upper) &&
-             loop_round(body, place(kLower + further), axis, radius, points, lower);
-    };
-    if (!look(0) && !look(kFurtherDown)) {
-      girth.reason = "no arm that stands clear of the trunk below the axilla";
-      return girth;
-    }
-    axis = (lower - upper).normalized();
-    on_axis = upper;
+  const ArmAxis arm = find_arm_axis(body, {axilla.point, axilla.abduction, axilla.raised}, side);
+  if (!arm.found) {
+    girth.reason = "no arm that stands clear of the trunk below the axilla";
+    return girth;
   }
+  std::vector<Vector3d> points;
   Vector3d middle;
-  const Vector3d origin = on_axis + (axis.dot(axilla.point - on_axis) + kBelowAxilla * s) * axis;
-  if (loop_round(body, origin, axis, radius, points, middle)) girth.tape = geometry::tape(points, axis);
+  const double along = arm.direction.dot(axilla.point - arm.point) + kBelowAxilla * s;
+  if (loop_round(body, arm.point + along * arm.direction, arm.direction, kArmRadius * s, points, middle))
+    girth.tape = geometry::tape(points, arm.direction);
   if (girth.tape.empty()) girth.reason = "no closed section round the upper arm";
   if (axilla.filled) {
     girth.confidence = 0.45;

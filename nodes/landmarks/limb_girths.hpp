@@ -14,10 +14,8 @@ struct LimbGirth {
   std::string reason;  ///< of a low confidence, or why there is none
 };
 
-/// Round the upper arm, square to it, 0.051 statures below the axilla along it. `shoulder` is the shoulder
-/// point. \pre the axilla of this side was found
-LimbGirth find_upper_arm_girth(const BodyShape& body, const Trunk& trunk, const Eigen::Vector3d& shoulder,
-                               Side side);
+/// Round the upper arm, square to it, 0.051 statures below the axilla along it. \pre axilla.found
+LimbGirth find_upper_arm_girth(const BodyShape& body, const Axilla& axilla, Side side);
 
 /// Round the thigh, square to it, 0.039 statures below the crotch; of thighs that touch, round a half of
 /// both.

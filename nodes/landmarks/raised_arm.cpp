@@ -24,6 +24,7 @@ constexpr double kRise = 20 * kDegree, kLevelHand = 85 * kDegree, kRiseWithHand 
 constexpr double kUnder = 0.10, kOver = 0.12, kApart = 0.004;  // statures about the armpit: where to look
 constexpr double kJoins = 0.03;  // statures by which a section reaches further where it takes in the arm
 constexpr double kWidestGap = 0.02;
+constexpr double kRoundFilling = 0.015;  // skin round a filling, smoothed with it
 constexpr int kHalvings = 12;
 
 // Turns the side up and inwards about the axis that points forward.
@@ -84,7 +85,13 @@ RaisedArm find_raised_arm(const BodyShape& body, Side side) {
   const auto trunk = trunk_at(low, outlines);
   Vector3d middle = Vector3d::Zero();
   arm.found = trunk != outlines.end() && gap_beside(*trunk, outlines, side, kWidestGap * s, middle);
-  if (arm.found) arm.axilla = turn.transpose() * middle;
+  if (!arm.found) return arm;
+  arm.axilla = turn.transpose() * middle;
+  arm.filled = body.unseen(arm.axilla, kRoundFilling * s);
+  if (!arm.filled) return arm;
+  const FilledArmpit hidden{sliced, middle, s};
+  arm.roof = find_armpit_roof(hidden, parting_is_roof(hidden) ? middle.z() : height_of_roof(hidden), 0);
+  arm.roof.middle = turn.transpose() * arm.roof.middle;
   return arm;
 }
 

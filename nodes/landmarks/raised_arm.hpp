@@ -1,12 +1,14 @@
 /// Arms that are held out to the sides.
 #pragma once
 
-#include "landmarks/body_shape.hpp"
+#include "landmarks/armpit.hpp"
 
 namespace tensegric_fit::landmarks {
 
 struct RaisedArm {
   bool found = false;
+  bool filled = false;  ///< the scan did not see the armpit: `roof` tells more, if found
+  ArmpitRoof roof;
   Eigen::Vector3d axilla = Eigen::Vector3d::Zero();
   double abduction = 0;  ///< radians from straight down to the hand
 };

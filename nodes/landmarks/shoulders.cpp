@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "landmarks/profile.hpp"
-#include "landmarks/stoop.hpp"
 
 namespace tensegric_fit::landmarks {
 namespace {
@@ -82,7 +81,7 @@ bool on_section(const BodyShape& body, const Vector3d& place, double stoop, Vect
 
 }  // namespace
 
-Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& neck, Side side) {
+Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& neck, double stoop, Side side) {
   const double s = body.stature;
   const Axilla &left = trunk.axilla(kLeft), &right = trunk.axilla(kRight);
   Shoulder shoulder;
@@ -91,12 +90,10 @@ Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& ne
     return shoulder;
   }
   Vector3d place;
-  double stoop = 0;
   if (neck.found) {
     const Vector3d base[2] = {find_neck_side(body, neck, kLeft), find_neck_side(body, neck, kRight)};
     place = base[side] - 0.04 * s * Vector3d::UnitZ();
     place.y() = (base[0].y() + base[1].y()) / 2;
-    stoop = stoop_of(body, neck);
   } else {
     place = (left.point + right.point) / 2 + 0.055 * s * Vector3d::UnitZ();
     shoulder.confidence = 0.4;

@@ -18,7 +18,7 @@ struct Shoulder {
 
 /// Out from the middle of the neck by a collarbone's length beyond its side, and by what the axillae tell of
 /// the shoulders' breadth; behind the middle of the shoulder's own depth, further forward the more the upper
-/// back stoops.
-Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& neck, Side side);
+/// back stoops: by `stoop` radians, as stoop_of tells.
+Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& neck, double stoop, Side side);
 
 }  // namespace tensegric_fit::landmarks

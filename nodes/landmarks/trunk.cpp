@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "landmarks/arm_axis.hpp"
 #include "landmarks/arm_cut.hpp"
 #include "landmarks/gap.hpp"
-#include "landmarks/junction.hpp"
 #include "landmarks/raised_arm.hpp"
 
 namespace tensegric_fit::landmarks {
@@ -16,20 +16,11 @@ constexpr double kHighestWaist = 0.70;  // of stature
 constexpr double kWidestChest = 1.7;    // of the waist; what reaches further out is a forearm already
 constexpr double kWidestGap =
     0.02;  // statures, of arm and trunk a fraction of a millimetre under the place where they join
-constexpr double kDome =
-    0.0066;  // statures: an armpit is a dome of 11 mm, whether its owner is slim or heavy
 constexpr double kRoundFilling = 0.015;  // skin round a filling, smoothed with it
-constexpr double kBesideGap = 0.02;      // the bridge from arm to trunk is as near as that to the gap
-constexpr double kFurtherUp = 0.015;     // there the arm is one with the trunk
-constexpr double kHollow = 0.0215;       // statures from the bridge's end behind, but not beyond its middle
-// An armpit's roof is an arc from front to back, of this radius in statures; as she stoops, its lowest place
-// wanders to the front, at most to such a share of the bridge.
-constexpr double kRoof = 0.092, kFurthest = 0.9;
-constexpr double kUnderArm = 0.025;  // statures under the axilla where the arm tells how far it is raised
-constexpr double kRaised = 1.5;      // times that, from the trunk to the arm: 56 degrees
+constexpr double kInside = 0.0028;       // from where arm and trunk are narrowest to an armpit's roof
 constexpr double kUpperArm = 0.02, kLowerArm = 0.05;  // statures under the axilla, between which the arm runs
-constexpr double kLevelArm = 1.4,
-                 kLeastRaised = 0.8;  // radians: of an arm without sections there; of a raised one
+constexpr double kForearm = 0.10;  // statures out from the trunk there: no upper arm, but what hangs from it
+constexpr double kRaised = 0.98, kLevelArm = 1.4;  // radians; an arm without sections there
 
 // The outline at a height that is the trunk of the nearest level, or -1.
 int trunk_among(const std::vector<Outline>& outlines, const BodyLevels& levels, double height) {
@@ -45,8 +36,6 @@ int trunk_among(const std::vector<Outline>& outlines, const BodyLevels& levels, 
 
 Trunk::Trunk(const BodyShape& body) : body_(body) {
   for (Side side : {kLeft, kRight}) axillae_[side] = find_axilla(side);
-  for (Side side : {kLeft, kRight})
-    if (axillae_[side].filled) look_under_filling(axillae_[side]);
 }
 
 std::vector<Outline> Trunk::outline_at(double height) const {
@@ -75,36 +64,20 @@ double Trunk::axilla_height() const {
   return kAxillaShare * body_.stature;
 }
 
-void Trunk::look_under_filling(Axilla& axilla) const {
-  if (!axilla.root.found) return;
-  const Eigen::Vector3d filled = axilla.point;
-  const double height = std::max(axilla.root.height - kDome * body_.stature, filled.z()),
-               beside = kBesideGap * body_.stature;
-  axilla.point.z() = height;
-  axilla.bridge = narrowest_bridge(body_.sliced.outlines_at(height + 0.003 * body_.stature),
-                                   filled.y() - beside, filled.y() + beside);
-  if (axilla.bridge.length <= 0) return;
-  const double sign = filled.y() < 0 ? -1 : 1;
-  axilla.point.y() = sign * std::min(sign * axilla.bridge.y, sign * filled.y());
-  axilla.point = axilla_with_stoop(axilla, 0, body_.stature);
-}
-
-Eigen::Vector3d axilla_with_stoop(const Axilla& axilla, double stoop, double stature) {
-  Eigen::Vector3d point = axilla.point;
-  const double depth = axilla.bridge.front - axilla.bridge.back;
-  if (axilla.filled && axilla.bridge.length > 0)
-    point.x() = axilla.bridge.back +
-                std::min(std::min(kHollow * stature, depth / 2) + std::max(stoop, 0.0) * kRoof * stature,
-                         kFurthest * depth);
-  return point;
+void Trunk::under_filling(const ArmpitRoof& roof, Side side, Axilla& axilla) const {
+  axilla.point = roof.middle;
+  const ArmAxis arm = find_arm_axis(body_, {axilla.point, axilla.abduction, axilla.raised}, side);
+  if (arm.found) axilla.point = lowest_of_roof(roof, arm.direction, body_.stature);
 }
 
 Axilla Trunk::find_axilla(Side side) const {
   Axilla axilla;
   if (const RaisedArm arm = find_raised_arm(body_, side); arm.found) {
     axilla.found = axilla.raised = true;
+    axilla.filled = arm.filled;
     axilla.point = arm.axilla;
     axilla.abduction = arm.abduction;
+    if (arm.roof.found) under_filling(arm.roof, side, axilla);
     return axilla;
   }
   // Going up, the trunk's section suddenly takes in the arm; the last such place is the axilla (a hand or an
@@ -158,47 +131,38 @@ Axilla Trunk::find_axilla(Side side) const {
     return arm;
   };
   const std::vector<Outline> outlines = body_.sliced.outlines_at(low);
-  const std::vector<Outline> lower = body_.sliced.outlines_at(low - kUnderArm * body_.stature);
-  const Outline *arm = arm_among(outlines), *lower_arm = arm_among(lower);
-  axilla.raised =
-      lower_arm == nullptr || inner_side(*lower_arm) - narrow > kRaised * kUnderArm * body_.stature;
   const std::vector<Outline> upper = body_.sliced.outlines_at(low - kUpperArm * body_.stature),
                              bottom = body_.sliced.outlines_at(low - kLowerArm * body_.stature);
   const Outline *upper_arm = arm_among(upper), *bottom_arm = arm_among(bottom);
   axilla.abduction = kLevelArm;
-  if (upper_arm != nullptr && bottom_arm != nullptr)  // a forearm may hang from an elbow that is held out
+  if (upper_arm != nullptr && bottom_arm != nullptr &&
+      inner_side(*upper_arm) - narrow < kForearm * body_.stature)
     axilla.abduction = std::atan2(kSign[side] * (bottom_arm->centroid.y() - upper_arm->centroid.y()),
                                   (kLowerArm - kUpperArm) * body_.stature);
-  if (axilla.raised && axilla.abduction < kLeastRaised) axilla.abduction = kLevelArm;
-  if (arm != nullptr && !axilla.raised) {
-    // Skin that fills the armpit, or that a movement has torn, joins the arm too low.
-    const double sign = kSign[side], inner = sign * (narrow - kBesideGap * body_.stature),
-                 outer = sign * (narrow + kBesideGap * body_.stature);
-    axilla.root = find_root(body_.sliced,
-                            {low - 0.01 * body_.stature, low + 0.06 * body_.stature, std::min(inner, outer),
-                             std::max(inner, outer), 0},
-                            kFurtherUp * body_.stature);
-    if (gap_beside(trunk, outlines, side, kWidestGap * body_.stature, axilla.point)) {
-      axilla.filled = body_.unseen(axilla.point, kRoundFilling * body_.stature);
-      return axilla;
-    }
+  axilla.raised = axilla.abduction > kRaised;
+  if (gap_beside(trunk, outlines, side, kWidestGap * body_.stature, axilla.point)) {
+    axilla.filled = body_.unseen(axilla.point, kRoundFilling * body_.stature);
+    if (!axilla.filled) return axilla;
+    const FilledArmpit hidden{body_.sliced, axilla.point, body_.stature};
+    const ArmpitRoof roof =
+        find_armpit_roof(hidden, height_of_roof(hidden), -kSign[side] * kInside * body_.stature);
+    if (roof.found) under_filling(roof, side, axilla);
+    return axilla;
   }
-  if (!gap_beside(trunk, outlines, side, kWidestGap * body_.stature, axilla.point)) {
-    // Where the skin under the arm turns from upright to level: the section's reach grows as fast as its
-    // height.
-    const auto turns_out = [&](int i) {
-      return levels[i - 1].trunk >= 0 && reach(levels[i].outlines[levels[i].trunk], side) -
-                                                 reach(levels[i - 1].outlines[levels[i - 1].trunk], side) >
-                                             body_.levels.step;
-    };
-    if (below > 0 && turns_out(below)) {
-      while (below > 1 && turns_out(below - 1)) --below;
-      trunk = levels[below].outlines[levels[below].trunk];
-    }
-    axilla.point = trunk.points.front();
-    for (const Eigen::Vector3d& p : trunk.points)
-      if (kSign[side] * p.y() > kSign[side] * axilla.point.y()) axilla.point = p;
+  // Where the skin under the arm turns from upright to level: the section's reach grows as fast as its
+  // height.
+  const auto turns_out = [&](int i) {
+    return levels[i - 1].trunk >= 0 && reach(levels[i].outlines[levels[i].trunk], side) -
+                                               reach(levels[i - 1].outlines[levels[i - 1].trunk], side) >
+                                           body_.levels.step;
+  };
+  if (below > 0 && turns_out(below)) {
+    while (below > 1 && turns_out(below - 1)) --below;
+    trunk = levels[below].outlines[levels[below].trunk];
   }
+  axilla.point = trunk.points.front();
+  for (const Eigen::Vector3d& p : trunk.points)
+    if (kSign[side] * p.y() > kSign[side] * axilla.point.y()) axilla.point = p;
   return axilla;
 }
 

@@ -34,11 +34,15 @@ inline double melt(double a, double b) {
 
 /// Metres: of breasts that hang.
 inline constexpr double kHangingFold = 1.175;
+/// Metres: where hanging arm and trunk part, 0.16 m to the side.
+inline constexpr double kArmpit = 1.29;
 
 struct Parts {
   bool head = true, arms = true, right_arm = true;
   bool arms_out = false;         ///< to the sides, a little under level
   double hands_higher = 0;       ///< metres, of such arms
+  double hands_back = 0;         ///< metres by which the arms run backwards to the hands
+  double web_in_armpits = 0;     ///< metres of a thin skin down from where arm and trunk meet
   double left_breast_lower = 0;  ///< metres
   double web_below_crotch = 0;   ///< metres of a thin skin between the thighs, as a scan's hole filling makes
   bool hand_beside_thigh = false;  ///< a left hand 0.1 m away from the thigh
@@ -70,7 +74,12 @@ inline double person(const Eigen::Vector3d& p, const Parts& parts) {
     const double hand_y = parts.arms_out ? 0.70 : 0.42,
                  hand_z = parts.arms_out ? 1.26 + parts.hands_higher : 0.80;
     if (parts.arms && (side > 0 || parts.right_arm))
-      d = melt(d, capsule(p, {0, side * 0.19, 1.34}, {0, side * hand_y, hand_z}, 0.045, 0.03));
+      d = melt(d,
+               capsule(p, {0, side * 0.19, 1.34}, {-parts.hands_back, side * hand_y, hand_z}, 0.045, 0.03));
+    if (parts.web_in_armpits > 0) {
+      const Eigen::Vector3d q = (p - Eigen::Vector3d(0, side * 0.17, kArmpit)).cwiseAbs();
+      d = std::min(d, std::max({q.x() - 0.010, q.y() - 0.04, q.z() - parts.web_in_armpits}));
+    }
   }
   const double ahead = parts.head_forward;
   d = melt(d, capsule(p, {0, 0, 1.38}, {0.02 + ahead, 0, 1.50}, 0.055, 0.05));

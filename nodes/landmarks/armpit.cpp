@@ -1,0 +1,57 @@
+#include "landmarks/armpit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tensegric_fit::landmarks {
+namespace {
+
+// Statures.
+constexpr double kLower = 0.01, kHigher = 0.06;  // about the parting: where to look for the root
+constexpr double kBeside = 0.02;                 // what joins arm and trunk is as near as that to the parting
+constexpr double kOneWithTrunk = 0.015;          // further up the arm is
+constexpr double kDome = 0.0066;  // an armpit is a dome of 11 mm, whether its owner is slim or heavy
+constexpr double kNarrow = 0.0012, kMiddle = 0.012;  // over the roof: where its side and its middle are told
+constexpr double kRadius = 0.075;                    // of the roof, front to back
+// Shares: of its length further up, what joins arm and trunk has a dome's height above a roof; of the roof's
+// depth, so far from its middle lies its lowest place.
+constexpr double kAtOnce = 0.7, kFurthest = 0.4;
+
+Bridge bridge_at(const FilledArmpit& armpit, double height) {
+  const double beside = kBeside * armpit.stature;
+  return narrowest_bridge(armpit.sliced.outlines_at(height), armpit.parting.y() - beside,
+                          armpit.parting.y() + beside);
+}
+
+}  // namespace
+
+double height_of_roof(const FilledArmpit& armpit) {
+  const double s = armpit.stature, z = armpit.parting.z(), y = armpit.parting.y();
+  const Root root =
+      find_root(armpit.sliced, {z - kLower * s, z + kHigher * s, y - kBeside * s, y + kBeside * s, 0},
+                kOneWithTrunk * s);
+  return root.found ? std::max(root.height - kDome * s, z) : z;
+}
+
+bool parting_is_roof(const FilledArmpit& armpit) {
+  const double over = armpit.parting.z() + kDome * armpit.stature;
+  return bridge_at(armpit, over).length >
+         kAtOnce * bridge_at(armpit, over + kOneWithTrunk * armpit.stature).length;
+}
+
+ArmpitRoof find_armpit_roof(const FilledArmpit& armpit, double height, double aside) {
+  const Bridge narrow = bridge_at(armpit, height + kNarrow * armpit.stature),
+               middle = bridge_at(armpit, height + kMiddle * armpit.stature);
+  return {narrow.length > 0 && middle.length > 0,
+          {(middle.front + middle.back) / 2, narrow.y + aside, height},
+          middle.front - middle.back};
+}
+
+Eigen::Vector3d lowest_of_roof(const ArmpitRoof& roof, const Eigen::Vector3d& arm, double stature) {
+  const double backwards = std::asin(std::clamp(-arm.x(), -1.0, 1.0)), furthest = kFurthest * roof.depth;
+  Eigen::Vector3d lowest = roof.middle;
+  lowest.x() += std::clamp(kRadius * stature * backwards, -furthest, furthest);
+  return lowest;
+}
+
+}  // namespace tensegric_fit::landmarks
