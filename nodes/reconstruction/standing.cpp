@@ -13,9 +13,10 @@ const double kLeastUp = std::cos(20 * M_PI / 180);
 constexpr int kMostPivots = 200;
 constexpr double kFeet = 0.12;  // m; of a body that leans by 15 degrees one foot is that much above the other
 constexpr double kFar = 10;     // m, beyond every point
-// Of the lowest points, these two; the ground is as far below the first as they are apart, and kBelow more.
+// Of the lowest points, these two; the ground is so many times their distance below the first, and kBelow
+// more.
 constexpr std::size_t kLow = 9, kNextLow = 39;
-constexpr double kBelow = 0.002;  // m
+constexpr double kTimes = 1.25, kBelow = 0.0015;  // m
 
 /// True where the origin lies in the triangle as seen from above.
 bool covers_origin(const Triangle& t) {
@@ -81,7 +82,7 @@ double ground_under(const std::vector<Eigen::Vector3d>& points) {
     return heights[rank];
   };
   const double low = lowest(kLow);
-  return 2 * low - lowest(kNextLow) - kBelow;
+  return low - kTimes * (lowest(kNextLow) - low) - kBelow;
 }
 
 }  // namespace tensegric_fit::reconstruction
