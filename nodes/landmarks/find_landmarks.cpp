@@ -26,7 +26,7 @@ using geometry::BodyMeasures;
 using geometry::TriangleMesh;
 
 constexpr double kUnderbustBelowFold = 0.003;  // the tape lies just under the fold
-constexpr double kHiddenFold = 0.001;          // more than that above the fold found: inferred
+constexpr double kHiddenFold = 0.003;          // more than that above the fold found is uncertain
 constexpr double kPocketDepth = 0.010;         // a fold in a pocket is as uncertain as that
 constexpr double kWaistAboveHip = 0.10, kWaistBelowUnderbust = 0.015;
 

@@ -10,6 +10,7 @@ namespace {
 constexpr double kWeb = 0.040, kFoldToWeb = 0.0036;  // m
 constexpr double kFirst = 0.002, kHighest = 0.016;   // m above the fold found, where webs are looked for
 constexpr double kApart = 0.001;                     // m, between sections
+constexpr double kLeast = 0.002;                     // m; a web is not told apart from noise below
 constexpr int kJoined = 3;                           // sections; one that is noisy does not tell
 constexpr double kGirthToWidth = 4;                  // of a lobe on its web; a mere bulge has less than 2.5
 constexpr double kSmallestGirth = 0.05, kLongest = 0.20;  // m, of a lobe; along the skin from its tip
@@ -83,7 +84,9 @@ double fold_above_web(const BodyShape& body, const Trunk& trunk, const Eigen::Ve
       return std::abs(breast.centroid.y() - bust_point.y()) < kBeside;
     });
     joined = free || lobe_cut(sections.front(), bust_point, side, body.stature).width < kWeb ? 0 : joined + 1;
-    if (joined == kJoined) return std::max(up - (kJoined - 1) * kApart - kFoldToWeb, 0.0);
+    if (joined < kJoined) continue;
+    const double above = up - (kJoined - 1) * kApart - kFoldToWeb;
+    return above > kLeast ? above : 0;
   }
   return 0;  // a lobe all the way up is no web's
 }
