@@ -255,34 +255,38 @@ void neck(const BodyShape& body, const Neck& found, Record& record) {
   record.girth("neck", found.tape, found.confidence, found.reason);
 }
 
-void arm(const BodyShape& body, const Trunk& trunk, const Neck& found_neck, double stoop, Side side,
-         Record& record) {
-  const Axilla& axilla = trunk.axilla(side);
-  const std::string suffix = kSuffix[side];
-  if (axilla.found) {
+void arms(const BodyShape& body, const Trunk& trunk, const Neck& found_neck, Record& record) {
+  ShoulderHints hints;
+  if (found_neck.found) hints.stoop = stoop_of(body, found_neck);
+  for (Side side : {kLeft, kRight}) {
+    const Axilla& axilla = trunk.axilla(side);
+    const std::string suffix = kSuffix[side];
+    if (!axilla.found) {
+      for (const char* name : {"axilla", "upper_arm"})
+        record.missing(name + suffix, "no arm parts from the trunk");
+      continue;
+    }
     record.landmark("axilla" + suffix, axilla.point, axilla.filled ? 0.45 : 0.9,
                     axilla.filled ? "the armpit is filled with skin that the scan did not see" : "");
-  } else {
-    record.missing("axilla" + suffix, "no arm parts from the trunk");
+    const LimbGirth girth = find_upper_arm_girth(body, axilla, side);
+    limb("upper_arm" + suffix, girth, record);
+    if (!girth.tape.empty()) hints.arm_girths[side] = geometry::length_of(girth.tape, true);
   }
-  const Shoulder shoulder = find_shoulder(body, trunk, found_neck, stoop, side);
-  if (shoulder.found) {
-    record.landmark("shoulder" + suffix, shoulder.point, shoulder.confidence, shoulder.reason);
-  } else {
-    record.missing("shoulder" + suffix, shoulder.reason);
-  }
-  if (axilla.found) {
-    limb("upper_arm" + suffix, find_upper_arm_girth(body, axilla, side), record);
-  } else {
-    record.missing("upper_arm" + suffix, "no arm parts from the trunk");
+  for (Side side : {kLeft, kRight}) {
+    const std::string name = std::string("shoulder") + kSuffix[side];
+    const Shoulder shoulder = find_shoulder(body, trunk, found_neck, hints, side);
+    if (shoulder.found) {
+      record.landmark(name, shoulder.point, shoulder.confidence, shoulder.reason);
+    } else {
+      record.missing(name, shoulder.reason);
+    }
   }
 }
 
 void upper_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
   const Neck found_neck = find_neck(body, trunk);
   neck(body, found_neck, record);
-  const double stoop = found_neck.found ? stoop_of(body, found_neck) : 0;
-  for (Side side : {kLeft, kRight}) arm(body, trunk, found_neck, stoop, side, record);
+  arms(body, trunk, found_neck, record);
   if (body.levels.has_head) {
     record.height("stature", body.stature);
   } else {

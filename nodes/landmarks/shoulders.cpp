@@ -15,37 +15,32 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 // Statures. Bones do not grow with weight: out from the neck's side the acromion is a collarbone away, and it
 // lies behind the middle of the shoulder's depth, taken so far below the shoulder's ridge.
 constexpr double kCollarbone = 0.079, kBelowRidge = 0.030, kBehindMiddle = 0.0183;
-// Out from the axilla of an arm that hangs, to the middle of the arm.
-constexpr double kBeyondAxilla = 0.0222;
 constexpr double kHanging = 22 * kDegree;
-// A raised arm takes acromion and axilla along, towards the neck and outwards; statures a radian.
-constexpr double kCollarboneRises = 0.009, kAxillaOpens = 0.0226;
-// The share of the bones; the rest is what the axillae tell, if they were seen.
-constexpr double kBones = 0.25, kBonesIfFilled = 0.4;
+// Beyond the neck's side and the axilla, by their shares: of stature, less a radian that the arm is raised,
+// and of the arm's girth.
+constexpr double kNeck = 0.8, kBeyond = 0.0434, kRises = 0.0133, kFlesh = 0.152;
+// Beyond the axilla alone, to the middle of the arm, and less as the arm is raised.
+constexpr double kBeyondAxilla = 0.0222, kAxillaOpens = 0.0226;
 
-// How far the acromion lies to the side of `middle`, metres: bones and, of arms that do not stand out, the
-// axillae. What one side lacks the other tells.
-double half_breadth(const BodyShape& body, const Trunk& trunk, const Neck& neck, double middle, Side side) {
-  const double s = body.stature, sign = kSign[side];
-  double sum = 0;
+// How far the acromion lies to the side of `middle`, metres; negative where nothing tells. What one side
+// lacks the other tells.
+double half_breadth(const BodyShape& body, const Trunk& trunk, const Neck& neck, const ShoulderHints& hints,
+                    double middle, Side side) {
+  const double s = body.stature;
+  double axillae = 0;
   int told = 0;
-  bool filled = false;
-  for (Side other : {kLeft, kRight}) {
+  for (Side other : {side, side == kLeft ? kRight : kLeft}) {
     const Axilla& axilla = trunk.axilla(other);
-    if (!axilla.found || axilla.raised) continue;
-    sum += kSign[other] * (axilla.point.y() - middle) +
-           (kBeyondAxilla - kAxillaOpens * (axilla.abduction - kHanging)) * s;
-    filled = filled || axilla.filled;
+    if (!axilla.found) continue;
+    const double aside = kSign[other] * (axilla.point.y() - middle), raised = axilla.abduction - kHanging;
+    if (neck.found && hints.arm_girths[other] > 0)
+      return kNeck * kSign[side] * (find_neck_side(body, neck, side).y() - middle) + (1 - kNeck) * aside +
+             (kBeyond - kRises * raised) * s + kFlesh * hints.arm_girths[other];
+    axillae += aside + (kBeyondAxilla - kAxillaOpens * raised) * s;
     ++told;
   }
-  if (!neck.found) return told > 0 ? sum / told : -1;
-  const Axilla& own = trunk.axilla(side);
-  const double raised = own.found ? own.abduction - kHanging : 0;
-  const double bones =
-      sign * (find_neck_side(body, neck, side).y() - middle) + (kCollarbone - kCollarboneRises * raised) * s;
-  if (told == 0) return bones;
-  const double share = filled ? kBonesIfFilled : kBones;
-  return share * bones + (1 - share) * sum / told;
+  if (neck.found) return kSign[side] * (find_neck_side(body, neck, side).y() - middle) + kCollarbone * s;
+  return told > 0 ? axillae / told : -1;
 }
 
 // The acromion on the sagittal section of a shoulder, whose ridge lies near `place`; false where there is no
@@ -70,8 +65,8 @@ bool on_section(const BodyShape& body, const Vector3d& place, double stoop, Vect
   const double x = (front + back) / 2 + (kBelowRidge * std::sin(stoop) - kBehindMiddle * std::cos(stoop)) * s;
   double top = -1e9;
   for (const geometry::SectionLoop& loop : section)
-    for (std::size_t i = 0; i + 1 < loop.points.size(); ++i) {
-      const Vector3d &a = loop.points[i], &b = loop.points[i + 1];
+    for (std::size_t i = loop.closed ? 0 : 1; i < loop.points.size(); ++i) {
+      const Vector3d &a = loop.points[(i == 0 ? loop.points.size() : i) - 1], &b = loop.points[i];
       if ((a.x() > x) != (b.x() > x))
         top = std::max(top, a.z() + (b.z() - a.z()) * (x - a.x()) / (b.x() - a.x()));
     }
@@ -81,7 +76,8 @@ bool on_section(const BodyShape& body, const Vector3d& place, double stoop, Vect
 
 }  // namespace
 
-Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& neck, double stoop, Side side) {
+Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& neck,
+                       const ShoulderHints& hints, Side side) {
   const double s = body.stature;
   const Axilla &left = trunk.axilla(kLeft), &right = trunk.axilla(kRight);
   Shoulder shoulder;
@@ -99,9 +95,9 @@ Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& ne
     shoulder.confidence = 0.4;
     shoulder.reason = "no neck; judged by the axillae alone";
   }
-  const double breadth = half_breadth(body, trunk, neck, place.y(), side);
+  const double breadth = half_breadth(body, trunk, neck, hints, place.y(), side);
   place.y() += kSign[side] * breadth;
-  shoulder.found = breadth > 0 && on_section(body, place, stoop, shoulder.point);
+  shoulder.found = breadth > 0 && on_section(body, place, neck.found ? hints.stoop : 0, shoulder.point);
   if (!shoulder.found) shoulder.reason = "no skin over the end of the collarbone";
   return shoulder;
 }

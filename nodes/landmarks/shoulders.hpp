@@ -1,6 +1,7 @@
 /// Shoulder points.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "landmarks/neck.hpp"
@@ -16,9 +17,16 @@ struct Shoulder {
   std::string reason;  ///< of a low confidence, or why it was not found
 };
 
-/// Out from the middle of the neck by a collarbone's length beyond its side, and by what the axillae tell of
-/// the shoulders' breadth; behind the middle of the shoulder's own depth, further forward the more the upper
-/// back stoops: by `stoop` radians, as stoop_of tells.
-Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& neck, double stoop, Side side);
+/// What else tells where the shoulders are.
+struct ShoulderHints {
+  double stoop = 0;                        ///< radians, as stoop_of tells
+  std::array<double, 2> arm_girths{0, 0};  ///< metres, of the upper arms; 0 where there is none
+};
+
+/// Out from the middle of the neck by the neck's own breadth, a collarbone's length and the flesh over the
+/// bone, which the arm's girth tells, and by a fifth as the axilla tells; behind the middle of the shoulder's
+/// own depth, further forward the more the upper back stoops.
+Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& neck,
+                       const ShoulderHints& hints, Side side);
 
 }  // namespace tensegric_fit::landmarks

@@ -285,8 +285,9 @@ TEST(Landmarks, ArmsMayBeHeldOut) {
        {"bust", "underbust", "waist", "hip", "neck"})  // the arms' roots melt into the neck
     EXPECT_NEAR(girth(out, name), girth(hanging, name), 0.006) << name;
   for (const char* name : {"shoulder_L", "shoulder_R"})
-    EXPECT_LT((out.landmark(name) - hanging.landmark(name)).norm(), 0.030)
-        << name;  // a real collarbone rises with the arm, by 16 mm towards the neck; this figure has none
+    // A real collarbone rises with the arm, by 22 mm towards the neck; this figure has none, and its shoulder
+    // is a ball, which falls away steeply: so only sideways.
+    EXPECT_NEAR(out.landmark(name).y(), hanging.landmark(name).y(), 0.030) << name;
 }
 
 TEST(Landmarks, ABellyIsNoBreast) {
