@@ -6,6 +6,7 @@
 
 #include "landmarks/neck_plane.hpp"
 #include "landmarks/profile.hpp"
+#include "landmarks/throat.hpp"
 
 namespace tensegric_fit::landmarks {
 namespace {
@@ -16,7 +17,6 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kHighest = 0.93;    // of stature: the mouth; a neck is lower
 constexpr double kLower = 0.08;      // statures under the thinnest level section, where a stooped neck can be
 constexpr double kNeckToHead = 0.7;  // a neck's section is smaller than this share of the head's
-constexpr double kCorner = 15;       // 1/m: chin and neck meet in a corner more hollow than that
 
 // In statures, with the girth in statures too: fat under the chin lowers the corner, and a thick neck is
 // hardly thinner anywhere. Along the skin from the corner under the chin down to the girth's plane and to the
@@ -36,7 +36,6 @@ double side_below_plane(double girth) {
   return 0.0107 - 0.105 * (girth - kGirth);
 }
 constexpr double kBackBelowPlane = 0.0383, kSideForwards = 0.003;
-constexpr double kUprightLean = 23 * kDegree;
 
 // Lean of the plane of the neck's base: the mean of what two planes tell, that of the least girth through its
 // middle, `here`, and that of the thinnest loop, which a stretched throat leaves behind. A thick neck's girth
@@ -77,11 +76,6 @@ int thinnest_level(const BodyShape& body, const Trunk& trunk) {
   return thinnest;
 }
 
-struct Plane {
-  Vector3d origin;
-  double lean;
-};
-
 // A place in the neck, from a level section that is thin. The neck leans: on a stooped body level sections
 // are thinnest at the mouth.
 Vector3d place_in_neck(const BodyShape& body, const Trunk& trunk, int thinnest) {
@@ -102,8 +96,8 @@ Vector3d place_in_neck(const BodyShape& body, const Trunk& trunk, int thinnest) 
 }
 
 // The thinnest loop round the neck, whatever its lean.
-Plane thinnest_plane(const NeckPlanes& planes, const Vector3d& middle, double stature) {
-  Plane plane{middle, 0};
+NeckPlane thinnest_plane(const NeckPlanes& planes, const Vector3d& middle, double stature) {
+  NeckPlane plane{middle, 0};
   for (int pass = 0; pass < 4; ++pass) {
     plane.lean = planes.least_lean(plane.origin);
     plane.origin = planes.middle_of_tape(plane.origin, plane.lean);
@@ -123,63 +117,6 @@ Plane thinnest_plane(const NeckPlanes& planes, const Vector3d& middle, double st
   return plane;
 }
 
-// Front of chin, neck and chest in the middle, from top to bottom.
-Profile front_of_neck(const BodyShape& body, const Vector3d& middle) {
-  const double s = body.stature;
-  return cut_profile(body,
-                     triangles_in_box(body, middle + Vector3d(-0.02 * s, -0.01 * s, -0.07 * s),
-                                      middle + Vector3d(0.12 * s, 0.01 * s, 0.07 * s)),
-                     middle, Vector3d::UnitX());
-}
-
-// Where chin and neck meet: the most hollow point round the height of the thinnest loop, or -1.
-int corner_under_chin(const Profile& front, const Plane& thinnest, double stature) {
-  const Vector3d axis = NeckPlanes::normal_of(thinnest.lean);
-  int level = -1;
-  double nearest = 0.01 * stature;
-  for (int i = 0; i < static_cast<int>(front.points.size()); ++i) {
-    const double off = std::abs(axis.dot(front.points[i] - thinnest.origin));
-    if (off >= nearest) continue;
-    nearest = off;
-    level = i;
-  }
-  if (level < 0) return -1;
-  const int up = static_cast<int>(0.030 * stature / front.step),
-            down = static_cast<int>(0.012 * stature / front.step);
-  const auto most_hollow = [&front](int first, int last, int reach, double least) {
-    int most = -1;
-    for (int i = std::max(0, first); i <= last; ++i) {
-      if (front.hollowness(i, reach) <= least) continue;
-      least = front.hollowness(i, reach);
-      most = i;
-    }
-    return most;
-  };
-  const int corner = most_hollow(level - up, level + down, 8, kCorner);
-  // Sensors see little of a chin from below: the middle of the bend is surer than its sharpest place.
-  const int near = static_cast<int>(0.006 * stature / front.step);
-  return corner < 0 ? -1 : std::max(corner - near, most_hollow(corner - near, corner + near, 14, -1e9));
-}
-
-// Where the throat's profile, running down along the neck from `corner` or the thinnest loop, stops receding,
-// or -1.
-int deepest_point(const Profile& front, const Plane& thinnest, int corner) {
-  const Vector3d loop_axis = NeckPlanes::normal_of(thinnest.lean);
-  const Vector3d axis = NeckPlanes::normal_of(thinnest.lean - kUprightLean), forwards(axis.z(), 0, -axis.x());
-  const int count = static_cast<int>(front.points.size());
-  int first = count;  // an open mouth can reach below the loop's front
-  while (first > 0 && loop_axis.dot(front.points[first - 1] - thinnest.origin) < 0) --first;
-  int deepest = -1;
-  for (int i = corner >= 0 ? corner : first; i < count; ++i)
-    if (deepest < 0 || forwards.dot(front.points[i] - front.points[deepest]) < -1e-9) deepest = i;
-  return deepest;
-}
-
-const Vector3d& along(const Profile& front, int from, double length) {
-  const int at = from + static_cast<int>(std::lround(length / front.step));
-  return front.points[std::clamp(at, 0, static_cast<int>(front.points.size()) - 1)];
-}
-
 }  // namespace
 
 Neck find_neck(const BodyShape& body, const Trunk& trunk) {
@@ -196,14 +133,14 @@ Neck find_neck(const BodyShape& body, const Trunk& trunk) {
   const NeckPlanes planes(body, place);
 
   // 1. The thinnest loop, and from its front the corner under the chin.
-  const Plane thinnest = thinnest_plane(planes, place, s);
-  const Profile front = front_of_neck(body, thinnest.origin);
-  const int corner = corner_under_chin(front, thinnest, s);
-  const int deepest = deepest_point(front, thinnest, corner);
-  if (deepest < 0) return neck;
-  const double throat = std::clamp((deepest - corner) * front.step / s, kShortest, kLongest);
+  const NeckPlane thinnest = thinnest_plane(planes, place, s);
+  const ThroatProfile front = find_throat(body, thinnest);
+  if (front.deepest < 0) return neck;
+  const bool has_corner = front.corner >= 0;
+  const double throat =
+      std::clamp((front.deepest - front.corner) * front.profile.step / s, kShortest, kLongest);
   double lean = thinnest.lean, girth = planes.girth(thinnest.origin, lean) / s;
-  if (corner < 0) {
+  if (!has_corner) {
     neck.confidence = 0.45;
     neck.reason = "no corner between chin and neck; from the deepest point of the throat";
   }
@@ -211,8 +148,8 @@ Neck find_neck(const BodyShape& body, const Trunk& trunk) {
   // 2. The girth is the least one round the middle of the neck's base, a given way below that corner.
   neck.origin = thinnest.origin;
   for (int pass = 0; pass < 3; ++pass) {
-    const Vector3d anchor = corner >= 0 ? along(front, corner, plane_below_corner(girth, throat) * s)
-                                        : along(front, deepest, -kPlaneAboveDeepest * s);
+    const Vector3d anchor = has_corner ? front.along(front.corner, plane_below_corner(girth, throat) * s)
+                                       : front.along(front.deepest, -kPlaneAboveDeepest * s);
     const double base = base_lean(lean, thinnest.lean, girth, throat);
     const Vector3d axis = NeckPlanes::normal_of(base);
     neck.origin += axis.dot(anchor - neck.origin) * axis;
@@ -227,14 +164,14 @@ Neck find_neck(const BodyShape& body, const Trunk& trunk) {
     neck.confidence = 0.45;
     neck.reason = "a thick neck: its girth grows fast towards the trunk";
   }
-  neck.front =
-      corner >= 0 ? along(front, corner, notch_below_corner(girth, throat) * s) : front.points[deepest];
+  neck.front = has_corner ? front.along(front.corner, notch_below_corner(girth, throat) * s)
+                          : front.profile.points[front.deepest];
   const double base = base_lean(lean, thinnest.lean, girth, throat);
   neck.axis = NeckPlanes::normal_of(base);
   neck.forwards = {std::cos(base), 0, -std::sin(base)};
   neck.turn = base - kUprightLean;
-  neck.base_up = corner >= 0 ? neck.axis : NeckPlanes::normal_of(neck.turn);
-  neck.base = corner >= 0 ? Vector3d(neck.origin - kBackBelowPlane * s * neck.axis) : neck.front;
+  neck.base_up = has_corner ? neck.axis : NeckPlanes::normal_of(neck.turn);
+  neck.base = has_corner ? Vector3d(neck.origin - kBackBelowPlane * s * neck.axis) : neck.front;
   neck.found = true;
   return neck;
 }

@@ -7,6 +7,15 @@
 
 namespace tensegric_fit::landmarks {
 
+/// A plane across the neck that leans forward by `lean` radians.
+struct NeckPlane {
+  Eigen::Vector3d origin;
+  double lean;
+};
+
+/// Lean of the neck's plane on a body that does not stoop, radians.
+inline constexpr double kUprightLean = 23 * 3.14159265358979323846 / 180;
+
 /// Skin round the neck, looked at once for many planes.
 class NeckPlanes {
  public:
