@@ -14,8 +14,9 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kHides = 90 * kDegree, kSeen = 105 * kDegree;
 constexpr double kFaint = 40;    // 1/m; at sternum and flank the fold runs out
 constexpr double kTurn = 0.006;  // m; a fold that falls again by more, away from its lowest point, is none
-constexpr double kOuter = 0.025, kInner = 0.045;          // m medial; the arc is held at both ends
-constexpr double kHeld = 0.75;                            // places seen, at each
+constexpr double kOuter = 0.025, kInner = 0.045;  // m medial; the arc is held at both ends
+// Places seen at each end that hold the arc; outside one alone does not, as the flank is near.
+constexpr double kHeldOuter = 1.2, kHeldInner = 0.75;
 constexpr double kNoise = 0.0025, kPocket = 0.008;        // m, by which places seen and hidden leave the arc
 constexpr double kCurveSpread = 4.8, kCurveWeight = 0.3;  // 1/m; places: how far folds' curves differ
 constexpr double kLeast = 0.002, kDeepest = 0.030;        // m; less is noise
@@ -75,7 +76,7 @@ double fold_above_pocket(const std::vector<FoldPlace>& way, double lowest, doubl
     if (place.medial < kOuter) outer += seen.back();
     if (place.medial > kInner) inner += seen.back();
   }
-  if (outer < kHeld || inner < kHeld) return 0;
+  if (outer < kHeldOuter || inner < kHeldInner) return 0;
 
   std::vector<double> weights = seen;
   Eigen::Vector3d arc = Eigen::Vector3d::Zero();
