@@ -114,6 +114,22 @@ void split_to(Mesh& mesh, std::size_t triangles) {
   }
 }
 
+/// True where no triangle that stays turns by 60 degrees or more.
+bool keeps_facing(const Mesh& mesh, Mesh::HalfedgeHandle collapse) {
+  constexpr double kCosine = 0.5;
+  const OpenMesh::Vec3d from = mesh.point(mesh.from_vertex_handle(collapse)),
+                        to = mesh.point(mesh.to_vertex_handle(collapse));
+  for (const auto side : mesh.voh_range(mesh.from_vertex_handle(collapse))) {
+    const Mesh::VertexHandle a = mesh.to_vertex_handle(side),
+                             b = mesh.to_vertex_handle(mesh.next_halfedge_handle(side));
+    if (mesh.to_vertex_handle(collapse) == a || mesh.to_vertex_handle(collapse) == b) continue;
+    const OpenMesh::Vec3d across = mesh.point(b) - mesh.point(a);
+    const OpenMesh::Vec3d before = (mesh.point(a) - from) % across, after = (mesh.point(a) - to) % across;
+    if ((before | after) <= kCosine * before.norm() * after.norm()) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 TriangleMesh with_triangles(const TriangleMesh& mesh, int triangles) {
@@ -129,6 +145,29 @@ TriangleMesh with_even_triangles(const TriangleMesh& mesh, int triangles) {
   const auto wanted = static_cast<std::size_t>(triangles);
   if (work.n_faces() > wanted) collapse_to<EvenQuadric>(work, wanted, kWorstAspect);
   split_to(work, wanted);
+  return from_open_mesh(work);
+}
+
+TriangleMesh without_short_edges(const TriangleMesh& mesh, double shortest) {
+  Mesh work = to_open_mesh(mesh);
+  work.request_face_status();
+  work.request_edge_status();
+  work.request_vertex_status();
+  for (const auto edge : work.edges()) {
+    if (work.status(edge).deleted() || work.calc_edge_sqr_length(edge) >= shortest * shortest) continue;
+    for (const int way : {0, 1}) {
+      const Mesh::HalfedgeHandle collapse = work.halfedge_handle(edge, way);
+      const Mesh::VertexHandle goes = work.from_vertex_handle(collapse),
+                               stays = work.to_vertex_handle(collapse);
+      if (work.status(goes).locked() || work.is_boundary(goes) || !work.is_collapse_ok(collapse) ||
+          !keeps_facing(work, collapse))
+        continue;
+      work.collapse(collapse);
+      work.status(stays).set_locked(true);  // or a row of vertices would go one after the other
+      break;
+    }
+  }
+  work.garbage_collection();
   return from_open_mesh(work);
 }
 

@@ -16,4 +16,9 @@ TriangleMesh with_triangles(const TriangleMesh& mesh, int triangles);
 /// model stands on.
 TriangleMesh with_even_triangles(const TriangleMesh& mesh, int triangles);
 
+/// Most edges shorter than `shortest`, metres, are collapsed, where that turns no triangle over: a surface
+/// from cells has slivers. No vertex moves farther than that. What was closed stays so. \pre and \throw as
+/// above
+TriangleMesh without_short_edges(const TriangleMesh& mesh, double shortest);
+
 }  // namespace tensegric_fit::geometry

@@ -12,6 +12,7 @@ namespace tensegric_fit::reconstruction {
 namespace {
 
 constexpr float kSamplesPerNode = 4;  // cells as deep as the points are dense
+constexpr int kFullDepth = 4;         // the octree is complete down to here, also where there are no points
 
 /// PCL prints to standard output, which belongs to the program's user: it goes nowhere while one lives.
 class QuietOutput {
@@ -54,6 +55,7 @@ geometry::TriangleMesh poisson_surface(const geometry::PointCloud& cloud, int de
     const QuietOutput quiet;
     pcl::Poisson<pcl::PointNormal> poisson;
     poisson.setDepth(depth);
+    poisson.setMinDepth(kFullDepth);
     poisson.setSamplesPerNode(kSamplesPerNode);
     poisson.setThreads(1);
     poisson.setInputCloud(input);

@@ -33,6 +33,7 @@ constexpr double kDuplicate = 0.0005;          // m; closer points are one
 constexpr double kCoarsest = 0.005;            // m
 constexpr std::size_t kEnoughPoints = 400000;  // of a whole scan
 constexpr double kLongestLoop = 0.3;           // m round; a bridge that is thicker is the body's own
+constexpr double kSliver = 0.55;               // cells; shorter edges take triangles that the trunk needs
 constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher stands on something else
 
 const double kFlatOnFloor =
@@ -70,6 +71,13 @@ PointCloud without_surplus(PointCloud scan, const Options& options) {
 
 double lowest_of(const std::vector<Eigen::Vector3d>& points) {
   return geometry::bounding_box(points)[0].z();
+}
+
+/// Of Poisson's smallest cells, m.
+double cell_width(const std::vector<Eigen::Vector3d>& points, int depth) {
+  constexpr double kRoom = 1.1;  // that PCL leaves around the points
+  const auto box = geometry::bounding_box(points);
+  return std::ldexp(kRoom * (box[1] - box[0]).maxCoeff(), -depth);
 }
 
 /// The body's points, upright, the ground under the soles at z = 0; `from_scan` takes the scan to them.
@@ -125,7 +133,8 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   append(body, soles);
   // 4. One closed surface on the points and above the ground.
   TriangleMesh mesh = one_closed_surface(poisson_surface(thinned(body), options.poisson_depth));
-  mesh = without_handles(mesh, kLongestLoop);
+  mesh = geometry::without_short_edges(without_handles(mesh, kLongestLoop),
+                                       kSliver * cell_width(body.points, options.poisson_depth));
   if (static_cast<int>(mesh.triangles.size()) < options.body_triangles)
     mesh = geometry::with_triangles(mesh, options.body_triangles);
   fit_to_points(mesh, body);

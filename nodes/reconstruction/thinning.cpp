@@ -12,6 +12,7 @@ using geometry::PointCloud;
 
 constexpr double kSurroundings = 0.01;                           // m; cubes whose 27 show how the skin bends
 constexpr std::array<double, 3> kCube = {0.0025, 0.005, 0.010};  // m
+constexpr std::array<int, 3> kTimes = {3, 2, 1};                 // that a mean of each cube counts
 constexpr double kOneSide = 0.8;  // length of the mean normal of a cube; below, it holds two sides of a gap
 constexpr std::array<double, 2> kAgreement = {0.7, 0.9};  // length of the mean normal that parts the cubes
 
@@ -78,7 +79,8 @@ PointCloud thinned(const PointCloud& cloud) {
     }
   }
   PointCloud means;
-  for (std::size_t level = 0; level < kCube.size(); ++level) add_means(by_cube[level], kCube[level], means);
+  for (std::size_t level = 0; level < kCube.size(); ++level)
+    for (int time = 0; time < kTimes[level]; ++time) add_means(by_cube[level], kCube[level], means);
   return means;
 }
 

@@ -10,9 +10,9 @@ namespace tensegric_fit::reconstruction {
 geometry::PointCloud merged(const geometry::PointCloud& cloud, double cube);
 
 /// Means of the points in cubes of 2.5 mm where the skin bends strongly (fingers, ears, nose), 5 mm where it
-/// bends, 10 mm where it is smooth; points of two sides
-/// of a gap in one cube stay as they are. An octree that follows the density of points then has small cells
-/// only where they are needed. \pre unit normals
+/// bends, 10 mm where it is smooth; points of two sides of a gap in one cube stay as they are. The first come
+/// three times and the second twice, since a scanner's points lie no closer than that: an octree that follows
+/// the density of points then has small cells only where they are needed. \pre unit normals
 geometry::PointCloud thinned(const geometry::PointCloud& cloud);
 
 }  // namespace tensegric_fit::reconstruction

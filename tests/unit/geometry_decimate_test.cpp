@@ -74,6 +74,23 @@ TEST(Decimate, EvenTrianglesOfAFlatSheetAreNoSliversAndKeepItsBorder) {
   EXPECT_NEAR(area, 1, 0.01);  // a corner may be cut, a side may not
 }
 
+TEST(Decimate, ShortEdgesGoAndTheTorusStaysAsItIs) {
+  const TriangleMesh fine = torus(120, 60);  // sides of 0.02 to 0.07 m
+  const TriangleMesh mesh = without_short_edges(fine, 0.035);
+  EXPECT_LT(mesh.triangles.size(), 2 * fine.triangles.size() / 3);
+  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_EQ(2 * mesh.vertices.size(), mesh.triangles.size());  // V - E + F = 0
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    const Vector3d middle = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
+    const Vector3d ring = Vector3d(middle.x(), middle.y(), 0).normalized();
+    const Vector3d twice = area_vector(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    EXPECT_GT(twice.dot(middle - ring), 0) << "turned over";
+  }
+  // Vertices stay on the torus; facets of 0.1 m lie 4 mm inside its tube of 0.3 m, 3 % of the section's area.
+  EXPECT_NEAR(cone_volume(mesh.vertices, mesh.triangles) / (2 * M_PI * M_PI * 0.09), 1, 0.03);
+  EXPECT_EQ(without_short_edges(fine, 0.001).triangles.size(), fine.triangles.size());
+}
+
 TEST(Decimate, PiecesStayApart) {
   TriangleMesh two = torus(60, 30);
   const TriangleMesh other = torus(60, 30, 5);

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <map>
 
 #include "geometry/decimate.hpp"
 #include "reconstruction/floor.hpp"
@@ -255,8 +257,16 @@ TEST(ReconstructionSteps, ThinningKeepsPointsWhereTheSkinBends) {
     cloud.normals.emplace_back(1, 0, 0);
   }
   const geometry::PointCloud thin = thinned(cloud);
+  const auto before = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  };
+  std::map<Eigen::Vector3d, int, decltype(before)> times(before);
+  for (const Eigen::Vector3d& p : thin.points) ++times[p];
   double finger = 0, wall = 0;
-  for (const Eigen::Vector3d& p : thin.points) ++(p.x() > 0.5 ? wall : finger);
+  for (const auto& [p, count] : times) {
+    ++(p.x() > 0.5 ? wall : finger);
+    EXPECT_TRUE(p.x() > 0.5 ? count == 1 : count > 1) << "cells follow how often a point comes";
+  }
   EXPECT_NEAR(wall, 400, 80);  // one in 10 mm by 10 mm, and what the rims of the cubes add
   EXPECT_GT(finger, 400);      // 40 cm^2, one in 2.5 mm by 2.5 mm: 640, some cubes hold two sides
   for (const Eigen::Vector3d& n : thin.normals) EXPECT_NEAR(n.norm(), 1, 1e-12);
