@@ -29,8 +29,8 @@ double stoop_of(const BodyShape& body, const Neck& neck) {
   Vector3d back = top;
   const std::vector<int> skin = triangles_in_box(body, top - reach, top + reach);
   for (const geometry::SectionLoop& loop : cut(body, skin, top, Vector3d::UnitY()))
-    for (std::size_t i = 0; i + 1 < loop.points.size(); ++i) {
-      const Vector3d &a = loop.points[i], &b = loop.points[i + 1];
+    for (std::size_t i = loop.closed ? 0 : 1; i < loop.points.size(); ++i) {
+      const Vector3d &a = loop.points[(i == 0 ? loop.points.size() : i) - 1], &b = loop.points[i];
       const double beyond_a = (a - top).norm() - kUpperBack * s, beyond_b = (b - top).norm() - kUpperBack * s;
       if ((beyond_a > 0) == (beyond_b > 0)) continue;
       const Vector3d p = a + beyond_a / (beyond_a - beyond_b) * (b - a);
