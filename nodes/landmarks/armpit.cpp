@@ -16,6 +16,8 @@ constexpr double kRadius = 0.075;                    // of the roof, front to ba
 // Shares: of its length further up, what joins arm and trunk has a dome's height above a roof; of the roof's
 // depth, so far from its middle lies its lowest place.
 constexpr double kAtOnce = 0.7, kFurthest = 0.4;
+constexpr double kParting =
+    1.0 / 3;  // of the roof's side: told by the filling, which follows the skin beside it
 
 Bridge bridge_at(const FilledArmpit& armpit, double height) {
   const double beside = kBeside * armpit.stature;
@@ -42,8 +44,9 @@ bool parting_is_roof(const FilledArmpit& armpit) {
 ArmpitRoof find_armpit_roof(const FilledArmpit& armpit, double height, double aside) {
   const Bridge narrow = bridge_at(armpit, height + kNarrow * armpit.stature),
                middle = bridge_at(armpit, height + kMiddle * armpit.stature);
+  const double y = (1 - kParting) * narrow.y + kParting * armpit.parting.y() + aside;
   return {narrow.length > 0 && middle.length > 0,
-          {(middle.front + middle.back) / 2, narrow.y + aside, height},
+          {(middle.front + middle.back) / 2, y, height},
           middle.front - middle.back};
 }
 

@@ -25,7 +25,8 @@ double height_of_roof(const FilledArmpit& armpit);
 /// Whether what joins arm and trunk has most of its length as soon as they join, which no filling has.
 bool parting_is_roof(const FilledArmpit& armpit);
 
-/// The roof at a height; `aside` metres along y from where what joins arm and trunk is narrowest.
+/// The roof at a height; `aside` metres along y from between the parting and, by two thirds, where what joins
+/// arm and trunk is narrowest.
 ArmpitRoof find_armpit_roof(const FilledArmpit& armpit, double height, double aside);
 
 /// The lowest place of the roof, an arc from front to back over the arm: as the arm leans forward or

@@ -17,7 +17,7 @@ constexpr double kWidestChest = 1.7;    // of the waist; what reaches further ou
 constexpr double kWidestGap =
     0.02;  // statures, of arm and trunk a fraction of a millimetre under the place where they join
 constexpr double kRoundFilling = 0.015;  // skin round a filling, smoothed with it
-constexpr double kInside = 0.0028;       // from where arm and trunk are narrowest to an armpit's roof
+constexpr double kInside = 0.0024;       // from where arm and trunk are narrowest to an armpit's roof
 constexpr double kUpperArm = 0.02, kLowerArm = 0.05;  // statures under the axilla, between which the arm runs
 constexpr double kForearm = 0.10;  // statures out from the trunk there: no upper arm, but what hangs from it
 constexpr double kRaised = 0.98, kLevelArm = 1.4;  // radians; an arm without sections there
