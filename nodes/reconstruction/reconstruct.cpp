@@ -34,6 +34,7 @@ constexpr double kCoarsest = 0.005;            // m
 constexpr std::size_t kEnoughPoints = 400000;  // of a whole scan
 constexpr double kLongestLoop = 0.3;           // m round; a bridge that is thicker is the body's own
 constexpr double kSliver = 0.55;               // cells; shorter edges take triangles that the trunk needs
+constexpr double kFineCell = 0.005;            // m; coarser cells leave it enough
 constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher stands on something else
 
 const double kFlatOnFloor =
@@ -133,8 +134,9 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   append(body, soles);
   // 4. One closed surface on the points and above the ground.
   TriangleMesh mesh = one_closed_surface(poisson_surface(thinned(body), options.poisson_depth));
-  mesh = geometry::without_short_edges(without_handles(mesh, kLongestLoop),
-                                       kSliver * cell_width(body.points, options.poisson_depth));
+  mesh = without_handles(mesh, kLongestLoop);
+  if (const double cell = cell_width(body.points, options.poisson_depth); cell < kFineCell)
+    mesh = geometry::without_short_edges(mesh, kSliver * cell);
   if (static_cast<int>(mesh.triangles.size()) < options.body_triangles)
     mesh = geometry::with_triangles(mesh, options.body_triangles);
   fit_to_points(mesh, body);
