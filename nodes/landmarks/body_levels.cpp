@@ -104,8 +104,9 @@ void check_proportions(const BodyLevels& body, int middle) {
   if (trunk.area < 0.004 * square || trunk.area > 0.12 * square)  // girths of about 0.22 and 1.2 statures
     refuse("its middle has not the size of a trunk");
   const Level& knees = body.levels[body.nearest(body.levels.front().height + 0.28 * body.stature)];
-  if (knees.legs[0] < 0 || knees.legs[1] < 0)
-    throw Refusal(std::string(refusal::kMissingPart) + ":legs", "the legs end above the knees");
+  const bool no_knees = knees.legs[0] < 0 || knees.legs[1] < 0;
+  if (no_knees && !body.has_head) refuse("it has neither knees nor a head");
+  if (no_knees) throw Refusal(std::string(refusal::kMissingPart) + ":legs", "the legs end above the knees");
   for (int k = 0; k < 2; ++k) {
     const double area = knees.outlines[knees.legs[k]].area;
     if (area < 0.0005 * square || area > 0.03 * square) refuse("what it stands on has not the size of legs");
