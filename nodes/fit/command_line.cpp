@@ -102,6 +102,9 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
       ->capture_default_str()
       ->check(CLI::Range(2000, 1000000))
       ->excludes(mesh);
+  app.add_flag("--bust-only", line.settings.reconstruction.bust_only,
+               "Legs, hands and head of a scan come coarse, in less time: enough for a bust garment")
+      ->excludes(mesh);
   app.add_option("--out", line.out, "Folder for the results")->capture_default_str();
   auto* control = app.add_option("--control", line.control,
                                  "Control mesh CONTROL.ply for any shape; none: the shape simplified")

@@ -1,6 +1,7 @@
 #include "reconstruction/reconstruct.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <future>
 
@@ -35,6 +36,7 @@ constexpr std::size_t kEnoughPoints = 400000;  // of a whole scan
 constexpr double kLongestLoop = 0.3;           // m round; a bridge that is thicker is the body's own
 constexpr double kSliver = 0.55;               // cells; shorter edges take triangles that the trunk needs
 constexpr double kFineCell = 0.005;            // m; coarser cells leave it enough
+constexpr double kLowestBust = 0.53, kHighestBust = 0.88;  // of the height: from the waist to the chin
 constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher stands on something else
 
 const double kFlatOnFloor =
@@ -72,6 +74,13 @@ PointCloud without_surplus(PointCloud scan, const Options& options) {
 
 double lowest_of(const std::vector<Eigen::Vector3d>& points) {
   return geometry::bounding_box(points)[0].z();
+}
+
+/// Lowest and highest, m, of skin whose shape counts.
+std::array<double, 2> fine_heights(const std::vector<Eigen::Vector3d>& standing, const Options& options) {
+  const double height = geometry::bounding_box(standing)[1].z();
+  if (!options.bust_only) return {0, height};
+  return {kLowestBust * height, kHighestBust * height};
 }
 
 /// Of Poisson's smallest cells, m.
@@ -133,7 +142,8 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   append(body, sight_line_points(body));
   append(body, soles);
   // 4. One closed surface on the points and above the ground.
-  TriangleMesh mesh = one_closed_surface(poisson_surface(thinned(body), options.poisson_depth));
+  TriangleMesh mesh = one_closed_surface(
+      poisson_surface(thinned(body, fine_heights(body.points, options)), options.poisson_depth));
   mesh = without_handles(mesh, kLongestLoop);
   if (const double cell = cell_width(body.points, options.poisson_depth); cell < kFineCell)
     mesh = geometry::without_short_edges(mesh, kSliver * cell);

@@ -56,7 +56,7 @@ PointCloud merged(const PointCloud& cloud, double cube) {
   return means;
 }
 
-PointCloud thinned(const PointCloud& cloud) {
+PointCloud thinned(const PointCloud& cloud, const std::array<double, 2>& fine) {
   const VoxelGrid grid(cloud.points, kSurroundings);
   std::array<PointCloud, kCube.size()> by_cube;
   std::vector<Eigen::Vector3d> sum(grid.cell_count(), Eigen::Vector3d::Zero());
@@ -71,7 +71,10 @@ PointCloud thinned(const PointCloud& cloud) {
       normal += sum[a];
       count += grid.end(a) - grid.begin(a);
     }
-    const auto level = std::upper_bound(kAgreement.begin(), kAgreement.end(), normal.norm() / count);
+    const double height = cloud.points[grid.order()[grid.begin(c)]].z();
+    const auto level = height < fine[0] || height > fine[1]
+                           ? kAgreement.end()
+                           : std::upper_bound(kAgreement.begin(), kAgreement.end(), normal.norm() / count);
     PointCloud& level_points = by_cube[level - kAgreement.begin()];
     for (int i = grid.begin(c); i < grid.end(c); ++i) {
       level_points.points.push_back(cloud.points[grid.order()[i]]);

@@ -1,6 +1,8 @@
 /// Fewer points where a surface is smooth.
 #pragma once
 
+#include <array>
+
 #include "geometry/point_cloud.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -13,6 +15,7 @@ geometry::PointCloud merged(const geometry::PointCloud& cloud, double cube);
 /// bends, 10 mm where it is smooth; points of two sides of a gap in one cube stay as they are. The first come
 /// three times and the second twice, since a scanner's points lie no closer than that: an octree that follows
 /// the density of points then has small cells only where they are needed. \pre unit normals
-geometry::PointCloud thinned(const geometry::PointCloud& cloud);
+/// Outside of the heights `fine` (lowest and highest, m) all skin gets 10 mm.
+geometry::PointCloud thinned(const geometry::PointCloud& cloud, const std::array<double, 2>& fine);
 
 }  // namespace tensegric_fit::reconstruction

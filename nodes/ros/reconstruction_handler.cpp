@@ -27,6 +27,7 @@ reconstruction::Options reconstruction_options(Parameters& parameters) {
   options.min_points = parameters.integer("min_points", options.min_points, 100, 10000000);
   options.max_points = parameters.integer("max_points", options.max_points, 100, 100000000);
   options.support_distance = parameters.number("support_distance", options.support_distance, 0.001, 0.1);
+  options.bust_only = parameters.flag("bust_only", options.bust_only);
   return options;
 }
 

@@ -33,7 +33,9 @@ tensegric::Garment garment_of(const Scene& scene) {
 
 View first_view(const Scene& scene, fit::StageTimes& times) {
   View view;
-  view.body = fit::measure_scan(scan(180000), {}, times);
+  fit::Settings settings;
+  settings.reconstruction.bust_only = scene.regions == std::vector<std::string>{"bust"};
+  view.body = fit::measure_scan(scan(180000), settings, times);
   if (scene.regions.empty()) return view;
   std::vector<control_mesh::Template> patterns;
   for (const std::string& region : scene.regions)

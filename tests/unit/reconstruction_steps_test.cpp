@@ -256,7 +256,7 @@ TEST(ReconstructionSteps, ThinningKeepsPointsWhereTheSkinBends) {
     cloud.points.emplace_back(1, 0.2 * figure::uniform(random), 0.2 * figure::uniform(random));
     cloud.normals.emplace_back(1, 0, 0);
   }
-  const geometry::PointCloud thin = thinned(cloud);
+  const geometry::PointCloud thin = thinned(cloud, {0, 1});
   const auto before = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   };
@@ -270,6 +270,9 @@ TEST(ReconstructionSteps, ThinningKeepsPointsWhereTheSkinBends) {
   EXPECT_NEAR(wall, 400, 80);  // one in 10 mm by 10 mm, and what the rims of the cubes add
   EXPECT_GT(finger, 400);      // 40 cm^2, one in 2.5 mm by 2.5 mm: 640, some cubes hold two sides
   for (const Eigen::Vector3d& n : thin.normals) EXPECT_NEAR(n.norm(), 1, 1e-12);
+  // Outside of the heights that count, the finger is as coarse as the wall: 40 cm^2, one in 10 mm by 10 mm,
+  // and what the rims of the cubes add.
+  EXPECT_LT(thinned(cloud, {0.5, 1}).points.size(), wall + 120);
 }
 
 TEST(ReconstructionSteps, AFingerKeepsItsThickness) {
