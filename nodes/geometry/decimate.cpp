@@ -5,6 +5,7 @@
 #include <OpenMesh/Tools/Decimater/ModAspectRatioT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+#include <limits>
 #include <queue>
 #include <tuple>
 
@@ -14,6 +15,7 @@ namespace tensegric_fit::geometry {
 namespace {
 
 constexpr double kWorstAspect = 8;  // longest edge / its height
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
@@ -98,12 +100,16 @@ void collapse_to(Mesh& mesh, std::size_t triangles, double worst_aspect) {
   mesh.garbage_collection();
 }
 
-void split_to(Mesh& mesh, std::size_t triangles) {
+// Longest edges first, of those whose middle is between two heights.
+void split_to(Mesh& mesh, std::size_t triangles, double lowest, double highest) {
   using Entry = std::tuple<double, int>;  // squared length, minus the edge's number: ties go to the lower one
   std::priority_queue<Entry> longest;
-  const auto push = [&](Mesh::EdgeHandle e) { longest.emplace(mesh.calc_edge_sqr_length(e), -e.idx()); };
+  const auto push = [&](Mesh::EdgeHandle e) {
+    const double height = mesh.calc_edge_midpoint(e)[2];
+    if (height >= lowest && height <= highest) longest.emplace(mesh.calc_edge_sqr_length(e), -e.idx());
+  };
   for (const auto e : mesh.edges()) push(e);
-  while (mesh.n_faces() + 2 <= triangles) {
+  while (mesh.n_faces() + 2 <= triangles && !longest.empty()) {
     const auto [squared, number] = longest.top();
     longest.pop();
     const Mesh::EdgeHandle edge(-number);
@@ -136,7 +142,7 @@ TriangleMesh with_triangles(const TriangleMesh& mesh, int triangles) {
   Mesh work = to_open_mesh(mesh);
   const auto wanted = static_cast<std::size_t>(triangles);
   if (work.n_faces() > wanted) collapse_to<OpenMesh::Decimater::ModQuadricT<Mesh>>(work, wanted, 0);
-  split_to(work, wanted);
+  split_to(work, wanted, -kInfinity, kInfinity);
   return from_open_mesh(work);
 }
 
@@ -144,7 +150,13 @@ TriangleMesh with_even_triangles(const TriangleMesh& mesh, int triangles) {
   Mesh work = to_open_mesh(mesh);
   const auto wanted = static_cast<std::size_t>(triangles);
   if (work.n_faces() > wanted) collapse_to<EvenQuadric>(work, wanted, kWorstAspect);
-  split_to(work, wanted);
+  split_to(work, wanted, -kInfinity, kInfinity);
+  return from_open_mesh(work);
+}
+
+TriangleMesh with_finer_belt(const TriangleMesh& mesh, int triangles, double lowest, double highest) {
+  Mesh work = to_open_mesh(mesh);
+  split_to(work, static_cast<std::size_t>(triangles), lowest, highest);
   return from_open_mesh(work);
 }
 

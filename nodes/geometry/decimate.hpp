@@ -16,6 +16,10 @@ TriangleMesh with_triangles(const TriangleMesh& mesh, int triangles);
 /// model stands on.
 TriangleMesh with_even_triangles(const TriangleMesh& mesh, int triangles);
 
+/// The same surface with up to so many triangles: the longest edges between two heights (z) are split. \pre
+/// and \throw as above
+TriangleMesh with_finer_belt(const TriangleMesh& mesh, int triangles, double lowest, double highest);
+
 /// Most edges shorter than `shortest`, metres, are collapsed, where that turns no triangle over: a surface
 /// from cells has slivers. No vertex moves farther than that. What was closed stays so. \pre and \throw as
 /// above

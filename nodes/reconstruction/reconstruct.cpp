@@ -6,7 +6,6 @@
 #include <future>
 
 #include "geometry/decimate.hpp"
-#include "geometry/halves.hpp"
 #include "geometry/status.hpp"
 #include "reconstruction/body_points.hpp"
 #include "reconstruction/floor.hpp"
@@ -37,6 +36,9 @@ constexpr double kLongestLoop = 0.3;           // m round; a bridge that is thic
 constexpr double kSliver = 0.55;               // cells; shorter edges take triangles that the trunk needs
 constexpr double kFineCell = 0.005;            // m; coarser cells leave it enough
 constexpr double kLowestBust = 0.53, kHighestBust = 0.88;  // of the height: from the waist to the chin
+// This share of the triangles halves edges round the bust, from the lower to the higher share of the height:
+// nipples are smaller than the others' edges are long.
+constexpr double kBeltShare = 0.15, kBeltLow = 0.66, kBeltHigh = 0.78;
 constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher stands on something else
 
 const double kFlatOnFloor =
@@ -147,22 +149,17 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   mesh = without_handles(mesh, kLongestLoop);
   if (const double cell = cell_width(body.points, options.poisson_depth); cell < kFineCell)
     mesh = geometry::without_short_edges(mesh, kSliver * cell);
-  if (static_cast<int>(mesh.triangles.size()) < options.body_triangles)
-    mesh = geometry::with_triangles(mesh, options.body_triangles);
-  fit_to_points(mesh, body);
-  for (Eigen::Vector3d& v : mesh.vertices) v.z() = std::max(v.z(), 0.0);
-  // 5. As many triangles as asked for; what of the surface nobody saw.
-  result.mesh = geometry::with_triangles(mesh, options.body_triangles);
+  // 5. As many triangles as asked for, on the points; what of the surface nobody saw.
+  mesh = geometry::with_triangles(mesh, static_cast<int>((1 - kBeltShare) * options.body_triangles));
+  const double height = geometry::bounding_box(mesh.vertices)[1].z();
+  result.mesh =
+      geometry::with_finer_belt(mesh, options.body_triangles, kBeltLow * height, kBeltHigh * height);
+  fit_to_points(result.mesh, body);
+  for (Eigen::Vector3d& v : result.mesh.vertices) v.z() = std::max(v.z(), 0.0);
   result.points_used = seen;
   body.points.resize(seen);
-  geometry::in_halves(2, [&](std::size_t, std::size_t, int half) {
-    const auto filled =
-        filled_vertices(half == 0 ? result.mesh : mesh, body.points, options.support_distance);
-    if (half == 0)
-      result.filled = filled;
-    else
-      result.holes = holes_of(mesh, filled);
-  });
+  result.filled = filled_vertices(result.mesh, body.points, options.support_distance);
+  result.holes = holes_of(result.mesh, result.filled);
   result.fractures = fractures.get();
   // 6. Back to the scan's frame.
   const Eigen::Isometry3d to_scan = from_scan.inverse();

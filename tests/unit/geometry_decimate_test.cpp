@@ -118,4 +118,16 @@ TEST(Decimate, SheetsThatMeetInAVertexAreRefused) {
   }
 }
 
+TEST(Decimate, ABeltIsMadeFinerAndNothingElse) {
+  const TriangleMesh coarse = torus(60, 30);
+  const int wanted = static_cast<int>(coarse.triangles.size()) + 1000;
+  const TriangleMesh fine = with_finer_belt(coarse, wanted, -0.1, 0.1);
+  EXPECT_NEAR(static_cast<double>(fine.triangles.size()), wanted, 1);
+  EXPECT_TRUE(is_closed(fine));
+  for (std::size_t v = coarse.vertices.size(); v < fine.vertices.size(); ++v)
+    EXPECT_LE(std::abs(fine.vertices[v].z()), 0.1);
+  EXPECT_TRUE(std::equal(coarse.vertices.begin(), coarse.vertices.end(), fine.vertices.begin()));
+  EXPECT_EQ(with_finer_belt(coarse, wanted, 5, 6).triangles, coarse.triangles) << "nothing is there";
+}
+
 }  // namespace
