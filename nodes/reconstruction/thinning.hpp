@@ -14,8 +14,8 @@ geometry::PointCloud merged(const geometry::PointCloud& cloud, double cube);
 /// Means of the points in cubes of 2.5 mm where the skin bends strongly (fingers, ears, nose), 5 mm where it
 /// bends, 10 mm where it is smooth; points of two sides of a gap in one cube stay as they are. The first come
 /// three times and the second twice, since a scanner's points lie no closer than that: an octree that follows
-/// the density of points then has small cells only where they are needed. \pre unit normals
-/// Outside of the heights `fine` (lowest and highest, m) all skin gets 10 mm.
+/// the density of points then has small cells only where they are needed. Outside of the heights `fine`
+/// (lowest and highest, m) all skin gets 10 mm. \pre unit normals
 geometry::PointCloud thinned(const geometry::PointCloud& cloud, const std::array<double, 2>& fine);
 
 }  // namespace tensegric_fit::reconstruction
