@@ -19,7 +19,7 @@ BustPoint find_bust_point(const BodyShape& body, const Trunk& trunk, Side side);
 
 struct Fold {
   Eigen::Vector3d below_bust_point;  ///< most hollow point of the profile through the bust point
-  Eigen::Vector3d lowest;            ///< lowest point of the fold from there to 55 mm medial
+  double lowest;                     ///< metres, height of the fold's lowest point from there to 55 mm medial
   double confidence;
   std::string reason;
   double hidden = 0;       ///< metres by which the fold as a whole tells its lowest point to be higher

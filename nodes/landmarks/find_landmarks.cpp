@@ -172,8 +172,8 @@ double underbust(const BodyShape& body, const Trunk& trunk, const std::array<Vec
     }
     record.landmark(std::string("underbust") + kSuffix[side], fold.below_bust_point, fold.confidence,
                     fold.reason);
-    seen = std::min(seen, fold.lowest.z());
-    height = std::min(height, fold.lowest.z() + std::max(fold.hidden, above_web));
+    seen = std::min(seen, fold.lowest);
+    height = std::min(height, fold.lowest + std::max(fold.hidden, above_web));
     in_pocket = in_pocket || fold.in_pocket;
     inferred = inferred || (fold.in_pocket && fold.hidden > std::max(above_web, kHiddenFold));
     if (fold.confidence < confidence) {
@@ -184,16 +184,17 @@ double underbust(const BodyShape& body, const Trunk& trunk, const std::array<Vec
   record.height("underbust", height, confidence, reason);
   seen -= kUnderbustBelowFold;
   const double level = height - kUnderbustBelowFold;
-  const auto tape_at = [&](double offset) {
-    if (inferred && level > seen) return tape_carried_up(trunk, seen, level + offset);
-    std::vector<Outline> outline = trunk.outline_at(level + offset);
+  const auto trunk_at = [&](double at) {
+    std::vector<Outline> outline = trunk.outline_at(at);
     for (Outline& section : outline) section = without_hanging_breasts(section, tips, body.stature);
-    return tape_loop(outline);
+    return outline;
+  };
+  const auto tape_at = [&](double offset) {
+    if (inferred && level > seen) return tape_carried_up(trunk_at, seen, level + offset);
+    return tape_loop(trunk_at(level + offset));
   };
   const double doubt =
-      in_pocket
-          ? std::abs(tape_length(trunk.outline_at(seen)) - tape_length(trunk.outline_at(seen - kPocketDepth)))
-          : 0;
+      in_pocket ? std::abs(tape_length(trunk_at(seen)) - tape_length(trunk_at(seen - kPocketDepth))) : 0;
   record.girth("underbust", tape_at, confidence, reason, doubt);
   return height;
 }

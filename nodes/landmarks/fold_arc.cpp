@@ -17,9 +17,13 @@ constexpr double kTurn = 0.006;  // m; a fold that falls again by more, away fro
 constexpr double kOuter = 0.025, kInner = 0.045;  // m medial; the arc is held at both ends
 // Places seen at each end that hold the arc; outside one alone does not, as the flank is near.
 constexpr double kHeldOuter = 1.2, kHeldInner = 0.75;
-constexpr double kNoise = 0.0025, kPocket = 0.008;        // m, by which places seen and hidden leave the arc
-constexpr double kCurveSpread = 4.8, kCurveWeight = 0.3;  // 1/m; places: how far folds' curves differ
-constexpr double kLeast = 0.002, kDeepest = 0.030;        // m; less is noise
+constexpr double kNoise = 0.0025, kPocket = 0.008;  // m, by which places seen and hidden leave the arc
+// 1/m: a fold rises by so much times the square of the distance from its lowest point; how far folds differ.
+constexpr double kCurve = 8.8, kCurveSpread = 4.8;
+// Places that this counts for: in all, and where those seen at both ends tell the curve.
+constexpr double kCurveWeight = 1.4, kCurveWeightHeld = 0.3;
+constexpr double kAstray = 0.004;  // m off the arc, from where a place counts for less than half
+constexpr double kLeast = 0.002, kDeepest = 0.030;  // m; less is noise
 constexpr int kRounds = 25;
 
 bool within(const FoldPlace& place, double reach) {
@@ -53,10 +57,11 @@ std::vector<FoldPlace> one_fold(const std::vector<FoldPlace>& way, double reach)
 }
 
 // Height = c0 + c1 medial + c2 medial^2, by weighted least squares.
-Eigen::Vector3d fit_arc(const std::vector<FoldPlace>& places, const std::vector<double>& weights) {
-  const double prior = kCurveWeight * std::pow(kNoise / kCurveSpread, 2);
+Eigen::Vector3d fit_arc(const std::vector<FoldPlace>& places, const std::vector<double>& weights,
+                        double curve_weight) {
+  const double prior = curve_weight * std::pow(kNoise / kCurveSpread, 2);
   Eigen::Matrix3d normal = Eigen::Vector3d(0, 0, prior).asDiagonal();
-  Eigen::Vector3d right(0, 0, prior * kFoldCurve);
+  Eigen::Vector3d right(0, 0, prior * kCurve);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Eigen::Vector3d terms(1, places[i].medial, places[i].medial * places[i].medial);
     normal += weights[i] * terms * terms.transpose();
@@ -65,7 +70,25 @@ Eigen::Vector3d fit_arc(const std::vector<FoldPlace>& places, const std::vector<
   return normal.ldlt().solve(right);
 }
 
+double height_of(const Eigen::Vector3d& arc, double medial) {
+  return arc[0] + arc[1] * medial + arc[2] * medial * medial;
+}
+
 }  // namespace
+
+double lowest_of_arc(const std::vector<FoldPlace>& fold, double reach) {
+  std::vector<double> weights(fold.size(), 1.0);
+  Eigen::Vector3d arc = Eigen::Vector3d::Zero();
+  for (int round = 0; round < kRounds; ++round) {
+    arc = fit_arc(fold, weights, kCurveWeight);
+    for (std::size_t i = 0; i < fold.size(); ++i)
+      weights[i] = 1 / (1 + std::pow((fold[i].height - height_of(arc, fold[i].medial)) / kAstray, 2));
+  }
+  const double first = std::max(0.0, fold.front().medial);
+  const double last = std::max(first, std::min(reach, fold.back().medial));
+  const double bottom = arc[2] > 0 ? std::clamp(-arc[1] / (2 * arc[2]), first, last) : first;
+  return std::min({height_of(arc, first), height_of(arc, bottom), height_of(arc, last)});
+}
 
 double fold_above_pocket(const std::vector<FoldPlace>& way, double lowest, double reach) {
   const std::vector<FoldPlace> fold = one_fold(known(way), reach);
@@ -81,17 +104,16 @@ double fold_above_pocket(const std::vector<FoldPlace>& way, double lowest, doubl
   std::vector<double> weights = seen;
   Eigen::Vector3d arc = Eigen::Vector3d::Zero();
   for (int round = 0; round < kRounds; ++round) {
-    arc = fit_arc(fold, weights);
+    arc = fit_arc(fold, weights, kCurveWeightHeld);
     for (std::size_t i = 0; i < fold.size(); ++i) {
-      const double medial = fold[i].medial;
-      const double above = fold[i].height - (arc[0] + arc[1] * medial + arc[2] * medial * medial);
+      const double above = fold[i].height - height_of(arc, fold[i].medial);
       weights[i] = seen[i] / (1 + std::pow(above / kNoise, 2));
       // What spans a pocket lies below the fold, never above it.
       if (above > 0) weights[i] += (1 - seen[i]) / (1 + std::pow(above / kPocket, 2));
     }
   }
   const double bottom = arc[2] > 0 ? std::clamp(-arc[1] / (2 * arc[2]), 0.0, reach) : 0;
-  const double raised = arc[0] + arc[1] * bottom + arc[2] * bottom * bottom - lowest;
+  const double raised = height_of(arc, bottom) - lowest;
   return raised < kLeast ? 0 : std::min(raised, kDeepest);
 }
 

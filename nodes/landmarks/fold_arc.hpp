@@ -5,9 +5,6 @@
 
 namespace tensegric_fit::landmarks {
 
-/// 1/m: a fold rises by so much times the square of the distance from its lowest point.
-inline constexpr double kFoldCurve = 8.8;
-
 /// A place of the fold, on one of the profiles side by side.
 struct FoldPlace {
   double medial;      ///< metres from the bust point's profile towards the middle of the chest
@@ -15,6 +12,10 @@ struct FoldPlace {
   double hollowness;  ///< 1/m
   double opening;     ///< radians between the breast's underside and the chest below; negative: not known
 };
+
+/// Height of the lowest point, from the bust point's profile to `reach` metres medial, of the arc through a
+/// fold: one profile that noise or a filling spoils does not tell it. \pre `fold` has a place.
+double lowest_of_arc(const std::vector<FoldPlace>& fold, double reach);
 
 /// How far above `lowest` (metres) the lowest point of the fold between the bust point and `reach` metres
 /// medial is, by the arc through those of its places that open wide enough to be seen; 0 where they do not

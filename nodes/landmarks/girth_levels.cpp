@@ -18,12 +18,13 @@ constexpr double kOnward = 0.7;  // of that change goes on: towards the breasts 
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> tape_carried_up(const Trunk& trunk, double seen, double height) {
-  std::vector<Eigen::Vector3d> tape = tape_loop(trunk.outline_at(seen));
+std::vector<Eigen::Vector3d> tape_carried_up(const std::function<std::vector<Outline>(double)>& outline_at,
+                                             double seen, double height) {
+  std::vector<Eigen::Vector3d> tape = tape_loop(outline_at(seen));
   if (tape.size() < 3) return {};
   double slope = 0;  // least squares over -2 to 2 steps
   for (int i = -2; i <= 2; ++i) {
-    const std::vector<Outline> outline = trunk.outline_at(seen + (i - 2) * kLead);
+    const std::vector<Outline> outline = outline_at(seen + (i - 2) * kLead);
     if (outline.empty()) return {};
     slope += i * tape_length(outline) / (10 * kLead);
   }

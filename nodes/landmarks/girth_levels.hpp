@@ -1,6 +1,7 @@
 /// The waist, and girths at given levels.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,11 @@ struct WaistLevel {
 /// level of the navel by proportion.
 WaistLevel find_waist(const BodyShape& body, const Trunk& trunk, double lowest, double highest);
 
-/// The trunk's tape at `height` where the scan did not see all its skin: that at `seen` below it, in the size
-/// that the girths at `seen` and 20 mm below it lead to. Empty where there is no trunk.
-std::vector<Eigen::Vector3d> tape_carried_up(const Trunk& trunk, double seen, double height);
+/// The tape at `height` where the scan did not see all its skin: that at `seen` below it, in the size that
+/// the girths at `seen` and 20 mm below it lead to. `outline_at` cuts the trunk on a level (m). Empty where
+/// there is no trunk.
+std::vector<Eigen::Vector3d> tape_carried_up(const std::function<std::vector<Outline>(double)>& outline_at,
+                                             double seen, double height);
 
 /// About the level of the navel, and of the waist ruler where a body has no waist.
 double navel_height(const BodyShape& body);

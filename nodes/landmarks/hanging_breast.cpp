@@ -74,11 +74,11 @@ Outline without_hanging_breasts(const Outline& section, const std::array<Eigen::
   return rest;
 }
 
-double fold_above_web(const BodyShape& body, const Trunk& trunk, const Eigen::Vector3d& fold,
+double fold_above_web(const BodyShape& body, const Trunk& trunk, double fold,
                       const Eigen::Vector3d& bust_point, Side side) {
   int joined = 0;
   for (double up = kFirst; up < kHighest; up += kApart) {
-    const std::vector<Outline> sections = trunk.outlines_with_breasts_at(fold.z() + up);
+    const std::vector<Outline> sections = trunk.outlines_with_breasts_at(fold + up);
     if (sections.empty()) return 0;
     const bool free = std::any_of(sections.begin() + 1, sections.end(), [&](const Outline& breast) {
       return std::abs(breast.centroid.y() - bust_point.y()) < kBeside;

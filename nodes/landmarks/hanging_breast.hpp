@@ -14,7 +14,7 @@ Outline without_hanging_breasts(const Outline& section, const std::array<Eigen::
 
 /// How far above `fold` (of this side, metres) a breast is one with the chest, though a web joins them below
 /// it; 0 where the scan tells nothing else than `fold`.
-double fold_above_web(const BodyShape& body, const Trunk& trunk, const Eigen::Vector3d& fold,
+double fold_above_web(const BodyShape& body, const Trunk& trunk, double fold,
                       const Eigen::Vector3d& bust_point, Side side);
 
 }  // namespace tensegric_fit::landmarks

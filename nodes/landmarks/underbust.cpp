@@ -56,17 +56,6 @@ Places places_below(const BodyShape& body, const std::vector<int>& skin, const V
   return places;
 }
 
-// Height of a place by the middle one of nine neighbours, each less what the arc of a fold rises over that
-// distance: one profile that noise or a filling spoils does not tell a fold's lowest point.
-double steady_height(const Places& way, int at) {
-  const int last = static_cast<int>(way.size()) - 1, reach = std::min({4, at, last - at});
-  std::vector<double> heights;
-  for (int i = at - reach; i <= at + reach; ++i)
-    heights.push_back(way[i].point.z() - kFoldCurve * std::pow((i - at) * kApart, 2));
-  std::nth_element(heights.begin(), heights.begin() + reach, heights.end());
-  return heights[reach];
-}
-
 // Carries the ways on from profile to profile. False where there is nowhere to go.
 bool carry_on(const Places& from, Places& to) {
   bool any = false;
@@ -118,6 +107,9 @@ struct Breast {
     return places_below(body, skin, bust_point, bust_point.y() + inwards * k * kApart);
   }
   double medial(double y) const { return (y - bust_point.y()) * inwards; }
+  FoldPlace seen_as(const Place& place) const {
+    return {medial(place.point.y()), place.point.z(), place.hollowness, place.opening};
+  }
   int profile_of(const Place& place) const {
     return static_cast<int>(std::lround(medial(place.point.y()) / kApart));
   }
@@ -154,8 +146,7 @@ std::vector<FoldPlace> whole_fold(const Breast& breast, const Places& way, doubl
   const Places inside = onward(breast, way.back(), last - breast.profile_of(way.back()), 1);
   whole.insert(whole.end(), inside.begin(), inside.end());
   std::vector<FoldPlace> places;
-  for (const Place& place : whole)
-    places.push_back({breast.medial(place.point.y()), place.point.z(), place.hollowness, place.opening});
+  for (const Place& place : whole) places.push_back(breast.seen_as(place));
   return places;
 }
 
@@ -170,25 +161,21 @@ Fold find_fold(const BodyShape& body, const Vector3d& bust_point, double middle,
   const auto first = std::find_if(way.begin(), way.end(), is_hollow);
   if (first == way.end()) {
     const Vector3d guess = bust_point - 0.035 * body.stature * Vector3d::UnitZ();
-    return {guess, guess, 0.2, "no fold under the breast"};
+    return {guess, guess.z(), 0.2, "no fold under the breast"};
   }
   Fold fold;
-  fold.below_bust_point = fold.lowest = first->point;
-  const Places hollow(first, std::find_if_not(first, way.end(), is_hollow));
-  double lowest = 1e9;
-  for (int i = 0; i < static_cast<int>(hollow.size()); ++i) {
-    const double height = steady_height(hollow, i);
-    if (height >= lowest) continue;
-    lowest = height;
-    fold.lowest = {hollow[i].point.x(), hollow[i].point.y(), height};
-  }
+  fold.below_bust_point = first->point;
+  std::vector<FoldPlace> hollow;
+  for (auto place = first; place != way.end() && is_hollow(*place); ++place)
+    hollow.push_back(breast.seen_as(*place));
+  fold.lowest = lowest_of_arc(hollow, kMedialReach);
   fold.confidence = 0.9;
 
   // On a mesh without any skin that was not seen, what looks like a fold is one.
   if (std::none_of(body.filled.begin(), body.filled.end(), [](char unseen) { return unseen != 0; }))
     return fold;
   const std::vector<FoldPlace> whole = whole_fold(breast, way, middle);
-  fold.hidden = fold_above_pocket(whole, fold.lowest.z(), kMedialReach);
+  fold.hidden = fold_above_pocket(whole, fold.lowest, kMedialReach);
   fold.in_pocket = lies_in_pocket(whole, kMedialReach);
   if (fold.in_pocket) {
     fold.confidence = 0.45;

@@ -44,6 +44,35 @@ double lowest_of(const std::vector<FoldPlace>& way) {
   return lowest;
 }
 
+// The places within reach.
+std::vector<FoldPlace> reached(std::vector<FoldPlace> way) {
+  const auto beyond = [](const FoldPlace& place) {
+    return place.medial < -0.001 || place.medial > kReach + 0.001;
+  };
+  way.erase(std::remove_if(way.begin(), way.end(), beyond), way.end());
+  return way;
+}
+
+TEST(FoldArc, ItsLowestPointIsNotThatOfASpoiltProfile) {
+  // 0.1 mm: folds are taken to curve by 8.8 mostly, this one does by 8
+  EXPECT_NEAR(landmarks::lowest_of_arc(reached(arc()), kReach), kLowest, 1e-4);
+  for (const double depth : {-0.010, 0.010, 0.020}) {
+    std::vector<FoldPlace> way = reached(arc());
+    way[3].height -= depth;
+    way[7].height -= depth;
+    // 1 mm: a place counts the less the further it is off, but not for nothing
+    EXPECT_NEAR(landmarks::lowest_of_arc(way, kReach), kLowest, 0.001) << depth;
+  }
+}
+
+TEST(FoldArc, OfAFoldThatFallsAllTheWayItsEndIsLowest) {
+  std::vector<FoldPlace> way;
+  for (int k = 0; k <= 11; ++k) way.push_back({0.005 * k, kLowest - 0.5 * 0.005 * k, 100, kWide});
+  // 2 mm: leans to the curve of folds
+  EXPECT_NEAR(landmarks::lowest_of_arc(way, kReach), way.back().height, 0.002);
+  EXPECT_NEAR(landmarks::lowest_of_arc({way.front()}, kReach), kLowest, 1e-9);
+}
+
 TEST(FoldArc, AFoldThatWasSeenIsWhereItWasFound) {
   EXPECT_EQ(landmarks::fold_above_pocket(arc(), kLowest, kReach), 0);
   EXPECT_FALSE(landmarks::lies_in_pocket(arc(), kReach));
@@ -84,12 +113,13 @@ TEST(FoldArc, NothingFoundTellsNothing) {
 TEST(TapeCarriedUp, GoesOnAsTheTrunkDoesBelow) {
   const landmarks::BodyShape body(test::person_mesh());
   const landmarks::Trunk trunk(body);
-  const auto round = [&](double z) { return landmarks::tape_length(trunk.outline_at(z)); };
+  const auto trunk_at = [&](double z) { return trunk.outline_at(z); };
+  const auto round = [&](double z) { return landmarks::tape_length(trunk_at(z)); };
   // Over the hips the trunk slims evenly.
   const double seen = 1.01, slope = (round(seen) - round(seen - 0.02)) / 0.02;
   ASSERT_LT(slope, -0.5);
   for (const double up : {0.0, 0.010, 0.020}) {
-    const std::vector<Eigen::Vector3d> tape = landmarks::tape_carried_up(trunk, seen, seen + up);
+    const std::vector<Eigen::Vector3d> tape = landmarks::tape_carried_up(trunk_at, seen, seen + up);
     ASSERT_GE(tape.size(), 3u);
     for (const Eigen::Vector3d& p : tape) EXPECT_EQ(p.z(), seen + up);
     // Seven tenths of the change go on; its slope by five tapes and by two differ by some tenths.
@@ -98,9 +128,8 @@ TEST(TapeCarriedUp, GoesOnAsTheTrunkDoesBelow) {
 }
 
 TEST(TapeCarriedUp, IsEmptyWhereThereIsNoTrunk) {
-  const landmarks::BodyShape body(test::person_mesh());
-  const landmarks::Trunk trunk(body);
-  EXPECT_TRUE(landmarks::tape_carried_up(trunk, 3, 3.01).empty());
+  const auto nothing_at = [](double) { return std::vector<landmarks::Outline>{}; };
+  EXPECT_TRUE(landmarks::tape_carried_up(nothing_at, 3, 3.01).empty());
 }
 
 }  // namespace
