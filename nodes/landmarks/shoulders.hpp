@@ -23,9 +23,9 @@ struct ShoulderHints {
   std::array<double, 2> arm_girths{0, 0};  ///< metres, of the upper arms; 0 where there is none
 };
 
-/// Out from the middle of the neck by the neck's own breadth, a collarbone's length and the flesh over the
-/// bone, which the arm's girth tells, and by a fifth as the axilla tells; behind the middle of the shoulder's
-/// own depth, further forward the more the upper back stoops.
+/// Out from the middle of the neck as the neck's own breadth, the axilla, a collarbone's length and the flesh
+/// over the bone tell, the last by the arm's girth; behind the middle of the shoulder's own depth, the more the
+/// heavier the arm is, and further forward the more the upper back stoops.
 Shoulder find_shoulder(const BodyShape& body, const Trunk& trunk, const Neck& neck,
                        const ShoulderHints& hints, Side side);
 
