@@ -12,10 +12,14 @@ constexpr double kBeside = 0.02;                 // what joins arm and trunk is 
 constexpr double kOneWithTrunk = 0.015;          // further up the arm is
 constexpr double kDome = 0.0066;  // an armpit is a dome of 11 mm, whether its owner is slim or heavy
 constexpr double kNarrow = 0.0012, kMiddle = 0.012;  // over the roof: where its side and its middle are told
-constexpr double kRadius = 0.075;                    // of the roof, front to back
+constexpr double kRadius = 0.118;                    // of the roof's middle, front to back
 // Shares: of its length further up, what joins arm and trunk has a dome's height above a roof; of the roof's
-// depth, so far from its middle lies its lowest place.
-constexpr double kAtOnce = 0.7, kFurthest = 0.4;
+// depth, nearer to its middle than that its lowest place stays: its ends, the folds before and behind the
+// armpit, are steep.
+constexpr double kAtOnce = 0.7, kFurthest = 0.33;
+// Of what the lowest place lies further forward: it is that much higher. Where the front is lowest, the
+// filling hides the high end behind.
+constexpr double kHigherInFront = 0.12;
 constexpr double kParting =
     1.0 / 3;  // of the roof's side: told by the filling, which follows the skin beside it
 
@@ -51,10 +55,11 @@ ArmpitRoof find_armpit_roof(const FilledArmpit& armpit, double height, double as
 }
 
 Eigen::Vector3d lowest_of_roof(const ArmpitRoof& roof, const Eigen::Vector3d& arm, double stature) {
-  const double backwards = std::asin(std::clamp(-arm.x(), -1.0, 1.0)), furthest = kFurthest * roof.depth;
-  Eigen::Vector3d lowest = roof.middle;
-  lowest.x() += std::clamp(kRadius * stature * backwards, -furthest, furthest);
-  return lowest;
+  // As an arm swings the roof tilts; one that is held out rather turns it.
+  const double tilt = std::asin(std::clamp(-arm.x(), -1.0, 1.0)) * (1 + std::max(-arm.z(), 0.0)) / 2,
+               furthest = std::max(kFurthest * roof.depth, 1e-9);
+  const double forward = furthest * std::tanh(kRadius * stature * tilt / furthest);
+  return roof.middle + forward * Eigen::Vector3d(1, 0, kHigherInFront);
 }
 
 }  // namespace tensegric_fit::landmarks

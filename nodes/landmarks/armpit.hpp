@@ -30,7 +30,7 @@ bool parting_is_roof(const FilledArmpit& armpit);
 ArmpitRoof find_armpit_roof(const FilledArmpit& armpit, double height, double aside);
 
 /// The lowest place of the roof, an arc from front to back over the arm: as the arm leans forward or
-/// backward, it wanders from the middle. `arm` is the way of the arm to the hand.
+/// backward, it wanders from the middle towards the steep folds. `arm` is the way of the arm to the hand.
 Eigen::Vector3d lowest_of_roof(const ArmpitRoof& roof, const Eigen::Vector3d& arm, double stature);
 
 }  // namespace tensegric_fit::landmarks

@@ -25,6 +25,7 @@ constexpr double kUnder = 0.10, kOver = 0.12, kApart = 0.004;  // statures about
 constexpr double kJoins = 0.03;  // statures by which a section reaches further where it takes in the arm
 constexpr double kWidestGap = 0.02;
 constexpr double kRoundFilling = 0.015;  // skin round a filling, smoothed with it
+constexpr double kBackwards = 0.0018;    // a raised arm takes the roof's middle along
 constexpr int kHalvings = 12;
 
 // Turns the side up and inwards about the axis that points forward.
@@ -91,7 +92,7 @@ RaisedArm find_raised_arm(const BodyShape& body, Side side) {
   if (!arm.filled) return arm;
   const FilledArmpit hidden{sliced, middle, s};
   arm.roof = find_armpit_roof(hidden, parting_is_roof(hidden) ? middle.z() : height_of_roof(hidden), 0);
-  arm.roof.middle = turn.transpose() * arm.roof.middle;
+  arm.roof.middle = turn.transpose() * arm.roof.middle - kBackwards * s * Vector3d::UnitX();
   return arm;
 }
 

@@ -18,6 +18,7 @@ constexpr double kWidestGap =
     0.02;  // statures, of arm and trunk a fraction of a millimetre under the place where they join
 constexpr double kRoundFilling = 0.015;  // skin round a filling, smoothed with it
 constexpr double kInside = 0.0024;       // from where arm and trunk are narrowest to an armpit's roof
+constexpr double kSeen = 1.0 / 3;  // of the place of an armpit that the scan saw: told by where they part
 constexpr double kUpperArm = 0.02, kLowerArm = 0.05;  // statures under the axilla, between which the arm runs
 constexpr double kForearm = 0.10;  // statures out from the trunk there: no upper arm, but what hangs from it
 constexpr double kRaised = 0.98, kLevelArm = 1.4;  // radians; an arm without sections there
@@ -141,12 +142,18 @@ Axilla Trunk::find_axilla(Side side) const {
                                   (kLowerArm - kUpperArm) * body_.stature);
   axilla.raised = axilla.abduction > kRaised;
   if (gap_beside(trunk, outlines, side, kWidestGap * body_.stature, axilla.point)) {
+    if (body_.filled.empty()) return axilla;
+    // A scan's.
     axilla.filled = body_.unseen(axilla.point, kRoundFilling * body_.stature);
-    if (!axilla.filled) return axilla;
     const FilledArmpit hidden{body_.sliced, axilla.point, body_.stature};
-    const ArmpitRoof roof =
-        find_armpit_roof(hidden, height_of_roof(hidden), -kSign[side] * kInside * body_.stature);
+    const Eigen::Vector3d seen = axilla.point;
+    const ArmpitRoof roof = find_armpit_roof(hidden, axilla.filled ? height_of_roof(hidden) : seen.z(),
+                                             -kSign[side] * kInside * body_.stature);
     if (roof.found) under_filling(roof, side, axilla);
+    if (!axilla.filled) {  // a millimetre of noise moves the lowest place of so flat an arc by 15
+      axilla.point = kSeen * seen + (1 - kSeen) * axilla.point;
+      axilla.point.z() = seen.z();
+    }
     return axilla;
   }
   // Where the skin under the arm turns from upright to level: the section's reach grows as fast as its
