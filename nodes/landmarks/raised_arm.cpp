@@ -23,7 +23,7 @@ constexpr double kRaised = 60 * kDegree;
 constexpr double kRise = 20 * kDegree, kLevelHand = 85 * kDegree, kRiseWithHand = 0.3;
 constexpr double kUnder = 0.10, kOver = 0.12, kApart = 0.004;  // statures about the armpit: where to look
 constexpr double kJoins = 0.03;  // statures by which a section reaches further where it takes in the arm
-constexpr double kWidestGap = 0.02;
+constexpr double kWidestGap = 0.03;
 constexpr double kRoundFilling = 0.015;  // skin round a filling, smoothed with it
 constexpr double kBackwards = 0.0018;    // a raised arm takes the roof's middle along
 constexpr int kHalvings = 12;
