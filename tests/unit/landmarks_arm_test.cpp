@@ -7,6 +7,7 @@
 #include "landmarks/arm_axis.hpp"
 #include "landmarks/armpit.hpp"
 #include "landmarks/find_landmarks.hpp"
+#include "landmarks/shoulders.hpp"
 #include "landmarks_implicit_body.hpp"
 
 namespace tensegric_fit {
@@ -118,6 +119,33 @@ TEST(ArmAxis, IsNotFoundWhereThereIsNoArm) {
   const landmarks::BodyShape body(test::person_mesh(parts));
   EXPECT_FALSE(
       landmarks::find_arm_axis(body, {{0, 0.16, test::kArmpit}, 0.4, false}, landmarks::kLeft).found);
+}
+
+TEST(Shoulder, LiesFurtherOutAndBehindUnderMoreFlesh) {
+  const landmarks::BodyShape body(test::person_mesh({}));
+  const landmarks::Trunk trunk(body);
+  const landmarks::Neck neck = landmarks::find_neck(body, trunk);
+  ASSERT_TRUE(neck.found);
+  for (const landmarks::Side side : {landmarks::kLeft, landmarks::kRight}) {
+    const landmarks::Shoulder slim = landmarks::find_shoulder(body, trunk, neck, {0, {0.22, 0.22}}, side),
+                              heavy = landmarks::find_shoulder(body, trunk, neck, {0, {0.30, 0.30}}, side);
+    ASSERT_TRUE(slim.found && heavy.found);
+    EXPECT_GT(landmarks::kSign[side] * heavy.point.y(), landmarks::kSign[side] * slim.point.y());
+    EXPECT_LT(heavy.point.x(), slim.point.x());
+  }
+}
+
+TEST(Landmarks, AnArmpitThatTheScanSawKeepsItsLevel) {
+  const geometry::TriangleMesh mesh = test::person_mesh({});
+  const geometry::BodyMeasures surface = landmarks::find_landmarks(mesh, {}, {}),
+                               scan = landmarks::find_landmarks(
+                                   mesh, std::vector<char>(mesh.vertices.size(), 0), {});
+  for (const char* name : {"axilla_L", "axilla_R"}) {
+    const geometry::Landmark &exact = *surface.find_landmark(name), &robust = *scan.find_landmark(name);
+    EXPECT_GT(robust.confidence, 0.5);
+    EXPECT_NEAR(robust.position.z(), exact.position.z(), 1e-9);   // the section that parts arm and trunk
+    EXPECT_LT((robust.position - exact.position).norm(), 0.010);  // ISO 20685's limit: nothing is hidden
+  }
 }
 
 TEST(Landmarks, AnArmpitThatTheScanDidNotSeeIsLessCertain) {
