@@ -12,7 +12,8 @@ constexpr double kBeside = 0.02;                 // what joins arm and trunk is 
 constexpr double kOneWithTrunk = 0.015;          // further up the arm is
 constexpr double kDome = 0.0066;  // an armpit is a dome of 11 mm, whether its owner is slim or heavy
 constexpr double kNarrow = 0.0012, kMiddle = 0.012;  // over the roof: where its side and its middle are told
-constexpr double kRadius = 0.118;                    // of the roof's middle, front to back
+constexpr double kUncertain = 0.028;                 // radians: as far off the way of an arm may be
+constexpr double kRadius = 0.125;                    // of the roof's middle, front to back
 // Shares: of its length further up, what joins arm and trunk has a dome's height above a roof; of the roof's
 // depth, nearer to its middle than that its lowest place stays: its ends, the folds before and behind the
 // armpit, are steep.
@@ -55,8 +56,10 @@ ArmpitRoof find_armpit_roof(const FilledArmpit& armpit, double height, double as
 }
 
 Eigen::Vector3d lowest_of_roof(const ArmpitRoof& roof, const Eigen::Vector3d& arm, double stature) {
-  // As an arm swings the roof tilts; one that is held out rather turns it.
-  const double tilt = std::asin(std::clamp(-arm.x(), -1.0, 1.0)) * (1 + std::max(-arm.z(), 0.0)) / 2,
+  // As an arm swings the roof tilts; one that is held out rather turns it. What is no more than a scan's
+  // noise or a motion fracture makes of an arm's way counts little.
+  const double told = std::asin(std::clamp(-arm.x(), -1.0, 1.0)) * (1 + std::max(-arm.z(), 0.0)) / 2,
+               tilt = told * told * told / (told * told + kUncertain * kUncertain),
                furthest = std::max(kFurthest * roof.depth, 1e-9);
   const double forward = furthest * std::tanh(kRadius * stature * tilt / furthest);
   return roof.middle + forward * Eigen::Vector3d(1, 0, kHigherInFront);

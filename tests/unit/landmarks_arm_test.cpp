@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kStature = 1.66;
-constexpr double kRoofRadius = 0.118 * kStature;  // as the header of armpits says of bodies
+constexpr double kRoofRadius = 0.125 * kStature;  // as the header of armpits says of bodies
 constexpr double kRoof = 1.0;                     // height of its lowest place
 
 // A block whose underside is an arc from front to back that leans with the arm, `lean` radians backwards as
@@ -52,15 +52,17 @@ TEST(Armpit, ARoofIsFoundUnderTheSkinThatFillsIt) {
 }
 
 TEST(Armpit, ItsLowestPlaceWandersWithTheArm) {
-  for (const double lean : {-0.05, 0.0, 0.05}) {
+  for (const double lean : {-0.1, 0.0, 0.1}) {
     const landmarks::SlicedMesh sliced(armpit(lean, false));
     const landmarks::FilledArmpit open{sliced, {0, 0, kRoof}, kStature};
     const landmarks::ArmpitRoof roof = landmarks::find_armpit_roof(open, kRoof, 0);
     ASSERT_TRUE(roof.found);
     const Vector3d arm(-std::sin(lean), 0, -std::cos(lean));
-    // An arc's lowest place is under its centre; a quarter of a mesh cell.
-    EXPECT_NEAR(landmarks::lowest_of_roof(roof, arm, kStature).x(), kRoofRadius * std::sin(lean), 1e-3)
-        << lean;
+    // An arc's lowest place is under its centre, 21 mm off; less by a quarter at most, as the folds are near
+    // and the arm's way is uncertain.
+    const double wandered = landmarks::lowest_of_roof(roof, arm, kStature).x(),
+                 centre = kRoofRadius * std::sin(lean);
+    EXPECT_NEAR(wandered, centre, std::abs(centre) / 4 + 1e-3) << lean;
   }
 }
 
