@@ -12,7 +12,9 @@
 #include "reconstruction/fractures.hpp"
 #include "reconstruction/handles.hpp"
 #include "reconstruction/normals.hpp"
+#include "reconstruction/pixel_columns.hpp"
 #include "reconstruction/poisson.hpp"
+#include "reconstruction/registration.hpp"
 #include "reconstruction/repair.hpp"
 #include "reconstruction/sight_lines.hpp"
 #include "reconstruction/soles.hpp"
@@ -132,10 +134,12 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
 
 BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   check_options(options);
-  // 1. The points that can be used, as many as help; 2. of these the body's, standing on z = 0.
+  // 1. The points that can be used, as many as help; 2. of these the body's, standing on z = 0, those of each
+  // sensor where the others see them.
   Eigen::Isometry3d from_scan;
   PointCloud body = standing_body(without_surplus(usable_points(scan, options), options), options, from_scan);
   const std::size_t seen = body.points.size();
+  register_sensors(body.points, sensors_of(body.points));
   // 3. Normals, and points where no sensor sees but the shape is known.
   body.normals = outward_normals(body.points, body.normals);
   BodyMesh result;

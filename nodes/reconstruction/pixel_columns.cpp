@@ -1,0 +1,232 @@
+#include "reconstruction/pixel_columns.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numeric>
+#include <optional>
+#include <unsupported/Eigen/FFT>
+
+#include "geometry/halves.hpp"
+
+namespace tensegric_fit::reconstruction {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+using Parameters = Eigen::Matrix<double, 7, 1>;
+
+constexpr double kSkin = 1.8;   // m^2
+constexpr double kPatch = 320;  // points of all sensors in the patch that a search starts from
+constexpr double kSmallest = 0.02, kLargest = 0.07;  // m; its radius
+constexpr std::size_t kFewest = 60;                  // free points of a patch
+constexpr int kTurns = 45;                           // directions of sight over half a turn
+constexpr std::array<double, 5> kRolls = {-0.05, -0.025, 0, 0.025, 0.05};
+constexpr int kBins = 512;                             // across four radii
+constexpr double kFinest = 0.0018, kCoarsest = 0.009;  // m between columns of pixels on the skin
+constexpr float kClear = 14;                           // power of a peak; the highest of noise is 10
+constexpr double kGrowth = 1.35;                       // of the radius, from one fit to the next
+constexpr double kWholeBody = 2.2;                     // m
+constexpr double kFar = 0.15;                          // m; within it every point is used
+constexpr std::size_t kOfSearch = 40000, kOfAFit = 4000, kOfLastFit = 12000;  // points
+constexpr double kSignificant = 6;                                            // standard deviations
+constexpr double kExact = 0.002;               // pixels from the middle of a column, of a sensor's points
+constexpr std::size_t kFewestOfASensor = 100;  // of those of a search
+constexpr int kTries = 120, kTriesWithoutGain = 20, kMostSensors = 32;
+constexpr double kRest = 0.01;  // share of points that need no sensor
+
+/// Column of pixels of a point of one sensor: (a.q + a0) / (b.q + 1), q from `origin`; whole numbers are
+/// middles.
+struct PixelColumns {
+  Eigen::Vector3d origin;
+  Parameters parameters;  // a, a0, b
+
+  double depth(const Eigen::Vector3d& p) const { return 1 + parameters.tail<3>().dot(p - origin); }
+  double column(const Eigen::Vector3d& p) const {
+    return (parameters.head<3>().dot(p - origin) + parameters[3]) / depth(p);
+  }
+  /// From the nearest column's middle; half a pixel behind the sensor.
+  double off(const Eigen::Vector3d& p) const {
+    if (depth(p) <= 0) return 0.5;
+    const double c = column(p);
+    return c - std::round(c);
+  }
+};
+
+/// Up to `most` of them, evenly from the whole list.
+std::vector<int> some(std::vector<int> points, std::size_t most) {
+  if (points.size() <= most) return points;
+  for (std::size_t k = 0; k < most; ++k) points[k] = points[k * points.size() / most];
+  points.resize(most);
+  return points;
+}
+
+/// Up to `most` of the points within `radius` of `centre`, evenly from the whole list.
+std::vector<int> around(const Points& points, const std::vector<int>& free, const Eigen::Vector3d& centre,
+                        double radius, std::size_t most) {
+  std::vector<int> near;
+  for (int i : free)
+    if ((points[i] - centre).squaredNorm() < radius * radius) near.push_back(i);
+  return some(std::move(near), most);
+}
+
+/// The most even planes in a patch: their normal, as long as there are planes in a metre.
+std::optional<Eigen::Vector3d> even_planes(const Points& points, const std::vector<int>& patch,
+                                           const Eigen::Vector3d& centre, double radius) {
+  const double window = 4 * radius;
+  const int lowest = static_cast<int>(window / kCoarsest), highest = static_cast<int>(window / kFinest);
+  Eigen::FFT<float> transform;
+  transform.SetFlag(Eigen::FFT<float>::HalfSpectrum);
+  std::vector<float> count(kBins);
+  std::vector<std::complex<float>> spectrum;
+  float best = kClear * static_cast<float>(patch.size());
+  std::optional<Eigen::Vector3d> normal;
+  for (double roll : kRolls) {
+    for (int turn = 0; turn < kTurns; ++turn) {
+      const double angle = M_PI * turn / kTurns;
+      const Eigen::Vector3d across(std::cos(angle) * std::cos(roll), std::sin(angle) * std::cos(roll),
+                                   std::sin(roll));
+      std::fill(count.begin(), count.end(), 0.0F);
+      for (int i : patch)
+        ++count[static_cast<std::size_t>((across.dot(points[i] - centre) / window + 0.5) * kBins)];
+      transform.fwd(spectrum, count);
+      for (int k = lowest; k < highest; ++k) {
+        if (std::norm(spectrum[k]) <= best) continue;
+        best = std::norm(spectrum[k]);
+        normal = across * (k / window);
+      }
+    }
+  }
+  return normal;
+}
+
+/// One step of least squares on the points within `gate` pixels of a column's middle, lengths in `radius`.
+bool fit(PixelColumns& sensor, const Points& points, const std::vector<int>& near, double gate, double radius,
+         bool perspective) {
+  Eigen::Matrix<double, 7, 7> squares = Eigen::Matrix<double, 7, 7>::Zero();
+  Parameters right = Parameters::Zero();
+  std::size_t count = 0;
+  for (int i : near) {
+    const double off = sensor.off(points[i]);
+    if (std::abs(off) > gate) continue;
+    const double depth = sensor.depth(points[i]);
+    const Eigen::Vector3d q = (points[i] - sensor.origin) / (radius * depth);
+    Parameters row;
+    row << q, 1 / depth, -sensor.column(points[i]) * q;
+    squares.selfadjointView<Eigen::Lower>().rankUpdate(row);
+    right -= off * row;
+    ++count;
+  }
+  if (count < kFewest / 2) return false;
+  squares = Eigen::Matrix<double, 7, 7>(squares.selfadjointView<Eigen::Lower>());
+  if (!perspective) {
+    squares.bottomRows<3>().setZero();
+    squares.rightCols<3>().setZero();
+    right.tail<3>().setZero();
+  }
+  squares.diagonal().array() += 1e-9 * squares.trace();
+  Parameters step = squares.ldlt().solve(right);
+  step.head<3>() /= radius;
+  step.tail<3>() /= radius;
+  sensor.parameters += step;
+  const double planes =
+      (sensor.parameters.head<3>() - sensor.parameters[3] * sensor.parameters.tail<3>()).norm();
+  return planes > 1 / kCoarsest && planes < 1 / kFinest;  // false for NaN
+}
+
+std::size_t count_within(const PixelColumns& sensor, const Points& points, const std::vector<int>& of,
+                         double gate) {
+  return std::count_if(of.begin(), of.end(), [&](int i) { return std::abs(sensor.off(points[i])) < gate; });
+}
+
+/// More points in columns than by chance.
+bool significant(const PixelColumns& sensor, const Points& points, const std::vector<int>& near) {
+  constexpr double kGate = 0.03;
+  const double chance = 2 * kGate * static_cast<double>(near.size());
+  return static_cast<double>(count_within(sensor, points, near, kGate)) >
+         chance + kSignificant * std::sqrt(chance);
+}
+
+/// Most points that are nearly in the middle of a column are exactly there.
+bool exact(const PixelColumns& sensor, const Points& points, const std::vector<int>& free) {
+  const std::size_t inner = count_within(sensor, points, free, kExact);
+  const std::size_t outer = count_within(sensor, points, free, 4 * kExact) - inner;
+  return inner > kFewestOfASensor && inner > 3 * outer;
+}
+
+/// The sensor that sees most of a patch, fitted from there outward.
+std::optional<PixelColumns> sensor_from(const Points& points, const std::vector<int>& free,
+                                        const Eigen::Vector3d& centre, double radius) {
+  std::vector<int> near = around(points, free, centre, radius, points.size());
+  if (near.size() < kFewest) return std::nullopt;
+  const std::optional<Eigen::Vector3d> planes = even_planes(points, near, centre, radius);
+  if (!planes) return std::nullopt;
+  std::complex<double> mean = 0;
+  for (int i : near) mean += std::polar(1.0, 2 * M_PI * planes->dot(points[i] - centre));
+  PixelColumns sensor{centre, Parameters::Zero()};
+  sensor.parameters.head<3>() = *planes;
+  sensor.parameters[3] = -std::arg(mean) / (2 * M_PI);
+  for (double gate : {0.25, 0.2, 0.15})
+    if (!fit(sensor, points, near, gate, radius, false)) return std::nullopt;
+  const std::vector<int> search = some(free, kOfSearch);
+  while (radius < kWholeBody) {
+    radius *= kGrowth;
+    near = around(points, radius < kFar ? free : search, centre, radius, kOfAFit);
+    for (double gate : {0.2, 0.12, 0.06, 0.03, 0.03})
+      if (!fit(sensor, points, near, gate, radius, true)) return std::nullopt;
+    if (!significant(sensor, points, near)) return std::nullopt;
+  }
+  near = some(search, kOfLastFit);
+  for (double gate : {0.03, 0.03, 0.03, 0.015, 0.008, 0.004, kExact, kExact})
+    if (!fit(sensor, points, near, gate, 1, true)) return std::nullopt;
+  if (!exact(sensor, points, search)) return std::nullopt;
+  return sensor;
+}
+
+std::vector<PixelColumns> find_sensors(const Points& points) {
+  const double radius = std::clamp(std::sqrt(kPatch * kSkin / (M_PI * static_cast<double>(points.size()))),
+                                   kSmallest, kLargest);
+  std::vector<int> free(points.size());
+  std::iota(free.begin(), free.end(), 0);
+  const auto rest = static_cast<std::size_t>(kRest * static_cast<double>(points.size()));
+  std::vector<PixelColumns> sensors;
+  int without_gain = 0;
+  for (int i = 0;
+       i < kTries && without_gain < kTriesWithoutGain && free.size() > rest && sensors.size() < kMostSensors;
+       ++i) {
+    const double golden = std::fmod(0.5 + i * 0.61803398875, 1.0);
+    const int start = free[static_cast<std::size_t>(golden * static_cast<double>(free.size()))];
+    const std::optional<PixelColumns> sensor = sensor_from(points, free, points[start], radius);
+    ++without_gain;
+    if (!sensor) continue;
+    without_gain = 0;
+    sensors.push_back(*sensor);
+    free.erase(std::remove_if(free.begin(), free.end(),
+                              [&](int p) { return std::abs(sensor->off(points[p])) < kExact; }),
+               free.end());
+  }
+  return sensors;
+}
+
+}  // namespace
+
+std::vector<int> sensors_of(const Points& points) {
+  std::vector<int> sensor_of(points.size(), -1);
+  if (points.empty()) return sensor_of;
+  const std::vector<PixelColumns> sensors = find_sensors(points);
+  geometry::in_halves(points.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) {
+      double least = kExact;
+      for (std::size_t s = 0; s < sensors.size(); ++s) {
+        const double off = std::abs(sensors[s].off(points[i]));
+        if (off >= least) continue;
+        least = off;
+        sensor_of[i] = static_cast<int>(s);
+      }
+    }
+  });
+  return sensor_of;
+}
+
+}  // namespace tensegric_fit::reconstruction

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "reconstruction/pixel_columns.hpp"
+#include "reconstruction/registration.hpp"
+#include "reconstruction_figure.hpp"
+
+namespace {
+
+using namespace tensegric_fit::reconstruction;
+using Eigen::Vector3d;
+
+/// Depth images of the figure, one cloud of all sensors.
+struct Capture {
+  std::vector<Vector3d> points, truth;  // as the booth believes, and on the skin apart from noise
+  std::vector<int> sensor;
+};
+
+constexpr int kSensors = 4;
+constexpr double kNoise = 0.001;  // m, along the ray
+
+/// Four sensors in a square round the figure, a pixel every 4 mm of skin; each is up to 2 mm and 2 mrad off.
+Capture capture() {
+  constexpr double kFar = 1.2, kPixel = 0.004 / kFar;
+  std::mt19937 random(5);
+  Capture result;
+  for (int s = 0; s < kSensors; ++s) {
+    const double turn = M_PI / 4 + M_PI / 2 * s;
+    const Vector3d outward(std::cos(turn), std::sin(turn), 0), across(-outward.y(), outward.x(), 0);
+    const Vector3d eye = kFar * outward + 0.8 * Vector3d::UnitZ();
+    const Vector3d shift = 0.001 * figure::direction(random), axis = figure::direction(random);
+    const Eigen::Isometry3d error = Eigen::Translation3d(2 * shift) * Eigen::AngleAxisd(0.001, axis);
+    for (int row = -230; row <= 240; ++row) {
+      for (int column = -110; column <= 110; ++column) {
+        const Vector3d ray = (-outward + kPixel * (column * across + row * Vector3d::UnitZ())).normalized();
+        double depth = 0.7, distance = 1;
+        for (int step = 0; step < 60 && distance > 1e-5 && depth < 2; ++step)
+          depth += distance = figure::distance(eye + depth * ray);
+        const Vector3d hit = eye + depth * ray;
+        if (distance > 1e-5 || hit.z() < 0.01) continue;
+        result.truth.push_back(hit);
+        // As a scan file keeps it.
+        result.points.push_back(
+            (error * (hit + kNoise * figure::gaussian(random) * ray)).cast<float>().cast<double>());
+        result.sensor.push_back(s);
+      }
+    }
+  }
+  return result;
+}
+
+TEST(ReconstructionSensors, PixelColumnsTellWhichSensorSawAPoint) {
+  const Capture scan = capture();
+  const std::vector<int> found = sensors_of(scan.points);
+  ASSERT_EQ(*std::max_element(found.begin(), found.end()) + 1, kSensors);
+  std::vector<std::vector<int>> count(kSensors, std::vector<int>(kSensors));
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (found[i] >= 0) ++count[found[i]][scan.sensor[i]];
+  int right = 0;
+  for (const std::vector<int>& of_one : count) right += *std::max_element(of_one.begin(), of_one.end());
+  // A point lies within 0.002 pixels of a column of one of the three others by chance: 1.2 %.
+  EXPECT_GT(right, 0.98 * static_cast<double>(found.size()));
+}
+
+TEST(ReconstructionSensors, PointsWithoutPixelsHaveNoSensor) {
+  const std::vector<Vector3d> points = figure::scan_body(60000, 0.001, 3).points;
+  for (int s : sensors_of(points)) ASSERT_EQ(s, -1);
+}
+
+TEST(ReconstructionSensors, SensorsThatAreOffAreBroughtTogether) {
+  const Capture scan = capture();
+  std::vector<Vector3d> points = scan.points;
+  register_sensors(points, scan.sensor);
+  // How far the sensors are apart: their mean errors against the mean of these.
+  const auto apart = [&](const std::vector<Vector3d>& of) {
+    std::vector<Vector3d> sum(kSensors, Vector3d::Zero());
+    std::vector<double> count(kSensors);
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      sum[scan.sensor[i]] += of[i] - scan.truth[i];
+      ++count[scan.sensor[i]];
+    }
+    Vector3d mean = Vector3d::Zero();
+    for (int s = 0; s < kSensors; ++s) mean += sum[s] / count[s] / kSensors;
+    double most = 0;
+    for (int s = 0; s < kSensors; ++s) most = std::max(most, (sum[s] / count[s] - mean).norm());
+    return most;
+  };
+  EXPECT_GT(apart(scan.points), 0.0015);
+  EXPECT_LT(apart(points),
+            0.0003);  // noise of 1 mm over thousands of points, upright capsules hold little in z
+}
+
+TEST(ReconstructionSensors, OneSensorStaysWhereItIs) {
+  const Capture scan = capture();
+  std::vector<Vector3d> points = scan.points;
+  register_sensors(points, std::vector<int>(points.size(), 0));
+  EXPECT_EQ(points, scan.points);
+}
+
+}  // namespace
