@@ -26,10 +26,10 @@ constexpr std::array<double, 5> kRolls = {-0.05, -0.025, 0, 0.025, 0.05};
 constexpr int kBins = 512;                             // across four radii
 constexpr double kFinest = 0.0018, kCoarsest = 0.009;  // m between columns of pixels on the skin
 constexpr float kClear = 14;                           // power of a peak; the highest of noise is 10
-constexpr double kGrowth = 1.35;                       // of the radius, from one fit to the next
+constexpr double kGrowth = 1.5;                        // of the radius, from one fit to the next
 constexpr double kWholeBody = 2.2;                     // m
 constexpr double kFar = 0.15;                          // m; within it every point is used
-constexpr std::size_t kOfSearch = 40000, kOfAFit = 4000, kOfLastFit = 12000;  // points
+constexpr std::size_t kOfSearch = 40000, kOfAFit = 3000, kOfLastFit = 12000;  // points
 constexpr double kSignificant = 6;                                            // standard deviations
 constexpr double kExact = 0.002;               // pixels from the middle of a column, of a sensor's points
 constexpr std::size_t kFewestOfASensor = 100;  // of those of a search
@@ -48,9 +48,10 @@ struct PixelColumns {
   }
   /// From the nearest column's middle; half a pixel behind the sensor.
   double off(const Eigen::Vector3d& p) const {
+    constexpr double kMostColumns = 1e6;
     if (depth(p) <= 0) return 0.5;
-    const double c = column(p);
-    return c - std::round(c);
+    const double c = column(p) + kMostColumns;
+    return c > 0 && c < 2 * kMostColumns ? c - static_cast<int>(c + 0.5) : 0.5;
   }
 };
 
@@ -151,8 +152,9 @@ bool significant(const PixelColumns& sensor, const Points& points, const std::ve
 /// Most points that are nearly in the middle of a column are exactly there.
 bool exact(const PixelColumns& sensor, const Points& points, const std::vector<int>& free) {
   const std::size_t inner = count_within(sensor, points, free, kExact);
+  if (inner <= kFewestOfASensor) return false;
   const std::size_t outer = count_within(sensor, points, free, 4 * kExact) - inner;
-  return inner > kFewestOfASensor && inner > 3 * outer;
+  return inner > 3 * outer;
 }
 
 /// The sensor that sees most of a patch, fitted from there outward.
@@ -209,12 +211,9 @@ std::vector<PixelColumns> find_sensors(const Points& points) {
   return sensors;
 }
 
-}  // namespace
-
-std::vector<int> sensors_of(const Points& points) {
-  std::vector<int> sensor_of(points.size(), -1);
-  if (points.empty()) return sensor_of;
-  const std::vector<PixelColumns> sensors = find_sensors(points);
+/// The sensor in the middle of whose columns each point is best; -1 where it is in none.
+std::vector<int> best_of(const std::vector<PixelColumns>& sensors, const Points& points) {
+  std::vector<int> best(points.size(), -1);
   geometry::in_halves(points.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) {
       double least = kExact;
@@ -222,11 +221,26 @@ std::vector<int> sensors_of(const Points& points) {
         const double off = std::abs(sensors[s].off(points[i]));
         if (off >= least) continue;
         least = off;
-        sensor_of[i] = static_cast<int>(s);
+        best[i] = static_cast<int>(s);
       }
     }
   });
-  return sensor_of;
+  return best;
+}
+
+}  // namespace
+
+std::vector<int> sensors_of(const Points& points) {
+  if (points.empty()) return {};
+  const std::vector<PixelColumns> found = find_sensors(points);
+  const std::vector<int> first = best_of(found, points);
+  // One that was found twice has but a few points the second time.
+  std::vector<PixelColumns> sensors;
+  for (std::size_t s = 0; s < found.size(); ++s)
+    if (static_cast<double>(std::count(first.begin(), first.end(), static_cast<int>(s))) >
+        kRest * static_cast<double>(points.size()))
+      sensors.push_back(found[s]);
+  return sensors.size() == found.size() ? first : best_of(sensors, points);
 }
 
 }  // namespace tensegric_fit::reconstruction
