@@ -1,6 +1,8 @@
 #include "reconstruction/pixel_columns.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -52,6 +54,23 @@ struct PixelColumns {
     if (depth(p) <= 0) return 0.5;
     const double c = column(p) + kMostColumns;
     return c > 0 && c < 2 * kMostColumns ? c - static_cast<int>(c + 0.5) : 0.5;
+  }
+};
+
+/// Where the planes of a sensor's columns meet: a nearly upright line through it.
+struct Axis {
+  Eigen::Vector3d point, direction;
+
+  explicit Axis(const PixelColumns& sensor) {
+    const Eigen::Vector3d a = sensor.parameters.head<3>(), b = sensor.parameters.tail<3>();
+    direction = a.cross(b);
+    Eigen::Matrix3d rows;
+    rows << a.transpose(), b.transpose(), direction.transpose();
+    point = sensor.origin + rows.inverse() * Eigen::Vector3d(-sensor.parameters[3], -1, 0);
+  }
+  /// Level, unit.
+  Eigen::Vector3d seen_from(const Eigen::Vector3d& p) const {
+    return (point + direction * ((p.z() - point.z()) / direction.z()) - p).normalized();
   }
 };
 
@@ -230,17 +249,23 @@ std::vector<int> best_of(const std::vector<PixelColumns>& sensors, const Points&
 
 }  // namespace
 
-std::vector<int> sensors_of(const Points& points) {
+Sightings sightings_of(const Points& points) {
   if (points.empty()) return {};
   const std::vector<PixelColumns> found = find_sensors(points);
-  const std::vector<int> first = best_of(found, points);
+  std::vector<int> sensor = best_of(found, points);
   // One that was found twice has but a few points the second time.
   std::vector<PixelColumns> sensors;
   for (std::size_t s = 0; s < found.size(); ++s)
-    if (static_cast<double>(std::count(first.begin(), first.end(), static_cast<int>(s))) >
+    if (static_cast<double>(std::count(sensor.begin(), sensor.end(), static_cast<int>(s))) >
         kRest * static_cast<double>(points.size()))
       sensors.push_back(found[s]);
-  return sensors.size() == found.size() ? first : best_of(sensors, points);
+  if (sensors.empty()) return {};
+  if (sensors.size() < found.size()) sensor = best_of(sensors, points);
+  const std::vector<Axis> axes(sensors.begin(), sensors.end());
+  std::vector<Eigen::Vector3d> towards(points.size(), Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (sensor[i] >= 0) towards[i] = axes[sensor[i]].seen_from(points[i]);
+  return {std::move(sensor), std::move(towards)};
 }
 
 }  // namespace tensegric_fit::reconstruction

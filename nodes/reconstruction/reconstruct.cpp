@@ -139,9 +139,10 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   Eigen::Isometry3d from_scan;
   PointCloud body = standing_body(without_surplus(usable_points(scan, options), options), options, from_scan);
   const std::size_t seen = body.points.size();
-  register_sensors(body.points, sensors_of(body.points));
+  const Sightings sightings = sightings_of(body.points);
+  register_sensors(body.points, sightings.sensor);
   // 3. Normals, and points where no sensor sees but the shape is known.
-  body.normals = outward_normals(body.points, body.normals);
+  body.normals = outward_normals(body.points, body.normals.empty() ? sightings.towards : body.normals);
   BodyMesh result;
   auto fractures = std::async(std::launch::async, [seen_body = body] { return find_fractures(seen_body); });
   const PointCloud soles = sole_points(body.points);
