@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "landmarks/neck_growth.hpp"
 #include "landmarks/neck_plane.hpp"
 #include "landmarks/profile.hpp"
 #include "landmarks/throat.hpp"
@@ -24,16 +25,16 @@ constexpr double kNeckToHead = 0.7;  // a neck's section is smaller than this sh
 // back stretches it. Along the axis from the plane down to vertebra and neck side.
 constexpr double kGirth = 0.188, kThroat = 0.037, kShortest = 0.010, kLongest = 0.065;
 double plane_below_corner(double girth, double throat) {
-  return 0.0208 + 0.034 * (girth - kGirth) + 0.308 * (throat - kThroat);
+  return 0.0220 + 0.022 * (girth - kGirth) + 0.278 * (throat - kThroat);
 }
 double notch_below_corner(double girth, double throat) {
-  return 0.0355 + 0.05 * (girth - kGirth) + 0.58 * (throat - kThroat);
+  return 0.0362 + 0.072 * (girth - kGirth) + 0.608 * (throat - kThroat);
 }
 constexpr double kCone =
     0.24;  // girth of a neck that is nowhere thinner than where it grows out of the trunk
 constexpr double kPlaneAboveDeepest = 0.0141;  // where chin and neck make no corner
 double side_below_plane(double girth) {
-  return 0.0107 - 0.105 * (girth - kGirth);
+  return 0.0108 - 0.105 * (girth - kGirth);
 }
 constexpr double kBackBelowPlane = 0.0383, kSideForwards = 0.003;
 
@@ -139,7 +140,8 @@ Neck find_neck(const BodyShape& body, const Trunk& trunk) {
   const bool has_corner = front.corner >= 0;
   const double throat =
       std::clamp((front.deepest - front.corner) * front.profile.step / s, kShortest, kLongest);
-  double lean = thinnest.lean, girth = planes.girth(thinnest.origin, lean) / s;
+  const double least = planes.girth(thinnest.origin, thinnest.lean);
+  double lean = thinnest.lean, girth = least / s;
   if (!has_corner) {
     neck.confidence = 0.45;
     neck.reason = "no corner between chin and neck; from the deepest point of the throat";
@@ -153,6 +155,7 @@ Neck find_neck(const BodyShape& body, const Trunk& trunk) {
     const double base = base_lean(lean, thinnest.lean, girth, throat);
     const Vector3d axis = NeckPlanes::normal_of(base);
     neck.origin += axis.dot(anchor - neck.origin) * axis;
+    neck.origin += offset_by_growth(planes, {neck.origin, base}, least, s) * axis;
     neck.origin = planes.middle_of_tape(neck.origin, base);
     lean = planes.least_lean(neck.origin);
     neck.tape = planes.tape(neck.origin, lean);

@@ -10,9 +10,11 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kCorner = 15;  // 1/m: chin and neck meet in a corner more hollow than that
-// From the corner to the throat skin turns by so much at most; more is a filling that sags into the chin,
-// where no sensor looked up. So far down along the skin (metres) the bend is over.
-constexpr double kMostTurn = 35 * kDegree, kBendAbove = 0.014, kBendBelow = 0.028, kLongestSag = 0.015;
+// Under a chin, the corner is where skin has turned by that share of the way from the chin's direction into
+// the neck's. Directions are looked at over so many metres each way; a chin begins so far above the sharpest
+// place of the bend, and the corner is near it. Skin that runs further back than that is a mouth's.
+constexpr double kTurned = 0.3, kChinSeen = 0.020, kBendSeen = 0.008, kChin = 0.040, kNear = 0.020;
+constexpr double kMouth = 125 * kDegree;
 
 // Front of chin, neck and chest in the middle, from top to bottom.
 Profile front_of_neck(const BodyShape& body, const Vector3d& middle) {
@@ -37,36 +39,37 @@ int corner_under_chin(const Profile& front, const NeckPlane& thinnest, double st
   if (level < 0) return -1;
   const int up = static_cast<int>(0.030 * stature / front.step),
             down = static_cast<int>(0.012 * stature / front.step);
-  const auto most_hollow = [&front](int first, int last, int reach, double least) {
-    int most = -1;
-    for (int i = std::max(0, first); i <= last; ++i) {
-      if (front.hollowness(i, reach) <= least) continue;
-      least = front.hollowness(i, reach);
-      most = i;
-    }
-    return most;
-  };
-  const int corner = most_hollow(level - up, level + down, 8, kCorner);
-  // Sensors see little of a chin from below: the middle of the bend is surer than its sharpest place.
-  const int near = static_cast<int>(0.006 * stature / front.step);
-  return corner < 0 ? -1 : std::max(corner - near, most_hollow(corner - near, corner + near, 14, -1e9));
+  double least = kCorner;
+  int most = -1;
+  for (int i = std::max(0, level - up); i <= level + down; ++i) {
+    if (front.hollowness(i, 8) <= least) continue;
+    least = front.hollowness(i, 8);
+    most = i;
+  }
+  return most;
 }
 
-// The same place on the near side of a filling under the chin: down to where the skin has begun to turn into
-// the throat's direction.
-int below_sagging_skin(const Profile& front, int corner) {
-  const int last = static_cast<int>(front.points.size()) - 1;
+// Direction of the skin at a point: radians from straight down, forwards.
+double direction_at(const Profile& front, int at, double reach) {
+  const int steps = static_cast<int>(std::lround(reach / front.step)),
+            last = static_cast<int>(front.points.size()) - 1;
+  const Vector3d way =
+      front.points[std::clamp(at + steps, 0, last)] - front.points[std::clamp(at - steps, 0, last)];
+  return std::atan2(way.x(), -way.z());
+}
+
+// The corner, from the sharpest place of the bend. A direction is surer than that place, most of all where no
+// sensor looked up and a filling sags into the chin; a stoop takes it along.
+int corner_of_bend(const Profile& front, int sharpest, double lean) {
   const auto steps = [&front](double length) { return static_cast<int>(std::lround(length / front.step)); };
-  const auto direction = [&](int from, int to) {
-    const Vector3d way = front.points[std::clamp(to, 0, last)] - front.points[std::clamp(from, 0, last)];
-    return std::atan2(way.x(), -way.z());
-  };
-  const int near = steps(0.004);
-  for (int at = corner; at < corner + steps(kLongestSag); ++at)
-    if (direction(at - near, at + near) >
-        direction(at + steps(kBendAbove), at + steps(kBendBelow)) - kMostTurn)
-      return at;
-  return std::min(corner + steps(kLongestSag), last);
+  double chin = 0;
+  for (int i = std::max(0, sharpest - steps(kChin)); i <= sharpest; ++i)
+    chin = std::min(chin, direction_at(front, i, kChinSeen));
+  const double turned = (1 - kTurned) * std::max(chin, -kMouth) - kTurned * lean;
+  const int first = std::max(0, sharpest - steps(kNear));
+  int at = std::min(sharpest + steps(kNear), static_cast<int>(front.points.size()) - 1);
+  while (at > first && direction_at(front, at, kBendSeen) > turned) --at;
+  return at;
 }
 
 // Where the throat's profile, running down along the neck from `corner` or the thinnest loop, stops receding,
@@ -93,7 +96,7 @@ const Vector3d& ThroatProfile::along(int from, double length) const {
 ThroatProfile find_throat(const BodyShape& body, const NeckPlane& thinnest) {
   const Profile front = front_of_neck(body, thinnest.origin);
   const int bend = corner_under_chin(front, thinnest, body.stature);
-  const int corner = bend < 0 ? -1 : below_sagging_skin(front, bend);
+  const int corner = bend < 0 ? -1 : corner_of_bend(front, bend, thinnest.lean);
   return {front, corner, deepest_point(front, thinnest, corner)};
 }
 
