@@ -150,24 +150,40 @@ std::vector<FoldPlace> whole_fold(const Breast& breast, const Places& way, doubl
   return places;
 }
 
+// On the outside the breast can run out into the flank, at the sternum into the other one: the fold is where
+// the way is hollow without a break, and most in sum, as a cut that grazes the flank is hollow too.
+Places hollow_stretch(const Places& way) {
+  const auto is_hollow = [](const Place& place) { return place.hollowness >= kHollow; };
+  Places most;
+  double largest = 0;
+  for (auto first = way.begin(); first != way.end();) {
+    first = std::find_if(first, way.end(), is_hollow);
+    const auto last = std::find_if_not(first, way.end(), is_hollow);
+    double sum = 0;
+    for (auto place = first; place != last; ++place) sum += place->hollowness;
+    if (sum > largest) {
+      largest = sum;
+      most = Places(first, last);
+    }
+    first = last;
+  }
+  return most;
+}
+
 }  // namespace
 
 Fold find_fold(const BodyShape& body, const Vector3d& bust_point, double middle, Side side) {
   const Breast breast = breast_of(body, bust_point, side);
   const Places way = most_hollow_way({}, kMedial + 1, [&](int k) { return breast.places_on(k); });
-  // On the outside the breast can run out into the flank, at the sternum into the other one: the fold is
-  // where it is hollow.
-  const auto is_hollow = [](const Place& place) { return place.hollowness >= kHollow; };
-  const auto first = std::find_if(way.begin(), way.end(), is_hollow);
-  if (first == way.end()) {
+  const Places most_hollow = hollow_stretch(way);
+  if (most_hollow.empty()) {
     const Vector3d guess = bust_point - 0.035 * body.stature * Vector3d::UnitZ();
     return {guess, guess.z(), 0.2, "no fold under the breast"};
   }
   Fold fold;
-  fold.below_bust_point = first->point;
+  fold.below_bust_point = most_hollow.front().point;
   std::vector<FoldPlace> hollow;
-  for (auto place = first; place != way.end() && is_hollow(*place); ++place)
-    hollow.push_back(breast.seen_as(*place));
+  for (const Place& place : most_hollow) hollow.push_back(breast.seen_as(place));
   fold.lowest = lowest_of_arc(hollow, kMedialReach);
   fold.confidence = 0.9;
 
