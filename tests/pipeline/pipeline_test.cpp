@@ -68,6 +68,11 @@ class PipelineTest : public testing::Test {
     return request;
   }
 
+  // Two nodes publish them, in either order.
+  static bool fit_and_body_came() {
+    return wait_for([] { return !client_->deformed.empty() && !client_->fits.empty(); });
+  }
+
   static std::unique_ptr<ChainClient> client_;
   static std::string scan_id_;
 };
@@ -109,7 +114,7 @@ TEST_F(PipelineTest, StagesSayWhatTheyDid) {
 TEST_F(PipelineTest, WhoJoinsLateGetsEverything) {
   client_.reset();  // a second subscriber in one process would be served by roscpp, not by the nodes
   client_ = std::make_unique<ChainClient>();
-  EXPECT_TRUE(wait_for([] { return !client_->deformed.empty() && !client_->fits.empty(); }));
+  EXPECT_TRUE(fit_and_body_came());
   ASSERT_TRUE(client_->ready());
   EXPECT_EQ(count_of(client_->bodies, scan_id_), 1);
   EXPECT_EQ(count_of(client_->landmarks, scan_id_), 1);
@@ -158,7 +163,7 @@ TEST_F(PipelineTest, MarkersMeshesAndPicturesForWhoeverListens) {
 TEST_F(PipelineTest, AnotherGarmentNeedsNoOtherScan) {
   client_->forget();
   EXPECT_TRUE(set_garment(b1_at(0.97)).accepted);
-  ASSERT_TRUE(wait_for([] { return !client_->deformed.empty(); }));
+  ASSERT_TRUE(fit_and_body_came());
   EXPECT_TRUE(client_->bodies.empty());
   EXPECT_TRUE(client_->controls.empty());
   EXPECT_EQ(client_->deformed.back()->scan_id, scan_id_);
@@ -203,7 +208,7 @@ TEST_F(PipelineTest, AGarmentFromTheTopicIsWornToo) {
   garment.lines[0].name = "chest";
   garment.lines[0].ratio = 0.98;
   publisher.publish(garment);
-  ASSERT_TRUE(wait_for([] { return !client_->deformed.empty(); }));
+  ASSERT_TRUE(fit_and_body_came());
   EXPECT_EQ(client_->deformed.back()->garment, "from the panel");
   EXPECT_NEAR(ratio_of(*client_->fits.back(), "chest"), 0.98, 1e-4);
 }
@@ -211,7 +216,7 @@ TEST_F(PipelineTest, AGarmentFromTheTopicIsWornToo) {
 TEST_F(PipelineTest, ABandGivenByPointsLiesOnTheBody) {
   client_->forget();
   ASSERT_TRUE(set_garment(b1_at(0.97)).accepted);
-  ASSERT_TRUE(wait_for([] { return !client_->deformed.empty(); }));
+  ASSERT_TRUE(fit_and_body_came());
   SetGarment::Request own;
   own.garment.name = "on this body";
   own.garment.regions = {"bust"};
@@ -225,7 +230,7 @@ TEST_F(PipelineTest, ABandGivenByPointsLiesOnTheBody) {
   client_->forget();
   const SetGarment::Response response = set_garment(own);
   ASSERT_TRUE(response.accepted) << response.message;
-  ASSERT_TRUE(wait_for([] { return !client_->deformed.empty(); }));
+  ASSERT_TRUE(fit_and_body_came());
   const FitState& fit = *client_->fits.back();
   EXPECT_EQ(fit.status, FitState::CONVERGED);
   EXPECT_NEAR(ratio_of(fit, "band"), 0.96, 1e-6);
