@@ -36,6 +36,9 @@ constexpr double kMost = 0.010;            // m and rad, of a motion
 // nothing.
 constexpr double kNegligible = 0.0004;
 
+// Why not the way of the booth's assembler: it matches points by their normals, which a cloud of sensors that
+// are off has not yet got; patches that several sensors see need none.
+
 /// What one sensor sees of a patch of skin: sums over its points, x and y along the patch in units of its
 /// radius.
 struct Sheet {
