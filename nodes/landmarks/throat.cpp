@@ -25,8 +25,8 @@ Profile front_of_neck(const BodyShape& body, const Vector3d& middle) {
                      middle, Vector3d::UnitX());
 }
 
-// Where chin and neck meet: the most hollow point round the height of the thinnest loop, or -1.
-int corner_under_chin(const Profile& front, const NeckPlane& thinnest, double stature) {
+// The sharpest place of the bend from chin to neck, round the height of the thinnest loop, or -1.
+int sharpest_of_bend(const Profile& front, const NeckPlane& thinnest, double stature) {
   const Vector3d axis = NeckPlanes::normal_of(thinnest.lean);
   int level = -1;
   double nearest = 0.01 * stature;
@@ -95,8 +95,8 @@ const Vector3d& ThroatProfile::along(int from, double length) const {
 
 ThroatProfile find_throat(const BodyShape& body, const NeckPlane& thinnest) {
   const Profile front = front_of_neck(body, thinnest.origin);
-  const int bend = corner_under_chin(front, thinnest, body.stature);
-  const int corner = bend < 0 ? -1 : corner_of_bend(front, bend, thinnest.lean);
+  const int sharpest = sharpest_of_bend(front, thinnest, body.stature);
+  const int corner = sharpest < 0 ? -1 : corner_of_bend(front, sharpest, thinnest.lean);
   return {front, corner, deepest_point(front, thinnest, corner)};
 }
 

@@ -107,8 +107,11 @@ struct Breast {
     return places_below(body, skin, bust_point, bust_point.y() + inwards * k * kApart);
   }
   double medial(double y) const { return (y - bust_point.y()) * inwards; }
-  FoldPlace seen_as(const Place& place) const {
-    return {medial(place.point.y()), place.point.z(), place.hollowness, place.opening};
+  std::vector<FoldPlace> as_fold(const Places& way) const {
+    std::vector<FoldPlace> fold;
+    for (const Place& place : way)
+      fold.push_back({medial(place.point.y()), place.point.z(), place.hollowness, place.opening});
+    return fold;
   }
   int profile_of(const Place& place) const {
     return static_cast<int>(std::lround(medial(place.point.y()) / kApart));
@@ -145,9 +148,7 @@ std::vector<FoldPlace> whole_fold(const Breast& breast, const Places& way, doubl
   whole.insert(whole.end(), way.begin(), way.end());
   const Places inside = onward(breast, way.back(), last - breast.profile_of(way.back()), 1);
   whole.insert(whole.end(), inside.begin(), inside.end());
-  std::vector<FoldPlace> places;
-  for (const Place& place : whole) places.push_back(breast.seen_as(place));
-  return places;
+  return breast.as_fold(whole);
 }
 
 // On the outside the breast can run out into the flank, at the sternum into the other one: the fold is where
@@ -175,16 +176,14 @@ Places hollow_stretch(const Places& way) {
 Fold find_fold(const BodyShape& body, const Vector3d& bust_point, double middle, Side side) {
   const Breast breast = breast_of(body, bust_point, side);
   const Places way = most_hollow_way({}, kMedial + 1, [&](int k) { return breast.places_on(k); });
-  const Places most_hollow = hollow_stretch(way);
-  if (most_hollow.empty()) {
+  const Places hollow = hollow_stretch(way);
+  if (hollow.empty()) {
     const Vector3d guess = bust_point - 0.035 * body.stature * Vector3d::UnitZ();
     return {guess, guess.z(), 0.2, "no fold under the breast"};
   }
   Fold fold;
-  fold.below_bust_point = most_hollow.front().point;
-  std::vector<FoldPlace> hollow;
-  for (const Place& place : most_hollow) hollow.push_back(breast.seen_as(place));
-  fold.lowest = lowest_of_arc(hollow, kMedialReach);
+  fold.below_bust_point = hollow.front().point;
+  fold.lowest = lowest_of_arc(breast.as_fold(hollow), kMedialReach);
   fold.confidence = 0.9;
 
   // On a mesh without any skin that was not seen, what looks like a fold is one.

@@ -27,7 +27,7 @@ constexpr int kStep = 3;            // from patch to patch
 constexpr int kFewest = 4;          // points of a sensor in a patch
 constexpr double kFlat = 0.1;       // least variance over the next
 constexpr int kPasses = 2, kRounds = 4;
-constexpr double kOutlier = 3;             // usual differences, at which a sheet counts a quarter
+constexpr double kOutlier = 4.5;           // usual differences, at which a sheet counts a quarter
 constexpr double kLeastDifference = 1e-5;  // m
 constexpr double kPrior = 1e-3;            // of the usual weight, that holds a motion to zero
 constexpr double kRidge = 1e-6;            // of a patch's surface
@@ -149,7 +149,7 @@ void improve(const std::vector<Sheet>& sheets, std::vector<double>& weights, Eig
   });
   const double usual = std::max(kLeastDifference, percentile(difference, 0.5));
   for (std::size_t i = 0; i < sheets.size(); ++i)
-    weights[i] = std::pow(1 + std::pow(difference[i] / (kOutlier * 1.5 * usual), 2), -2);
+    weights[i] = std::pow(1 + std::pow(difference[i] / (kOutlier * usual), 2), -2);
   const double prior = kPrior * squares.trace() / static_cast<double>(motions.size());
   squares.diagonal().array() += prior;
   motions += squares.ldlt().solve(right - prior * motions);

@@ -104,6 +104,15 @@ TEST(ReconstructionSensors, SensorsThatAreOffAreBroughtTogether) {
             0.0003);  // noise of 1 mm over thousands of points, upright capsules hold little in z
 }
 
+TEST(ReconstructionSensors, SensorsThatWereBroughtTogetherStayWhereTheyAre) {
+  const Capture scan = capture();
+  std::vector<Vector3d> once = scan.points;
+  register_sensors(once, scan.sensor);
+  std::vector<Vector3d> twice = once;
+  register_sensors(twice, scan.sensor);
+  EXPECT_EQ(twice, once);
+}
+
 TEST(ReconstructionSensors, OneSensorStaysWhereItIs) {
   const Capture scan = capture();
   std::vector<Vector3d> points = scan.points;
