@@ -18,9 +18,8 @@ struct BustPoint {
 BustPoint find_bust_point(const BodyShape& body, const Trunk& trunk, Side side);
 
 struct Fold {
-  Eigen::Vector3d
-      below_bust_point;  ///< where the fold begins, on the bust point's profile or the next medial
-  double lowest;         ///< metres, height of the fold's lowest point from there to 55 mm medial
+  Eigen::Vector3d below_bust_point;  ///< where the fold begins, mostly on the bust point's profile
+  double lowest;                     ///< metres, height of the fold's lowest point from there to 55 mm medial
   double confidence;
   std::string reason;
   double hidden = 0;       ///< metres by which the fold as a whole tells its lowest point to be higher
