@@ -55,8 +55,8 @@ Assembly assemble(const Capture& capture, const std::vector<Isometry3d>& booth_f
   std::vector<PointCloud> columns(clouds.size() / options.sensors_per_column);
   for (std::size_t sensor = 0; sensor < clouds.size(); ++sensor) {
     append(columns[sensor / options.sensors_per_column], clouds[sensor]);
-    assembly.sensor.insert(assembly.sensor.end(), clouds[sensor].points.size(),
-                           static_cast<std::uint8_t>(sensor));
+    assembly.cloud.sensor.insert(assembly.cloud.sensor.end(), clouds[sensor].points.size(),
+                                 static_cast<int>(sensor));
   }
   // 2. Their corrections.
   if (options.refine) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -20,7 +19,6 @@ struct AssemblerOptions {
 
 struct Assembly {
   geometry::PointCloud cloud;                ///< in the booth's frame, each normal towards its own sensor
-  std::vector<std::uint8_t> sensor;          ///< of each point
   std::optional<Registration> registration;  ///< one correction a column; none where not asked for
 };
 

@@ -20,16 +20,16 @@ sensor_msgs::PointCloud2 to_message(const std_msgs::Header& header, const booth:
   add_field("sensor", sensor_msgs::PointField::UINT8);
   message.point_step = static_cast<std::uint32_t>(sizeof(float) * message.fields.size());
   message.height = 1;
-  message.width = static_cast<std::uint32_t>(assembly.sensor.size());
+  message.width = static_cast<std::uint32_t>(assembly.cloud.points.size());
   message.row_step = message.width * message.point_step;
   message.is_dense = true;
   message.data.resize(message.row_step);
   std::uint8_t* at = message.data.data();
-  for (std::size_t i = 0; i < assembly.sensor.size(); ++i, at += message.point_step) {
+  for (std::size_t i = 0; i < assembly.cloud.points.size(); ++i, at += message.point_step) {
     Eigen::Matrix<float, 6, 1> values;
     values << assembly.cloud.points[i].cast<float>(), assembly.cloud.normals[i].cast<float>();
     std::memcpy(at, values.data(), sizeof(float) * values.size());
-    at[message.fields.back().offset] = assembly.sensor[i];
+    at[message.fields.back().offset] = static_cast<std::uint8_t>(assembly.cloud.sensor[i]);
   }
   return message;
 }

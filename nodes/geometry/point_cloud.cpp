@@ -66,6 +66,25 @@ std::vector<Eigen::Vector3d> triples(const pcl::PCLPointCloud2& cloud,
   return result;
 }
 
+const Field* find_sensor(const pcl::PCLPointCloud2& cloud) {
+  const auto found = std::find_if(cloud.fields.begin(), cloud.fields.end(), [&](const Field& field) {
+    return field.name == "sensor" && field.datatype == Field::UINT8;
+  });
+  if (found == cloud.fields.end()) return nullptr;
+  if (found->offset >= cloud.point_step)
+    throw Refusal(refusal::kWrongFields, "field 'sensor' lies outside the point step");
+  return &*found;
+}
+
+std::vector<int> bytes(const pcl::PCLPointCloud2& cloud, const Field& field) {
+  std::vector<int> result;
+  result.reserve(static_cast<std::size_t>(cloud.width) * cloud.height);
+  for (std::size_t row = 0; row < cloud.height; ++row)
+    for (std::size_t column = 0; column < cloud.width; ++column)
+      result.push_back(cloud.data[row * cloud.row_step + column * cloud.point_step + field.offset]);
+  return result;
+}
+
 // The last row may lack its padding; a single row's step does not matter.
 void check_size(const pcl::PCLPointCloud2& cloud) {
   const std::size_t rows = cloud.width == 0 ? 0 : cloud.height,
@@ -90,6 +109,7 @@ PointCloud points_of(const pcl::PCLPointCloud2& cloud) {
   PointCloud result;
   result.points = triples(cloud, *xyz);
   if (normals) result.normals = triples(cloud, *normals);
+  if (const Field* sensor = find_sensor(cloud)) result.sensor = bytes(cloud, *sensor);
   return result;
 }
 

@@ -8,15 +8,17 @@
 
 namespace tensegric_fit::geometry {
 
-/// Points in metres, in the scan's frame. `normals` is empty or has one unit vector a point.
+/// Points in metres, in the scan's frame. `normals` is empty or has one unit vector a point; so has `sensor`
+/// the number of the one that saw it, from 0, or -1.
 struct PointCloud {
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Eigen::Vector3d> normals;
+  std::vector<Eigen::Vector3d> points = {};
+  std::vector<Eigen::Vector3d> normals = {};
+  std::vector<int> sensor = {};
 };
 
 /// The x, y, z (and normal_x, normal_y, normal_z or nx, ny, nz where all three are there) of a cloud, float32
 /// or float64, in either byte order, whatever other fields, padding or organisation it has. Nothing is
-/// dropped: NaN stay NaN. \throw Refusal wrong_fields: no x, y, z of a floating type; broken_file: the data
+/// dropped: NaN stay NaN. A field `sensor` of type uint8 tells who saw each point. \throw Refusal wrong_fields: no x, y, z of a floating type; broken_file: the data
 /// are shorter or longer than the layout says
 PointCloud points_of(const pcl::PCLPointCloud2& cloud);
 

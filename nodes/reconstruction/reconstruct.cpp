@@ -11,6 +11,7 @@
 #include "reconstruction/floor.hpp"
 #include "reconstruction/fractures.hpp"
 #include "reconstruction/handles.hpp"
+#include "reconstruction/mending.hpp"
 #include "reconstruction/normals.hpp"
 #include "reconstruction/pixel_columns.hpp"
 #include "reconstruction/poisson.hpp"
@@ -56,6 +57,7 @@ PointCloud pick(const PointCloud& cloud, const std::vector<int>& indices) {
   for (int i : indices) {
     result.points.push_back(cloud.points[i]);
     if (!cloud.normals.empty()) result.normals.push_back(cloud.normals[i]);
+    if (!cloud.sensor.empty()) result.sensor.push_back(cloud.sensor[i]);
   }
   return result;
 }
@@ -139,12 +141,17 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   Eigen::Isometry3d from_scan;
   PointCloud body = standing_body(without_surplus(usable_points(scan, options), options), options, from_scan);
   const std::size_t seen = body.points.size();
-  const Sightings sightings = sightings_of(body.points);
+  const Sightings sightings =
+      body.sensor.empty() ? sightings_of(body.points) : Sightings{std::move(body.sensor), {}};
+  body.sensor.clear();
   register_sensors(body.points, sightings.sensor);
-  // 3. Normals, and points where no sensor sees but the shape is known.
-  body.normals = outward_normals(body.points, body.normals.empty() ? sightings.towards : body.normals);
+  // 3. Normals, fractures, and points where no sensor sees but the shape is known.
+  const std::vector<Eigen::Vector3d> hints = body.normals.empty() ? sightings.towards : body.normals;
+  body.normals = outward_normals(body.points, hints);
   BodyMesh result;
   auto fractures = std::async(std::launch::async, [seen_body = body] { return find_fractures(seen_body); });
+  if (mend_fractures(body.points, body.normals, sightings.sensor))
+    body.normals = outward_normals(body.points, hints);
   const PointCloud soles = sole_points(body.points);
   append(body, sight_line_points(body));
   append(body, soles);

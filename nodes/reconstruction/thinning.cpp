@@ -38,6 +38,14 @@ void add_means(const PointCloud& cloud, double cube, PointCloud& means) {
   }
 }
 
+/// The sensor that saw all points of a cell; -1 where several did.
+int one_sensor(const PointCloud& cloud, const VoxelGrid& grid, int cell) {
+  const int first = cloud.sensor[grid.order()[grid.begin(cell)]];
+  for (int i = grid.begin(cell) + 1; i < grid.end(cell); ++i)
+    if (cloud.sensor[grid.order()[i]] != first) return -1;
+  return first;
+}
+
 }  // namespace
 
 PointCloud merged(const PointCloud& cloud, double cube) {
@@ -52,6 +60,7 @@ PointCloud merged(const PointCloud& cloud, double cube) {
     }
     means.points.push_back(point / (grid.end(c) - grid.begin(c)));
     if (oriented) means.normals.push_back(normal.squaredNorm() > 0 ? normal.normalized() : normal);
+    if (!cloud.sensor.empty()) means.sensor.push_back(one_sensor(cloud, grid, c));
   }
   return means;
 }

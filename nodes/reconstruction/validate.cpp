@@ -76,6 +76,9 @@ geometry::PointCloud usable_points(const geometry::PointCloud& scan, const Optio
   if (!scan.normals.empty() && scan.normals.size() != count)
     throw Refusal(refusal::kWrongFields,
                   fmt::format("the scan has {} points and {} normals", count, scan.normals.size()));
+  if (!scan.sensor.empty() && scan.sensor.size() != count)
+    throw Refusal(refusal::kWrongFields,
+                  fmt::format("the scan has {} points and sensors of {}", count, scan.sensor.size()));
   if (count > static_cast<std::size_t>(options.max_points))
     throw Refusal(refusal::kTooManyPoints,
                   fmt::format("the scan has {} points, more than {}", count, options.max_points));
@@ -98,6 +101,7 @@ geometry::PointCloud usable_points(const geometry::PointCloud& scan, const Optio
     const Eigen::Vector3d& p = scan.points[i];
     if (!p.allFinite() || (p - middle).lpNorm<Eigen::Infinity>() > kBoothReach) continue;
     usable.points.push_back(p);
+    if (!scan.sensor.empty()) usable.sensor.push_back(scan.sensor[i]);
     if (scan.normals.empty()) continue;
     const Eigen::Vector3d& n = scan.normals[i];
     const bool is_unit = n.allFinite() && std::abs(n.squaredNorm() - 1) < 0.1;

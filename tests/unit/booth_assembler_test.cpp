@@ -92,12 +92,12 @@ TEST(AssemblerTest, EveryPointIsWhereItsSensorSawItAndItsNormalLooksBack) {
   options.refine = false;
   const Assembly assembly = assemble(booth.capture, booth.booth_from_sensor, options);
   EXPECT_FALSE(assembly.registration);
-  ASSERT_EQ(assembly.cloud.points.size(), assembly.sensor.size());
+  ASSERT_EQ(assembly.cloud.points.size(), assembly.cloud.sensor.size());
   ASSERT_EQ(assembly.cloud.points.size(), assembly.cloud.normals.size());
   std::vector<std::size_t> next(booth.capture.clouds.size());
   int facing = 0;
-  for (std::size_t i = 0; i < assembly.sensor.size(); ++i) {
-    const int sensor = assembly.sensor[i];
+  for (std::size_t i = 0; i < assembly.cloud.sensor.size(); ++i) {
+    const int sensor = assembly.cloud.sensor[i];
     const Isometry3d& pose = booth.booth_from_sensor[sensor];
     const Vector3d& p = assembly.cloud.points[i];
     ASSERT_LT((p - pose * booth.capture.clouds[sensor]->cloud.points[next[sensor]++]).norm(), 1e-12);
@@ -118,9 +118,9 @@ TEST(AssemblerTest, PointsThatAreNotFiniteAndSensorsThatAreMissingAreLeftOut) {
   booth.capture.clouds[0] = std::make_shared<const booth::SensorCloud>(holed);
   booth.capture.clouds[4] = nullptr;
   const Assembly assembly = assemble(booth.capture, booth.booth_from_sensor, by_column());
-  EXPECT_EQ(std::count(assembly.sensor.begin(), assembly.sensor.end(), 0), holed.cloud.points.size() - 1);
-  EXPECT_EQ(std::count(assembly.sensor.begin(), assembly.sensor.end(), 4), 0);
-  for (std::size_t i = 0; i < assembly.sensor.size(); ++i)
+  EXPECT_EQ(std::count(assembly.cloud.sensor.begin(), assembly.cloud.sensor.end(), 0), holed.cloud.points.size() - 1);
+  EXPECT_EQ(std::count(assembly.cloud.sensor.begin(), assembly.cloud.sensor.end(), 4), 0);
+  for (std::size_t i = 0; i < assembly.cloud.sensor.size(); ++i)
     ASSERT_TRUE(assembly.cloud.points[i].allFinite() && assembly.cloud.normals[i].allFinite());
 }
 

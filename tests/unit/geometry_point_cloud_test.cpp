@@ -62,6 +62,20 @@ TEST(PointsOf, ReadsTheOtherByteOrder) {
   EXPECT_EQ(points_of(organised.cloud).points, organised.points);
 }
 
+TEST(PointsOf, ASensorOfOneByteIsKept) {
+  Organised organised;
+  for (std::size_t i = 0; i < 6; ++i)
+    organised.cloud.data[i / 3 * organised.cloud.row_step + 16 * (i % 3) + 13] =
+        static_cast<std::uint8_t>(40 * i);
+  EXPECT_TRUE(points_of(organised.cloud).sensor.empty());
+  organised.cloud.fields.push_back({"sensor", 13, Field::UINT8, 1});
+  EXPECT_EQ(points_of(organised.cloud).sensor, (std::vector<int>{0, 40, 80, 120, 160, 200}));
+  organised.cloud.fields.back().datatype = Field::FLOAT32;  // somebody else's
+  EXPECT_TRUE(points_of(organised.cloud).sensor.empty());
+  organised.cloud.fields.back() = {"sensor", 16, Field::UINT8, 1};
+  EXPECT_EQ(refusal_of(organised.cloud), "wrong_fields");
+}
+
 TEST(PointsOf, ASizeThatTheDataContradictIsRefused) {
   const auto changed = [](auto change) {
     Organised organised;
