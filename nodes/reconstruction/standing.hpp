@@ -10,10 +10,11 @@ namespace tensegric_fit::reconstruction {
 /// the origin. The turn is the smallest one.
 Eigen::Isometry3d level(const Eigen::Vector3d& normal, double offset, const Eigen::Vector3d& middle);
 
-/// The plane under all points that the soles lie on: the facet of their convex hull that lies below the
-/// middle of the lowest ones (a scan that leans need not be in balance), as an isometry like `level`'s. A
-/// plane steeper than 20 degrees is not believed; the lowest point's level is taken then. \pre not empty, z
-/// roughly up
+/// The plane that the soles lie on, as an isometry like `level`'s: half way between the facet of all points'
+/// convex hull that lies below the middle of the lowest ones (a scan that leans need not be in balance) and
+/// the plane through the rims of the soles, by all low points. On 47 scans it leans by 0.2 to 1.8 degrees,
+/// mostly backwards, the facet by up to 2.3. A facet steeper than 20 degrees is not believed; the lowest
+/// point's level is taken then. \pre not empty, z roughly up
 Eigen::Isometry3d resting_plane(const std::vector<Eigen::Vector3d>& points);
 
 /// Height of the ground under level soles of which only the edges are seen, told from how fast points become

@@ -54,13 +54,18 @@ TEST(ReconstructionSteps, ABodyAloneHasNoFloor) {
   EXPECT_FALSE(find_floor(figure::scan_body(15000, 0.001, 1).points));
 }
 
-TEST(ReconstructionSteps, SolesLieOnTheirPlaneThoughTheBodyWouldFall) {
-  // The rims of two soles, 0.24 m by 0.09 m, under a column of points 1.7 m high.
+/// The rims of two soles, 0.24 m by 0.09 m, under a column of points 1.7 m high.
+std::vector<Eigen::Vector3d> on_two_soles() {
   std::vector<Eigen::Vector3d> standing;
   for (double side : {-1.0, 1.0})
     for (int i = 0; i < 60; ++i)
       standing.emplace_back(0.12 * std::cos(i * M_PI / 30), side * 0.11 + 0.045 * std::sin(i * M_PI / 30), 0);
   for (int i = 20; i < 1700; ++i) standing.emplace_back(0, 0, 0.001 * i);
+  return standing;
+}
+
+TEST(ReconstructionSteps, SolesLieOnTheirPlaneThoughTheBodyWouldFall) {
+  const std::vector<Eigen::Vector3d> standing = on_two_soles();
   for (double towards : {0.0, 90.0, 215.0}) {
     const double turn = towards * M_PI / 180;
     const Eigen::Isometry3d lean(
@@ -70,6 +75,15 @@ TEST(ReconstructionSteps, SolesLieOnTheirPlaneThoughTheBodyWouldFall) {
     const Eigen::Isometry3d upright = resting_plane(leaning) * lean;
     for (const Eigen::Vector3d& p : standing) EXPECT_NEAR((upright * p).z(), p.z(), 1e-6) << towards;
   }
+}
+
+TEST(ReconstructionSteps, TwoPointsUnderTheRimsTiltTheSolesByHalfAtMost) {
+  std::vector<Eigen::Vector3d> standing = on_two_soles();
+  const double below = 0.005;
+  for (double side : {-1.0, 1.0}) standing.emplace_back(0.12, side * 0.11, -below);
+  // The facet that they make with the heels leans by the whole of it.
+  const double facet = std::atan2(below, 0.24), leans = std::acos(resting_plane(standing).linear()(2, 2));
+  EXPECT_LT(leans, 0.6 * facet);
 }
 
 TEST(ReconstructionSteps, GroundLiesUnderWhatIsSeenOfTheSoles) {
