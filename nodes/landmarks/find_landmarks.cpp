@@ -159,12 +159,11 @@ double lower_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
 
 double underbust(const BodyShape& body, const Trunk& trunk, const std::array<Vector3d, 2>& tips,
                  Record& record) {
-  const double middle = (tips[kLeft].y() + tips[kRight].y()) / 2;
   double height = 1e9, seen = 1e9, confidence = 1;
   bool in_pocket = false, inferred = false;
   std::string reason;
   for (Side side : {kLeft, kRight}) {
-    Fold fold = find_fold(body, tips[side], middle, side);
+    Fold fold = find_fold(body, tips[side], side);
     const double above_web = fold_above_web(body, trunk, fold.lowest, tips[side], side);
     if (above_web > kHiddenFold && !fold.in_pocket) {
       fold.confidence = std::min(fold.confidence, 0.45);
@@ -173,9 +172,12 @@ double underbust(const BodyShape& body, const Trunk& trunk, const std::array<Vec
     record.landmark(std::string("underbust") + kSuffix[side], fold.below_bust_point, fold.confidence,
                     fold.reason);
     seen = std::min(seen, fold.lowest);
-    height = std::min(height, fold.lowest + std::max(fold.hidden, above_web));
+    const double told = above_web > 0 ? std::max(fold.by_walls, fold.lowest + above_web) : fold.by_walls;
+    if (told < height) {
+      height = told;
+      inferred = above_web == 0;
+    }
     in_pocket = in_pocket || fold.in_pocket;
-    inferred = inferred || (fold.in_pocket && fold.hidden > std::max(above_web, kHiddenFold));
     if (fold.confidence < confidence) {
       confidence = fold.confidence;
       reason = fold.reason;

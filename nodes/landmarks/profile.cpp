@@ -9,6 +9,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kStep = 0.001;
+constexpr double kLeastOfLine = 0.6;
 constexpr double kBelowOrigin = 0.010;  // m; a box ends with triangles
 constexpr int kSmoothing =
     6;  // steps each way of a triangle filter: takes half a millimetre of noise down to a tenth
@@ -61,6 +62,17 @@ double Profile::opening(int at, int first, int last) const {
   const Vector3d above = points[at - last] - points[at - first],
                  below = points[at + last] - points[at + first];
   return std::atan2(above.cross(below).norm(), above.dot(below));
+}
+
+std::optional<Profile::Line> Profile::line(int at, int first, int last) const {
+  const int from = std::max(at + first, 0), to = std::min(at + last, static_cast<int>(points.size()) - 1);
+  const int count = to - from + 1;
+  if (count < std::max(2.0, kLeastOfLine * (last - first))) return std::nullopt;
+  Vector3d middle = Vector3d::Zero(), direction = Vector3d::Zero();
+  for (int i = from; i <= to; ++i) middle += points[i] / count;
+  for (int i = from; i <= to; ++i) direction += (i - (from + to) / 2.0) * points[i];
+  if (direction.norm() < 1e-12) return std::nullopt;
+  return Line{middle, direction.normalized()};
 }
 
 std::vector<geometry::SectionLoop> cut(const BodyShape& body, const std::vector<int>& triangles,

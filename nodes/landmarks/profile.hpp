@@ -1,6 +1,7 @@
 /// Vertical profiles: how skin runs down in a plane.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "landmarks/body_shape.hpp"
@@ -20,6 +21,13 @@ struct Profile {
   /// Angle in radians between the skin above a point and the skin below it, each as the chord from `first` to
   /// `last` steps off; negative too near the ends.
   double opening(int at, int first, int last) const;
+
+  /// The straight line along the skin from `first` to `last` steps below a point, above it where they are
+  /// negative. Nothing where less than 60 % of these steps are there.
+  struct Line {
+    Eigen::Vector3d middle, direction;  ///< downwards along the skin, unit
+  };
+  std::optional<Line> line(int at, int first, int last) const;
 };
 
 /// The skin of the box [low, high] cut by the vertical plane through `origin` that holds `outward`

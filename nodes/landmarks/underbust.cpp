@@ -1,20 +1,25 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "landmarks/bust.hpp"
 #include "landmarks/fold_arc.hpp"
+#include "landmarks/fold_walls.hpp"
 #include "landmarks/profile.hpp"
+#include "landmarks/surface_point.hpp"
 
 namespace tensegric_fit::landmarks {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kMedialReach = 0.055;      // metres, from the definition of the underbust level
-constexpr double kApart = 0.005;            // between two profiles
-constexpr int kMedial = 11;                 // profiles from the bust point's to the reach's end
-constexpr int kOutside = 4, kInside = 9;    // further profiles to both sides, where a pocket's ends are seen
+constexpr double kMedialReach = 0.055;  // metres, from the definition of the underbust level
+constexpr double kApart = 0.005;        // between two profiles
+constexpr int kUnseenAbove = 25,
+              kUnseenBelow = 10;        // millimetres from the fold, where sight tells how sure it is
+constexpr double kUnseenReach = 0.004;  // metres from a vertex that was not seen
+constexpr double kMostlyUnseen = 0.3;   // share of that skin from where walls tell all; with none, nothing
+constexpr double kBeside = 0.01;        // metres of skin to both sides of all profiles
+constexpr int kMedial = 11;             // profiles from the bust point's to the reach's end
 constexpr int kWallFrom = 3, kWallTo = 18;  // millimetres from the fold along the walls of a pocket
 constexpr int kReach = 8;                   // millimetres each way over which a profile's hollowness is taken
 constexpr double kRim = 0.012;              // metres along the skin; the nipple's own rim is hollow too
@@ -31,27 +36,68 @@ constexpr double kSharpest =
 // A place on one of the profiles side by side, and the best way of a fold to it.
 struct Place {
   Vector3d point;
+  double medial;  // metres inwards of the bust point
   double hollowness;
   double opening;
-  double sum;  // of hollowness along the way
-  int before;  // on the profile before, -1 on the first
+  double raised;  // metres, what breast and chest further off tell the fold to be higher
+  double unseen;  // share of the skin next to it
+  double sum;     // of hollowness along the way
+  int before;     // on the profile before, -1 on the first
 };
 
 using Places = std::vector<Place>;
 
-// Places below the bust point on the profile at lateral position y, from top to bottom.
-Places places_below(const BodyShape& body, const std::vector<int>& skin, const Vector3d& bust_point,
-                    double y) {
-  const Profile profile = cut_profile(body, skin, {bust_point.x(), y, bust_point.z()}, Vector3d::UnitX());
+// Skin round one breast's fold.
+struct Skin {
+  const BodyShape& body;
+  Vector3d bust_point;
+  double inwards;  // sign of y
+  std::vector<int> triangles;
+  std::vector<Vector3d> unseen;  // vertices
+};
+
+Skin skin_of(const BodyShape& body, const Vector3d& bust_point, Side side) {
+  const double s = body.stature, inwards = -kSign[side];
+  const double medial = bust_point.y() + inwards * (kMedial * kApart + kBeside),
+               lateral = bust_point.y() - inwards * kBeside;
+  const Vector3d low(bust_point.x() - 0.12 * s, std::min(medial, lateral), bust_point.z() - kBelow * s),
+      high(bust_point.x() + 0.03 * s, std::max(medial, lateral), bust_point.z() + kAbove * s);
+  Skin skin{body, bust_point, inwards, triangles_in_box(body, low, high), {}};
+  for (int v : vertices_in_box(body, low, high))
+    if (!body.filled.empty() && body.filled[v]) skin.unseen.push_back(body.mesh.vertices[v]);
+  return skin;
+}
+
+// How many of a profile's points before each one, and before its end, lie on skin that was not seen.
+std::vector<int> unseen_before(const Skin& skin, const Profile& profile) {
+  std::vector<int> before{0};
+  for (const Vector3d& p : profile.points) {
+    const bool unseen = std::any_of(skin.unseen.begin(), skin.unseen.end(), [&](const Vector3d& v) {
+      return (v - p).squaredNorm() < kUnseenReach * kUnseenReach;
+    });
+    before.push_back(before.back() + (unseen ? 1 : 0));
+  }
+  return before;
+}
+
+// Places below the bust point on the profile so far inwards of it, from top to bottom.
+Places places_below(const Skin& skin, double medial) {
+  const Vector3d& bust_point = skin.bust_point;
+  const Profile profile = cut_profile(
+      skin.body, skin.triangles, bust_point + skin.inwards * medial * Vector3d::UnitY(), Vector3d::UnitX());
   Places places;
   const int count = static_cast<int>(profile.points.size());
   // No skin of the breast in this plane.
   if (count == 0 || profile.points.front().z() < bust_point.z()) return places;
+  const std::vector<int> unseen = unseen_before(skin, profile);
   int level = 0;  // of the bust point; the fold of a breast that hangs can be as high
   while (level < count && profile.points[level].z() > bust_point.z()) ++level;
   for (int i = level + static_cast<int>(kRim / profile.step); i < count; ++i) {
     const double hollowness = std::clamp(profile.hollowness(i, kReach), 0.0, kSharpest);
-    places.push_back({profile.points[i], hollowness, profile.opening(i, kWallFrom, kWallTo), hollowness, -1});
+    const int from = std::max(i - kUnseenAbove, 0), to = std::min(i + kUnseenBelow, count);
+    places.push_back({profile.points[i], medial, hollowness, profile.opening(i, kWallFrom, kWallTo),
+                      fold_above_place(profile, i), double(unseen[to] - unseen[from]) / (to - from),
+                      hollowness, -1});
   }
   return places;
 }
@@ -72,14 +118,12 @@ bool carry_on(const Places& from, Places& to) {
   return any;
 }
 
-// The fold runs on smoothly from profile to profile: of all such ways the one that is most hollow in sum.
-// `places_on` gives the places of the next profile; the first ones are given, or are those of the first
-// profile that has any.
-Places most_hollow_way(Places first, int profiles_ahead, const std::function<Places(int)>& places_on) {
+// The fold runs on smoothly from profile to profile: of all such ways the one that is most hollow in sum,
+// from the bust point inwards.
+Places most_hollow_way(const Skin& skin) {
   std::vector<Places> profiles;
-  if (!first.empty()) profiles.push_back(std::move(first));
-  for (int k = 0; k < profiles_ahead; ++k) {
-    Places places = places_on(k);
+  for (int k = 0; k <= kMedial; ++k) {
+    Places places = places_below(skin, k * kApart);
     if (profiles.empty()) {
       if (!places.empty()) profiles.push_back(std::move(places));
       continue;
@@ -96,59 +140,19 @@ Places most_hollow_way(Places first, int profiles_ahead, const std::function<Pla
   return way;
 }
 
-// The profiles under one breast: number k lies 5 mm times k medial of the bust point.
-struct Breast {
-  const BodyShape& body;
-  std::vector<int> skin;
-  Vector3d bust_point;
-  double inwards;  // sign of y
-
-  Places places_on(int k) const {
-    return places_below(body, skin, bust_point, bust_point.y() + inwards * k * kApart);
-  }
-  double medial(double y) const { return (y - bust_point.y()) * inwards; }
-  std::vector<FoldPlace> as_fold(const Places& way) const {
-    std::vector<FoldPlace> fold;
-    for (const Place& place : way)
-      fold.push_back({medial(place.point.y()), place.point.z(), place.hollowness, place.opening});
-    return fold;
-  }
-  int profile_of(const Place& place) const {
-    return static_cast<int>(std::lround(medial(place.point.y()) / kApart));
-  }
-};
-
-Breast breast_of(const BodyShape& body, const Vector3d& bust_point, Side side) {
-  const double s = body.stature, inwards = -kSign[side];
-  const double medial = bust_point.y() + inwards * ((kMedial + kInside) * kApart + 0.01),
-               lateral = bust_point.y() - inwards * (kOutside * kApart + 0.01);
-  return {body,
-          triangles_in_box(
-              body, {bust_point.x() - 0.12 * s, std::min(medial, lateral), bust_point.z() - kBelow * s},
-              {bust_point.x() + 0.03 * s, std::max(medial, lateral), bust_point.z() + kAbove * s}),
-          bust_point, inwards};
+// Share of the skin along the way that the scan did not see.
+double unseen_along(const Places& way) {
+  double sum = 0;
+  for (const Place& place : way) sum += place.unseen;
+  return sum / static_cast<double>(way.size());
 }
 
-// From `end` on over so many profiles more, outwards or inwards.
-Places onward(const Breast& breast, const Place& end, int profiles, int step) {
-  Place start = end;
-  start.sum = 0;
-  const int from = breast.profile_of(end);
-  Places way =
-      most_hollow_way({start}, profiles, [&](int k) { return breast.places_on(from + step * (k + 1)); });
-  way.erase(way.begin());
-  return way;
-}
-
-// The fold within reach and its ends to both sides, to the middle of the chest at most.
-std::vector<FoldPlace> whole_fold(const Breast& breast, const Places& way, double middle) {
-  const int last = std::min(kMedial + kInside, static_cast<int>(breast.medial(middle) / kApart));
-  Places whole = onward(breast, way.front(), kOutside, -1);
-  std::reverse(whole.begin(), whole.end());
-  whole.insert(whole.end(), way.begin(), way.end());
-  const Places inside = onward(breast, way.back(), last - breast.profile_of(way.back()), 1);
-  whole.insert(whole.end(), inside.begin(), inside.end());
-  return breast.as_fold(whole);
+// The way as a fold, each place as much higher as the walls tell, times `walls`.
+std::vector<FoldPlace> as_fold(const Places& way, double walls) {
+  std::vector<FoldPlace> fold;
+  for (const Place& place : way)
+    fold.push_back({place.medial, place.point.z() + walls * place.raised, place.opening});
+  return fold;
 }
 
 // On the outside the breast can run out into the flank, at the sternum into the other one: the fold is where
@@ -173,30 +177,27 @@ Places hollow_stretch(const Places& way) {
 
 }  // namespace
 
-Fold find_fold(const BodyShape& body, const Vector3d& bust_point, double middle, Side side) {
-  const Breast breast = breast_of(body, bust_point, side);
-  const Places way = most_hollow_way({}, kMedial + 1, [&](int k) { return breast.places_on(k); });
+Fold find_fold(const BodyShape& body, const Vector3d& bust_point, Side side) {
+  const Places way = most_hollow_way(skin_of(body, bust_point, side));
   const Places hollow = hollow_stretch(way);
   if (hollow.empty()) {
     const Vector3d guess = bust_point - 0.035 * body.stature * Vector3d::UnitZ();
-    return {guess, guess.z(), 0.2, "no fold under the breast"};
+    return {guess, guess.z(), guess.z(), 0.2, "no fold under the breast"};
   }
   Fold fold;
   fold.below_bust_point = hollow.front().point;
-  fold.lowest = lowest_of_arc(breast.as_fold(hollow), kMedialReach);
+  fold.lowest = fold.by_walls = lowest_of_arc(as_fold(hollow, 0), kMedialReach);
   fold.confidence = 0.9;
 
   // On a mesh without any skin that was not seen, what looks like a fold is one.
   if (std::none_of(body.filled.begin(), body.filled.end(), [](char unseen) { return unseen != 0; }))
     return fold;
-  const std::vector<FoldPlace> whole = whole_fold(breast, way, middle);
-  fold.hidden = fold_above_pocket(whole, fold.lowest, kMedialReach);
-  fold.in_pocket = lies_in_pocket(whole, kMedialReach);
+  fold.by_walls =
+      lowest_of_arc(as_fold(hollow, std::min(unseen_along(way) / kMostlyUnseen, 1.0)), kMedialReach);
+  fold.in_pocket = lies_in_pocket(as_fold(way, 0), kMedialReach);
   if (fold.in_pocket) {
     fold.confidence = 0.45;
-    fold.reason = fold.hidden > 0
-                      ? "the breast hangs over its fold, which the scan did not see; told by the fold's ends"
-                      : "the fold lies up a narrow pocket, to whose end the scan may not have seen";
+    fold.reason = "the fold lies up a narrow pocket, to whose end the scan may not have seen";
   }
   return fold;
 }
