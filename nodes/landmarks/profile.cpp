@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kStep = 0.001;
-constexpr double kLeastOfLine = 0.6;
+constexpr double kLeastOfLine = 0.6;    // of its points, that must be there
 constexpr double kBelowOrigin = 0.010;  // m; a box ends with triangles
 constexpr int kSmoothing =
     6;  // steps each way of a triangle filter: takes half a millimetre of noise down to a tenth

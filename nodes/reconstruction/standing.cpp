@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -45,15 +46,20 @@ double low_height(std::vector<double>& heights, std::size_t rank) {
 /// the lower the more.
 Eigen::Vector3d normal_of_rims(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& nearly) {
   Eigen::Vector3d normal = nearly;
-  std::vector<double> heights(points.size());
+  double lowest = nearly.dot(points.front());
+  for (const Eigen::Vector3d& p : points) lowest = std::min(lowest, nearly.dot(p));
+  std::vector<Eigen::Vector3d> feet;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(feet),
+               [&](const Eigen::Vector3d& p) { return nearly.dot(p) < lowest + kFeet; });
+  std::vector<double> heights(feet.size());
   for (int round = 0; round < kRounds; ++round) {
-    std::transform(points.begin(), points.end(), heights.begin(),
+    std::transform(feet.begin(), feet.end(), heights.begin(),
                    [&](const Eigen::Vector3d& p) { return normal.dot(p); });
     const double low = low_height(heights, kLow);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     double weight = 0;
-    for (const Eigen::Vector3d& p : points) {
+    for (const Eigen::Vector3d& p : feet) {
       const double above = normal.dot(p) - low;
       if (above > 5 * kRim) continue;
       const double w = std::exp(-std::max(above, 0.0) / kRim);
