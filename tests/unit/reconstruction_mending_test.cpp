@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "reconstruction/mending.hpp"
+#include "reconstruction/reconstruct.hpp"
 #include "reconstruction_figure.hpp"
 
 namespace {
@@ -101,6 +102,24 @@ TEST(ReconstructionMending, PointsWithoutASensorStay) {
   for (std::size_t i = 0; i < some.size(); i += 10) some[i] = -1;
   ASSERT_TRUE(mend_fractures(points, scan.normals, some));
   for (std::size_t i = 0; i < some.size(); i += 10) EXPECT_EQ(points[i], scan.points[i]);
+}
+
+// Its front is seen by sensors from before the motion, its back by others; at its sides both overlap, on skin
+// that moved mostly along itself: that tells more than half of the shift.
+TEST(ReconstructionMending, AnArmThatMovedIsNearlyAsThickAsItWas) {
+  const Scan scan = scan_of({0, 0.012, 0});
+  const auto depth_of_arm = [&](const std::vector<int>& sensor) {
+    double low = 1, high = -1;
+    for (const Vector3d& v : reconstruct({scan.points, scan.normals, sensor}, {}).mesh.vertices) {
+      if (std::abs(v.z() - 1.06) > 0.01 || std::abs(v.x() - 0.215) > 0.03) continue;
+      low = std::min(low, v.y());
+      high = std::max(high, v.y());
+    }
+    return high - low;
+  };
+  const double thinner = 0.090 - depth_of_arm({}), mended = 0.090 - depth_of_arm(scan.sensor);
+  EXPECT_GT(thinner, 0.006);
+  EXPECT_LT(std::abs(mended), 0.5 * thinner);
 }
 
 }  // namespace
