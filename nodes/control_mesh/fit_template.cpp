@@ -120,10 +120,19 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
 
   // 1. Outer nodes on the skin, evenly spread between those that the template places.
   const Skin skin(in_body_frame(body, measures.body_from_scan));
-  geometry::ControlMesh control = grid_of(pattern);
-  control.outer = place_nodes(pattern, measures, skin);
-  face_outward(control, trunk_axis(pattern, measures));
-  relax_on_skin(control, spreadable(pattern, control), grid_neighbours(pattern), skin);
+  const auto lay = [&](bool over_folds) {
+    geometry::ControlMesh laid = grid_of(pattern);
+    laid.outer = place_nodes(pattern, measures, skin, over_folds);
+    face_outward(laid, trunk_axis(pattern, measures));
+    const std::vector<char> may_move = spreadable(pattern, laid);
+    const auto around = grid_neighbours(pattern);
+    relax_on_skin(laid, may_move, around, skin);
+    turn_back(laid, may_move, around, skin);
+    return laid;
+  };
+  geometry::ControlMesh control = lay(false);  // a valley between breasts is no fold to be stepped over
+  if (const int turned = count_turned(control, skin); turned > 0)
+    if (auto over = lay(true); count_turned(over, skin) < turned) control = std::move(over);
 
   // 2. Inner nodes below them, and constraining lines over them.
   std::vector<double> thickness = thickness_of(pattern, control.outer.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "control_mesh/grid.hpp"
@@ -16,6 +17,9 @@ constexpr double kTrunkReach = 0.4;  // m from the axis; no trunk is wider
 /// Times the landmark's distance from the axis: beyond that the ray has run on into an arm that touches the
 /// trunk.
 constexpr double kBeyondLandmark = 1.35;
+constexpr double kLevelStep = 0.002;  // m
+constexpr double kOverhang = 0.01;    // m in a step: no underside that shows from the front slopes so
+constexpr double kFoldSearch = 0.03;  // m; a fold rises or falls no more from its landmark to a node
 
 Vector3d in_body(const geometry::BodyMeasures& measures, const std::string& landmark) {
   const Vector3d p = measures.body_from_scan * measures.landmark(landmark);
@@ -53,8 +57,12 @@ class LeaningAxis {
 
 class Placer {
  public:
-  Placer(const Template& pattern, const geometry::BodyMeasures& measures, const Skin& skin)
-      : pattern_(pattern), measures_(measures), skin_(skin), axis_(pattern, measures) {
+  Placer(const Template& pattern, const geometry::BodyMeasures& measures, const Skin& skin, bool over_folds)
+      : pattern_(pattern),
+        measures_(measures),
+        skin_(skin),
+        over_folds_(over_folds),
+        axis_(pattern, measures) {
     positions_.resize(grid_of(pattern).outer.size(), Vector3d::Zero());
     known_.resize(positions_.size(), 0);
   }
@@ -87,7 +95,7 @@ class Placer {
     const Vector3d direction =
         (heading(node.angle, axis, first) + heading(node.angle, axis, second)).normalized();
     const Vector3d centre(axis(height).x(), axis(height).y(), height);
-    const auto exit = skin_.first_exit(centre, direction, kTrunkReach);
+    const auto exit = on_its_side_of_fold(node.level, axis, height, direction);
     if (!exit)
       throw geometry::Refusal(geometry::refusal::kNotABody,
                               "there is no skin round the trunk where row " + std::to_string(node.row) +
@@ -96,6 +104,27 @@ class Placer {
     const double reach = 0.5 * (distance(node.angle, axis, first) + distance(node.angle, axis, second));
     if ((*exit - centre).norm() <= kBeyondLandmark * reach) return *exit;
     return skin_.nearest(centre + reach * direction);
+  }
+
+  /// Where the ray at `height` leaves the body. A level below a landmark means the chest under what hangs
+  /// there, a landmark's own level the skin that it lies on; rays that a fold which is not level leaves on
+  /// its other side step over it.
+  template <typename Axis>
+  std::optional<Vector3d> on_its_side_of_fold(const Reference& level, const Axis& axis, double height,
+                                              const Vector3d& direction) const {
+    const auto exit_at = [&](double z) {
+      return skin_.first_exit({axis(z).x(), axis(z).y(), z}, direction, kTrunkReach);
+    };
+    const auto exit = exit_at(height);
+    const bool landmarks_own = level.towards.empty() && level.offset == 0;
+    const double up = !level.below.empty() ? -1 : over_folds_ && landmarks_own ? 1 : 0;
+    auto before = exit;
+    for (double step = kLevelStep; up != 0 && before && step <= kFoldSearch; step += kLevelStep) {
+      const auto after = exit_at(height + up * step);
+      if (after && up * (*after - *before).dot(direction) > kOverhang) return after;
+      before = after;
+    }
+    return exit;
   }
 
   double level(const Reference& reference, Side side) const {
@@ -174,6 +203,7 @@ class Placer {
   const Template& pattern_;
   const geometry::BodyMeasures& measures_;
   const Skin& skin_;
+  const bool over_folds_;
   LeaningAxis axis_;
   std::vector<Vector3d> positions_;
   std::vector<char> known_;
@@ -186,8 +216,8 @@ Vector3d trunk_axis(const Template& pattern, const geometry::BodyMeasures& measu
 }
 
 std::vector<Vector3d> place_nodes(const Template& pattern, const geometry::BodyMeasures& measures,
-                                  const Skin& skin) {
-  return Placer(pattern, measures, skin).place();
+                                  const Skin& skin, bool over_folds) {
+  return Placer(pattern, measures, skin, over_folds).place();
 }
 
 }  // namespace tensegric_fit::control_mesh

@@ -14,8 +14,10 @@ namespace tensegric_fit::control_mesh {
 /// \throw Refusal missing_part:<landmark>
 Eigen::Vector3d trunk_axis(const Template& pattern, const geometry::BodyMeasures& measures);
 
-/// Positions of all nodes on the skin, body frame. \throw Refusal missing_part:<landmark>, not_a_body
+/// Positions of all nodes on the skin, body frame. With `over_folds`, nodes at a landmark's own level that
+/// would lie below a fold go above it: for breasts whose fold is at bust level. \throw Refusal
+/// missing_part:<landmark>, not_a_body
 std::vector<Eigen::Vector3d> place_nodes(const Template& pattern, const geometry::BodyMeasures& measures,
-                                         const Skin& skin);
+                                         const Skin& skin, bool over_folds = false);
 
 }  // namespace tensegric_fit::control_mesh

@@ -107,7 +107,9 @@ std::vector<Vector3d> divide(const std::vector<Vector3d>& way, int count) {
 
 }  // namespace
 
-Skin::Skin(geometry::TriangleMesh surface) : surface_(std::move(surface)) {
+Skin::Skin(geometry::TriangleMesh surface)
+    : surface_(std::move(surface)),
+      normals_(geometry::vertex_normals(surface_.vertices, surface_.triangles)) {
   const auto box = geometry::bounding_box(surface_.vertices);
   corner_ = box[0];
   const double size = (box[1] - box[0]).maxCoeff();
@@ -180,11 +182,11 @@ std::optional<Vector3d> Skin::nearest_along(const Vector3d& from, const Vector3d
   return from + best * direction;
 }
 
-Vector3d Skin::nearest(const Vector3d& point) const {
+Skin::Foot Skin::foot_of(const Vector3d& point) const {
   const Vector3d size = cells_.cast<double>() * cell_;
   const double whole = size.norm() + (point - corner_).norm();
   for (double reach = cell_;; reach *= 2) {
-    Vector3d best = point;
+    Foot best{point, -1};
     double least = kFar;
     for (int t : triangles_near(point.array() - reach, point.array() + reach)) {
       const Eigen::Vector3i& k = surface_.triangles[t];
@@ -192,10 +194,26 @@ Vector3d Skin::nearest(const Vector3d& point) const {
                                              surface_.vertices[k[2]]);
       if ((q - point).norm() >= least) continue;
       least = (q - point).norm();
-      best = q;
+      best = {q, t};
     }
     if (least <= reach || reach > whole) return best;
   }
+}
+
+Vector3d Skin::nearest(const Vector3d& point) const {
+  return foot_of(point).point;
+}
+
+Vector3d Skin::normal_near(const Vector3d& point) const {
+  const Foot foot = foot_of(point);
+  const Eigen::Vector3i& k = surface_.triangles[foot.triangle];
+  Vector3d normal = Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const int a = k[(i + 1) % 3], b = k[(i + 2) % 3];
+    normal +=
+        geometry::area_vector(foot.point, surface_.vertices[a], surface_.vertices[b]).norm() * normals_[k[i]];
+  }
+  return normal.stableNormalized();
 }
 
 std::vector<Vector3d> Skin::between(const Vector3d& a, const Vector3d& b, int count,

@@ -26,6 +26,8 @@ class Skin {
                                                double reach) const;
 
   Eigen::Vector3d nearest(const Eigen::Vector3d& point) const;
+  /// Of the skin nearest to `point`: a unit vector outward, steady across edges.
+  Eigen::Vector3d normal_near(const Eigen::Vector3d& point) const;
 
   /// `count` points that divide the way over the skin from `a` to `b` evenly: along the plane section through
   /// both that is as square to `across` as can be, the shorter way round. Follows the skin into folds that a
@@ -34,12 +36,18 @@ class Skin {
                                        const Eigen::Vector3d& across) const;
 
  private:
+  struct Foot {
+    Eigen::Vector3d point;
+    int triangle;
+  };
+  Foot foot_of(const Eigen::Vector3d& point) const;
   /// Triangles whose cells touch the box, ascending.
   std::vector<int> triangles_near(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
   geometry::TriangleMesh part_near(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
   Eigen::Vector3i cell_of(const Eigen::Vector3d& point) const;
 
   geometry::TriangleMesh surface_;
+  std::vector<Eigen::Vector3d> normals_;  // of its vertices
   Eigen::Vector3d corner_;
   double cell_;  // m
   Eigen::Vector3i cells_;

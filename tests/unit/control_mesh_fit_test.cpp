@@ -5,7 +5,10 @@
 #include <cmath>
 
 #include "control_mesh/fit_template.hpp"
+#include "control_mesh/grid.hpp"
+#include "control_mesh/placing.hpp"
 #include "control_mesh/skin.hpp"
+#include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
 
 namespace {
@@ -24,16 +27,20 @@ struct Trunk {
   geometry::BodyMeasures measures;
 };
 
-/// `sag` metres: how far a breast hangs; above 0.02 it hides its own fold from the front.
-Vector3d trunk_point(double level, double angle, double sag) {
-  const double turn = std::abs(angle) - kBustAngle, rise = level - kBustLevel;
+struct Breast {
+  double sag = 0;   // m, how far it hangs; above 0.02 it hides its own fold from the front
+  double tilt = 0;  // m/rad, how its fold rises sideways
+};
+
+Vector3d trunk_point(double level, double angle, const Breast& shape) {
+  const double turn = std::abs(angle) - kBustAngle, rise = level - kBustLevel - shape.tilt * turn;
   const double breast = std::exp(-(turn * turn) / (2 * 0.25 * 0.25) - rise * rise / (2 * 0.03 * 0.03));
   const double taper = 1 - 0.8 * std::max(0.0, level - 1.25);
   return {(0.11 * taper + kBreastHeight * breast) * std::cos(angle),
-          (0.15 * taper + 0.02 * breast) * std::sin(angle), level - sag * breast};
+          (0.15 * taper + 0.02 * breast) * std::sin(angle), level - shape.sag * breast};
 }
 
-Trunk make_trunk(double sag = 0) {
+Trunk make_trunk(const Breast& shape = {}) {
   Trunk trunk;
   auto& [vertices, triangles] = trunk.mesh;
   const auto at = [](int up, int around) { return up * kAround + (around + kAround) % kAround; };
@@ -42,7 +49,7 @@ Trunk make_trunk(double sag = 0) {
   };
   for (int up = 0; up < kUp; ++up)
     for (int around = 0; around < kAround; ++around)
-      vertices.push_back(trunk_point(kBustLevel - 0.35 + 0.005 * up, angle_of(around), sag));
+      vertices.push_back(trunk_point(kBustLevel - 0.35 + 0.005 * up, angle_of(around), shape));
   for (int up = 0; up + 1 < kUp; ++up)
     for (int around = 0; around < kAround; ++around) {
       const int a = at(up, around), b = at(up, around + 1), c = at(up + 1, around),
@@ -99,6 +106,20 @@ std::vector<char> on_rim(const geometry::ControlMesh& control) {
   return rim;
 }
 
+/// Triangles that face against the skin nearest to them.
+int turned_triangles(const geometry::ControlMesh& control, const geometry::TriangleMesh& body) {
+  const geometry::PointTree tree(body.vertices);
+  const auto normals = geometry::vertex_normals(body.vertices, body.triangles);
+  int turned = 0;
+  for (const Eigen::Vector3i& t : control.triangles) {
+    const Vector3d middle = (control.outer[t[0]] + control.outer[t[1]] + control.outer[t[2]]) / 3;
+    Vector3d skin = normals[tree.nearest(middle)];
+    for (int i = 0; i < 3; ++i) skin += normals[tree.nearest((middle + control.outer[t[i]]) / 2)];
+    turned += area_of(control.outer, t).dot(skin) <= 0;
+  }
+  return turned;
+}
+
 /// Angle in degrees between two triangles' normals, the largest over all edges.
 double sharpest_fold(const geometry::ControlMesh& control, const std::vector<Vector3d>& nodes) {
   double least = 1;
@@ -125,7 +146,7 @@ class OnTrunk : public testing::TestWithParam<double> {};  // the parameter is t
 INSTANTIATE_TEST_SUITE_P(FirmAndHanging, OnTrunk, testing::Values(0.0, 0.03));
 
 TEST_P(OnTrunk, NodesLieOnTheSkin) {
-  const Trunk trunk = make_trunk(GetParam());
+  const Trunk trunk = make_trunk({GetParam()});
   const control_mesh::Skin skin(trunk.mesh);
   const auto control = fit(trunk);
   const std::vector<char> rim = on_rim(control);
@@ -136,7 +157,7 @@ TEST_P(OnTrunk, NodesLieOnTheSkin) {
 }
 
 TEST_P(OnTrunk, BustPointsAndFoldAreNodes) {
-  const Trunk trunk = make_trunk(GetParam());
+  const Trunk trunk = make_trunk({GetParam()});
   const auto control = fit(trunk);
   for (const char* name : {"bust_point_L", "bust_point_R", "underbust_L", "underbust_R"})
     EXPECT_LE((control.outer[control.node(name)] - trunk.measures.landmark(name)).norm(), 1e-9) << name;
@@ -147,7 +168,7 @@ TEST_P(OnTrunk, BustPointsAndFoldAreNodes) {
 }
 
 TEST_P(OnTrunk, SymmetricBodyGivesSymmetricControlMesh) {
-  const auto control = fit(make_trunk(GetParam()), 480);
+  const auto control = fit(make_trunk({GetParam()}), 480);
   std::vector<char> met(control.outer.size(), 0);
   for (std::size_t v = 0; v < control.outer.size(); ++v) {
     const Vector3d mirrored = control.outer[v].cwiseProduct(Vector3d(1, -1, 1));
@@ -163,7 +184,7 @@ TEST_P(OnTrunk, SymmetricBodyGivesSymmetricControlMesh) {
 }
 
 TEST_P(OnTrunk, TrianglesAreWellShaped) {
-  const auto control = fit(make_trunk(GetParam()));
+  const auto control = fit(make_trunk({GetParam()}));
   for (const auto& t : control.triangles) {
     const Vector3d outer = area_of(control.outer, t), inner = area_of(control.inner, t);
     EXPECT_GT(outer.dot(inner), 0) << "an inner triangle is turned over";
@@ -175,7 +196,7 @@ TEST_P(OnTrunk, TrianglesAreWellShaped) {
 }
 
 TEST_P(OnTrunk, InnerNodesAreInside) {
-  const Trunk trunk = make_trunk(GetParam());
+  const Trunk trunk = make_trunk({GetParam()});
   const auto control = fit(trunk);
   const control_mesh::Skin skin(trunk.mesh);
   for (std::size_t v = 0; v < control.inner.size(); ++v) {
@@ -188,12 +209,36 @@ TEST_P(OnTrunk, InnerNodesAreInside) {
 }
 
 TEST_P(OnTrunk, HoldsAsMuchAsTheBodyBelowIt) {
-  const Trunk trunk = make_trunk(GetParam());
+  const Trunk trunk = make_trunk({GetParam()});
   const auto coarse = fit(trunk),
              fine = fit(trunk, 7680);  // 7680 triangles of 3 mm stand for the skin itself
   const Vector3d apex = geometry::region_apex(coarse, coarse.regions[0]);
   const double body = geometry::cone_volume(fine.outer, fine.triangles, apex);
   EXPECT_NEAR(geometry::cone_volume(coarse.outer, coarse.triangles, apex) / body, 1, 0.02);
+}
+
+TEST(FitTemplate, FoldsThatAreNotLevelTurnNoTriangle) {
+  const Breast rising{0.07, 0.4}, falling{0.07, -0.15}, at_bust_level{0.08, 0};
+  for (const Breast& shape : {rising, falling, at_bust_level}) {
+    const Trunk trunk = make_trunk(shape);
+    EXPECT_EQ(turned_triangles(fit(trunk), trunk.mesh), 0) << "sag " << shape.sag << ", tilt " << shape.tilt;
+  }
+}
+
+TEST(FitTemplate, WithoutAFoldNodesLieAtTheirLevels) {
+  const auto pattern = control_mesh::load_template(kBust);
+  for (const Breast& shape : {Breast{0, 0}, Breast{0, 0.15}, Breast{0, -0.15}}) {
+    const Trunk trunk = make_trunk(shape);
+    const control_mesh::Skin skin(trunk.mesh);
+    const auto nodes = control_mesh::place_nodes(pattern, trunk.measures, skin);
+    EXPECT_EQ(nodes, control_mesh::place_nodes(pattern, trunk.measures, skin, true));
+    const double bust = trunk.measures.landmark("bust_point_L").z(),
+                 underbust = trunk.measures.landmark("underbust_L").z();
+    for (const int column : {1, 2, 4})
+      EXPECT_NEAR(nodes[control_mesh::node_at(pattern, 3, column, control_mesh::Side::left)].z(), bust, 1e-9);
+    EXPECT_NEAR(nodes[control_mesh::node_at(pattern, 5, 4, control_mesh::Side::left)].z(), underbust - 0.012,
+                1e-9);  // as the template says
+  }
 }
 
 TEST(FitTemplate, SubdivisionKeepsWhatTheTemplateSays) {
