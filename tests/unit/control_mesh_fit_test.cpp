@@ -225,6 +225,37 @@ TEST(FitTemplate, FoldsThatAreNotLevelTurnNoTriangle) {
   }
 }
 
+/// How far out of the bare trunk, as a share of it.
+double out_of_trunk(const Vector3d& p) {
+  return std::hypot(p.x() / 0.11, p.y() / 0.15) - 1;
+}
+
+Vector3d left_node(const std::vector<Vector3d>& nodes, const control_mesh::Template& pattern, int row,
+                   int column) {
+  return nodes[control_mesh::node_at(pattern, row, column, control_mesh::Side::left)];
+}
+
+TEST(FitTemplate, NodesBelowTheFoldLieOnTheChest) {
+  Trunk trunk = make_trunk({0.1, 0.3});  // the fold falls steeply towards the middle
+  for (geometry::Landmark& landmark : trunk.measures.landmarks)
+    if (landmark.name.rfind("bust_point", 0) == 0) {  // on top of the breasts
+      const int around = landmark.name.back() == 'L' ? kAround / 10 : kAround - kAround / 10;
+      landmark.position = trunk.mesh.vertices[76 * kAround + around];
+    }
+  const auto pattern = control_mesh::load_template(kBust);
+  const auto nodes = control_mesh::place_nodes(pattern, trunk.measures, control_mesh::Skin(trunk.mesh));
+  EXPECT_LT(out_of_trunk(left_node(nodes, pattern, 5, 4)), 0.2);
+  EXPECT_EQ(turned_triangles(fit(trunk), trunk.mesh), 0);
+}
+
+TEST(FitTemplate, NodesAboveTheFoldLieOnTheBreast) {
+  const Trunk trunk = make_trunk({0.08, 0});  // the fold is at bust level
+  const auto pattern = control_mesh::load_template(kBust);
+  const control_mesh::Skin skin(trunk.mesh);
+  const auto nodes = control_mesh::place_nodes(pattern, trunk.measures, skin, true);
+  EXPECT_GT(out_of_trunk(left_node(nodes, pattern, 3, 2)), 0.2);
+}
+
 TEST(FitTemplate, WithoutAFoldNodesLieAtTheirLevels) {
   const auto pattern = control_mesh::load_template(kBust);
   for (const Breast& shape : {Breast{0, 0}, Breast{0, 0.15}, Breast{0, -0.15}}) {
@@ -234,9 +265,8 @@ TEST(FitTemplate, WithoutAFoldNodesLieAtTheirLevels) {
     EXPECT_EQ(nodes, control_mesh::place_nodes(pattern, trunk.measures, skin, true));
     const double bust = trunk.measures.landmark("bust_point_L").z(),
                  underbust = trunk.measures.landmark("underbust_L").z();
-    for (const int column : {1, 2, 4})
-      EXPECT_NEAR(nodes[control_mesh::node_at(pattern, 3, column, control_mesh::Side::left)].z(), bust, 1e-9);
-    EXPECT_NEAR(nodes[control_mesh::node_at(pattern, 5, 4, control_mesh::Side::left)].z(), underbust - 0.012,
+    for (const int column : {1, 2, 4}) EXPECT_NEAR(left_node(nodes, pattern, 3, column).z(), bust, 1e-9);
+    EXPECT_NEAR(left_node(nodes, pattern, 5, 4).z(), underbust - 0.012,
                 1e-9);  // as the template says
   }
 }
