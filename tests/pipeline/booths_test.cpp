@@ -189,9 +189,12 @@ TEST_F(LeftBoothTest, ANewGoalTakesTheOldOnesPlaceAndCancelledIsCancelled) {
 
 TEST_F(LeftBoothTest, ANodeKilledInMidScanIsBackWithinFiveSeconds) {
   constexpr double kUsual = 3;  // s, a capture on two free cores: a busy machine gets longer
-  const ros::WallTime usual_start = ros::WallTime::now();
-  expect_body(capture("b", with_all_sensors(true)), "b");
-  const double usual = (ros::WallTime::now() - usual_start).toSec();
+  const auto undisturbed = [&] {
+    const ros::WallTime begin = ros::WallTime::now();
+    expect_body(capture("b", with_all_sensors(true)), "b");
+    return (ros::WallTime::now() - begin).toSec();
+  };
+  double usual = undisturbed();
   for (const std::string stage : {"reconstruction", "landmarks"}) {
     customer_->come(with_all_sensors(true));
     start("a");
@@ -199,7 +202,9 @@ TEST_F(LeftBoothTest, ANodeKilledInMidScanIsBackWithinFiveSeconds) {
     ASSERT_TRUE(kill_node("/left/" + stage));
     const ros::WallTime killed = ros::WallTime::now();
     expect_body(customer_->result(), "a");
-    EXPECT_LT((ros::WallTime::now() - killed).toSec(), 5 * std::max(1.0, usual / kUsual)) << stage;
+    const double taken = (ros::WallTime::now() - killed).toSec();
+    usual = std::max(usual, undisturbed());  // it may have become busy meanwhile
+    EXPECT_LT(taken, 5 * std::max(1.0, usual / kUsual)) << stage;
   }
 }
 
