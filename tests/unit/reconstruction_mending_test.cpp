@@ -20,7 +20,7 @@ struct Scan {
   std::vector<int> sensor;
 };
 
-/// Full of the skin, most at the right arm's middle, where the second half of the sensors saw it shifted.
+/// Share of the shift with which the second half of the sensors saw a point: all at the middle of one arm.
 double share_of_shift(const Vector3d& p) {
   const double inside = 1 - (p - Vector3d(0.215, 0, 1.06)).squaredNorm() / (0.14 * 0.14);
   return inside > 0 ? inside * inside : 0;
