@@ -134,34 +134,42 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
 
 }  // namespace
 
-BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
+Person find_person(const PointCloud& scan, const Options& options) {
   check_options(options);
   // 1. The points that can be used, as many as help; 2. of these the body's, standing on z = 0, those of each
   // sensor where the others see them.
-  Eigen::Isometry3d from_scan;
-  PointCloud body = standing_body(without_surplus(usable_points(scan, options), options), options, from_scan);
-  const std::size_t seen = body.points.size();
+  Person person;
+  PointCloud& body = person.cloud;
+  body = standing_body(without_surplus(usable_points(scan, options), options), options, person.from_scan);
   const Sightings sightings =
       body.sensor.empty() ? sightings_of(body.points) : Sightings{std::move(body.sensor), {}};
   body.sensor.clear();
   register_sensors(body.points, sightings.sensor);
-  // 3. Normals, fractures, and points where no sensor sees but the shape is known.
+  // 3. Normals, and fractures mended.
   const std::vector<Eigen::Vector3d> hints = body.normals.empty() ? sightings.towards : body.normals;
   body.normals = outward_normals(body.points, hints);
-  BodyMesh result;
-  auto fractures = std::async(std::launch::async, [seen_body = body] { return find_fractures(seen_body); });
+  person.fractures = find_fractures(body);
   if (mend_fractures(body.points, body.normals, sightings.sensor))
     body.normals = outward_normals(body.points, hints);
+  for (geometry::Fracture& fracture : person.fractures) fracture.centre = person.from_scan.inverse() * fracture.centre;
+  return person;
+}
+
+BodyMesh surface_of(const Person& person, const Options& options) {
+  PointCloud body = person.cloud;
+  const std::size_t seen = body.points.size();
+  // 1. Points where no sensor sees but the shape is known.
   const PointCloud soles = sole_points(body.points);
   append(body, sight_line_points(body));
   append(body, soles);
-  // 4. One closed surface on the points and above the ground.
+  // 2. One closed surface on the points and above the ground.
   TriangleMesh mesh = one_closed_surface(
       poisson_surface(thinned(body, fine_heights(body.points, options)), options.poisson_depth));
   mesh = without_handles(mesh, kLongestLoop);
   if (const double cell = cell_width(body.points, options.poisson_depth); cell < kFineCell)
     mesh = geometry::without_short_edges(mesh, kSliver * cell);
-  // 5. As many triangles as asked for, on the points; what of the surface nobody saw.
+  // 3. As many triangles as asked for, on the points; what of the surface nobody saw.
+  BodyMesh result;
   mesh = geometry::with_triangles(mesh, static_cast<int>((1 - kBeltShare) * options.body_triangles));
   const double height = geometry::bounding_box(mesh.vertices)[1].z();
   result.mesh =
@@ -172,13 +180,16 @@ BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
   body.points.resize(seen);
   result.filled = filled_vertices(result.mesh, body.points, options.support_distance);
   result.holes = holes_of(result.mesh, result.filled);
-  result.fractures = fractures.get();
-  // 6. Back to the scan's frame.
-  const Eigen::Isometry3d to_scan = from_scan.inverse();
+  result.fractures = person.fractures;
+  // 4. Back to the scan's frame.
+  const Eigen::Isometry3d to_scan = person.from_scan.inverse();
   for (Eigen::Vector3d& v : result.mesh.vertices) v = to_scan * v;
   for (Hole& hole : result.holes) hole.centre = to_scan * hole.centre;
-  for (geometry::Fracture& fracture : result.fractures) fracture.centre = to_scan * fracture.centre;
   return result;
+}
+
+BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
+  return surface_of(find_person(scan, options), options);
 }
 
 }  // namespace tensegric_fit::reconstruction

@@ -38,6 +38,16 @@ struct BodyMesh {
   std::size_t points_used = 0;                ///< points of the body, after floor, frame and outliers
 };
 
+/// What a scan shows of a person.
+struct Person {
+  geometry::PointCloud cloud;                 ///< with outward normals, upright, the ground under the soles at z = 0
+  Eigen::Isometry3d from_scan;                ///< takes the scan to the cloud's frame
+  std::vector<geometry::Fracture> fractures;  ///< scan frame; mended in the cloud where it is known who saw what
+};
+
+Person find_person(const geometry::PointCloud& scan, const Options& options);
+BodyMesh surface_of(const Person& person, const Options& options);
+
 /// \throw Refusal empty_cloud, non_finite, too_few_points, wrong_unit, not_a_body, bad_option ...
 BodyMesh reconstruct(const geometry::PointCloud& scan, const Options& options);
 

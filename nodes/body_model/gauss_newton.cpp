@@ -1,0 +1,146 @@
+#include "body_model/gauss_newton.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::body_model {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kDegree = M_PI / 180;
+constexpr double kTilt = 10 * kDegree;       // of the pelvis: 15 degrees of the scan, 25 of a stoop are within 2.5 deviations
+constexpr double kStature = 0.15;            // of its logarithm: 1.45 to 1.95 m
+constexpr double kNoisePerScale = 0.15, kLeastNoise = 0.002;  // what a match may be off, and m that the model always is
+constexpr double kLargestTurn = 20 * kDegree;  // in a step; beyond that derivatives mean little
+
+/// What the prior takes the parameters to be, and how firmly.
+struct Prior {
+  VectorXd off, precision;
+};
+
+Prior prior_of(const Model& model, const Parameters& p, double stature) {
+  Prior prior{VectorXd::Zero(p.count()), VectorXd::Zero(p.count())};
+  const Vector3d up = p.rotation.col(2);
+  prior.off.head<2>() = Vector3d::UnitZ().cross(up).head<2>();
+  prior.precision.head<2>().setConstant(1 / (kTilt * kTilt));
+  prior.off[Parameters::kScale] = p.log_scale - stature;
+  prior.precision[Parameters::kScale] = 1 / (kStature * kStature);
+  for (std::size_t g = 0; g < p.turns.size(); ++g) {
+    const int at = Parameters::kTurns + 3 * static_cast<int>(g);
+    prior.off.segment<3>(at) = p.turns[g];
+    prior.precision.segment<3>(at) = model.groups[g].spread.array().square().inverse();
+  }
+  prior.off.tail(p.shape.size()) = p.shape;
+  prior.precision.tail(p.shape.size()).setOnes();
+  return prior;
+}
+
+/// The fit points that take part, with their normals at rest: those of one shape serve for the next ones as well.
+class FitPoints {
+ public:
+  FitPoints(const Model& model, const Parameters& p, int every) : model_(model) {
+    const PosedModel posed(model, p);
+    const std::vector<Vector3d> normals = geometry::vertex_normals(posed.vertices(), model.triangles);
+    for (std::size_t i = 0; i < model.fit_points.size(); i += every) {
+      vertices_.push_back(model.fit_points[i]);
+      weights_.push_back(model.fit_weights[i]);
+      at_rest_.push_back(posed.blend(vertices_.back()).transpose() * normals[vertices_.back()]);
+    }
+  }
+
+  const std::vector<int>& vertices() const { return vertices_; }
+
+  ModelSkin skin(const PosedModel& posed) const {
+    ModelSkin skin{{}, {}, weights_};
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      skin.points.push_back(posed.vertex(vertices_[i]));
+      skin.normals.push_back((posed.blend(vertices_[i]) * at_rest_[i]).normalized());
+    }
+    return skin;
+  }
+
+ private:
+  const Model& model_;
+  std::vector<int> vertices_;
+  std::vector<double> weights_;
+  std::vector<Vector3d> at_rest_;
+};
+
+double residual_of(const Matching& matching, const std::vector<double>& weights) {
+  double model = 0, weight = 0, samples = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    model += weights[i] * matching.distances[i];
+    weight += weights[i];
+  }
+  for (const double d : matching.unexplained) samples += d;
+  return (model / weight + samples / std::max<std::size_t>(matching.unexplained.size(), 1)) / 2;
+}
+
+/// Normal equations of the matches, in the first `active` parameters. A pull is nearly one of a plane: its largest direction stands
+/// for it where `planes`, all three otherwise.
+void normal_equations(const PosedModel& posed, const std::vector<int>& vertices, const std::vector<Pull>& pulls, int count, int active, bool planes,
+                      MatrixXd& matrix, VectorXd& gradient) {
+  const int rows_each = planes ? 1 : 3, points = static_cast<int>(vertices.size());
+  MatrixXd rows(active, rows_each * points);
+  VectorXd off(rows_each * points);
+  Eigen::Matrix3Xd derivative(3, count);
+  for (int i = 0; i < points; ++i) {
+    Eigen::SelfAdjointEigenSolver<Matrix3d> axes;
+    axes.computeDirect(pulls[i].information);
+    posed.derivative(vertices[i], derivative);
+    for (int r = 0; r < rows_each; ++r) {
+      const double root = std::sqrt(std::max(axes.eigenvalues()[2 - r], 0.0));
+      const Vector3d axis = axes.eigenvectors().col(2 - r);
+      const int at = rows_each * i + r;
+      rows.col(at) = root * (derivative.leftCols(active).transpose() * axis);
+      off[at] = root > 0 ? axis.dot(pulls[i].pull) / root : 0;
+    }
+  }
+  matrix = MatrixXd::Zero(active, active);
+  matrix.selfadjointView<Eigen::Lower>().rankUpdate(rows);
+  gradient = rows * off;
+}
+
+}  // namespace
+
+Fitted fit_stage(const Model& model, const Matcher& matcher, Parameters start, const Stage& stage) {
+  Fitted fitted{std::move(start), 0, {}};
+  Parameters& p = fitted.parameters;
+  const FitPoints points(model, p, stage.every);
+  const double stature = p.log_scale;
+  const int active = p.shape_at() + std::min(stage.components, model.components());
+  for (int i = 0; i < stage.iterations; ++i) {
+    const double scale = stage.from * std::pow(stage.to / stage.from, stage.iterations < 2 ? 1.0 : double(i) / (stage.iterations - 1));
+    const double noise = std::max(kNoisePerScale * scale, kLeastNoise);
+    const PosedModel posed(model, p);
+    const ModelSkin skin = points.skin(posed);
+    const Matching matching = matcher.match(skin, scale, stage.samples);
+    fitted.residual = residual_of(matching, skin.weights);
+    MatrixXd matrix;
+    VectorXd gradient;
+    normal_equations(posed, points.vertices(), matching.pulls, p.count(), active, scale <= 0.02, matrix, gradient);
+    const Prior prior = prior_of(model, p, stature);
+    matrix /= noise * noise;
+    matrix.diagonal() += prior.precision.head(active);
+    gradient = gradient / (noise * noise) + prior.precision.cwiseProduct(prior.off).head(active);
+    matrix.triangularView<Eigen::StrictlyUpper>() = matrix.transpose();
+    VectorXd step = VectorXd::Zero(p.count());
+    step.head(active) = -matrix.ldlt().solve(gradient);
+    const int turns = p.shape_at() - Parameters::kTurns;
+    const double turn = std::max(step.head<3>().cwiseAbs().maxCoeff(), step.segment(Parameters::kTurns, turns).cwiseAbs().maxCoeff());
+    if (turn > kLargestTurn) step *= kLargestTurn / turn;
+    p = p.plus(step);
+    fitted.precision = std::move(matrix);
+  }
+  return fitted;
+}
+
+}  // namespace tensegric_fit::body_model

@@ -1,0 +1,27 @@
+/// Robust Gauss-Newton over pose and shape with Gaussian priors: one scale of distances after the other.
+#pragma once
+
+#include "body_model/matching.hpp"
+#include "body_model/posed_model.hpp"
+
+namespace tensegric_fit::body_model {
+
+/// A part of the way, coarse to fine.
+struct Stage {
+  double from, to;  ///< m, scale of distances in the first and the last iteration
+  int iterations;
+  int every;        ///< n-th fit point takes part
+  int samples;      ///< that look for the model in their turn
+  int components;   ///< of the shape that are free
+};
+
+struct Fitted {
+  Parameters parameters;
+  double residual;            ///< m: mean distance of model and samples from each other, each capped at Matching::kUnmatched
+  Eigen::MatrixXd precision;  ///< of the parameters that were free: data and prior
+};
+
+/// \pre samples in random order
+Fitted fit_stage(const Model& model, const Matcher& matcher, Parameters start, const Stage& stage);
+
+}  // namespace tensegric_fit::body_model

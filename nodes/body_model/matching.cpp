@@ -1,0 +1,68 @@
+#include "body_model/matching.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tensegric_fit::body_model {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kReach = 0.05;      // m that a normal turned by 60 degrees counts like: skin of the other side of an arm is farther
+constexpr double kFarthest = 2.5;    // scales
+constexpr double kSameSide = 0.5;    // cosine between two normals of one skin
+constexpr double kSideways = 15;     // 1/m^2: a match a metre off is one of points, a near one of planes
+
+/// What one pair says.
+struct Pair {
+  double weight;    // 0: nothing
+  double distance;  // m, from the sample's plane
+};
+
+Pair weigh(const Vector3d& off, const Vector3d& model_normal, const Vector3d& sample_normal, double scale) {
+  const double squared = off.squaredNorm() / (scale * scale);
+  if (squared > kFarthest * kFarthest || model_normal.dot(sample_normal) < kSameSide) return {0, Matching::kUnmatched};
+  const double robust = 1 / (1 + squared);
+  return {robust * robust, std::min(std::abs(off.dot(sample_normal)), Matching::kUnmatched)};
+}
+
+}  // namespace
+
+Matcher::Matcher(const Samples& samples) : samples_(samples), tree_(samples.points, samples.normals, kReach) {}
+Matcher::~Matcher() = default;
+
+Matching Matcher::match(const ModelSkin& skin, double scale, int samples) const {
+  const std::size_t count = skin.points.size();
+  Matching result{std::vector<Pull>(count), std::vector<double>(count), {}};
+  const double sideways = kSideways * scale * scale;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int s = tree_.nearest(skin.points[i], skin.normals[i]);
+    const Vector3d off = skin.points[i] - samples_.points[s], &n = samples_.normals[s];
+    const Pair pair = weigh(off, skin.normals[i], n, scale);
+    result.distances[i] = pair.distance;
+    const double w = skin.weights[i] * pair.weight;
+    result.pulls[i].information = w * (n * n.transpose() + sideways * Matrix3d::Identity());
+    result.pulls[i].pull = w * (n * n.dot(off) + sideways * off);
+  }
+  const std::size_t looking = std::min<std::size_t>(samples, samples_.points.size());
+  const OrientedTree model(skin.points, skin.normals, kReach);
+  std::vector<int> near(looking), finders(count, 0);
+  for (std::size_t s = 0; s < looking; ++s) {
+    near[s] = model.nearest(samples_.points[s], samples_.normals[s]);
+    ++finders[near[s]];
+  }
+  for (std::size_t s = 0; s < looking; ++s) {
+    const int i = near[s];
+    // The nearest model point may lie half their spacing aside: only what is along the normal counts.
+    const Vector3d off = skin.points[i] - samples_.points[s], &n = samples_.normals[s];
+    const Pair pair = weigh(off, skin.normals[i], n, scale);
+    result.unexplained.push_back(pair.distance);
+    const double w = skin.weights[i] * pair.weight / finders[i];
+    result.pulls[i].information += w * n * n.transpose();
+    result.pulls[i].pull += w * n * n.dot(off);
+  }
+  return result;
+}
+
+}  // namespace tensegric_fit::body_model

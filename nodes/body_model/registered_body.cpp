@@ -1,0 +1,28 @@
+#include "body_model/registered_body.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace tensegric_fit::body_model {
+
+Eigen::Vector3d RegisteredBody::skin_point(const std::string& name) const {
+  for (const SkinPoint& point : model->skin_points) {
+    if (point.name != name) continue;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const auto& [vertex, share] : point.vertices) sum += share * skin[vertex];
+    return sum;
+  }
+  throw std::out_of_range("the body model has no skin point " + name);
+}
+
+Eigen::Vector3d RegisteredBody::bone_point(const std::string& name) const {
+  for (std::size_t i = 0; i < bone_points.size(); ++i)
+    if (model->bone_points[i].name == name) return bone_points[i];
+  throw std::out_of_range("the body model has no bone point " + name);
+}
+
+double RegisteredBody::stature() const {
+  return std::exp(parameters.log_scale) * model->stature;
+}
+
+}  // namespace tensegric_fit::body_model

@@ -1,0 +1,29 @@
+/// The model on a person: what other stages know of where things are.
+#pragma once
+
+#include <memory>
+
+#include "body_model/posed_model.hpp"
+
+namespace tensegric_fit::body_model {
+
+/// In the scan's frame, metres; per-vertex arrays have one entry a vertex of the model's skin.
+struct RegisteredBody {
+  std::shared_ptr<const Model> model;
+  Parameters parameters;
+  double residual = 0;                    ///< m: mean distance of model and surface from each other before the displacement
+  std::vector<Eigen::Vector3d> posed;     ///< skin by pose and shape alone
+  std::vector<Eigen::Vector3d> skin;      ///< and displaced onto the surface
+  std::vector<double> off;                ///< m, of the skin from the surface; Matching::kUnmatched where there is none
+  std::vector<Eigen::Vector3d> bone_points;
+
+  /// \throw std::out_of_range: the model has no such point
+  Eigen::Vector3d skin_point(const std::string& name) const;
+  Eigen::Vector3d bone_point(const std::string& name) const;
+  /// Her left and the pelvis' up, unit vectors.
+  Eigen::Vector3d left() const { return parameters.rotation.col(0); }
+  Eigen::Vector3d up() const { return parameters.rotation.col(2); }
+  double stature() const;  ///< m, of the model in this size, standing straight
+};
+
+}  // namespace tensegric_fit::body_model

@@ -1,0 +1,51 @@
+#include "body_model/samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tensegric_fit::body_model {
+namespace {
+
+using Eigen::Vector3d;
+
+/// i-th number of the Van der Corput sequence in `base`, in [0, 1).
+double radical_inverse(unsigned i, unsigned base) {
+  double result = 0, digit = 1.0 / base;
+  for (; i > 0; i /= base, digit /= base) result += digit * (i % base);
+  return result;
+}
+
+}  // namespace
+
+Samples sample_surface(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, int count) {
+  const std::vector<Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
+  std::vector<double> area_up_to;
+  double sum = 0;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    sum += geometry::area_vector(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]).norm();
+    area_up_to.push_back(sum);
+  }
+  Samples samples;
+  if (!(sum > 0)) return samples;
+  for (int i = 0; i < count; ++i) {
+    const double at = sum * radical_inverse(i, 5);  // any first n of them are spread over the whole
+    const auto found = std::lower_bound(area_up_to.begin(), area_up_to.end(), at);
+    const Eigen::Vector3i& t = mesh.triangles[std::min<std::size_t>(found - area_up_to.begin(), mesh.triangles.size() - 1)];
+    const double s = std::sqrt(radical_inverse(i, 2)), r = radical_inverse(i, 3);
+    const Vector3d share(1 - s, s * (1 - r), s * r);
+    Eigen::Index nearest;
+    share.maxCoeff(&nearest);
+    if (!filled.empty() && filled[t[static_cast<int>(nearest)]]) continue;
+    Vector3d point = Vector3d::Zero(), normal = Vector3d::Zero();
+    for (int c = 0; c < 3; ++c) {
+      point += share[c] * mesh.vertices[t[c]];
+      normal += share[c] * normals[t[c]];
+    }
+    if (normal.squaredNorm() < 1e-12) continue;  // two sheets that face each other
+    samples.points.push_back(point);
+    samples.normals.push_back(normal.normalized());
+  }
+  return samples;
+}
+
+}  // namespace tensegric_fit::body_model

@@ -1,0 +1,21 @@
+/// What a model is registered to: oriented points spread over a surface.
+#pragma once
+
+#include <vector>
+
+#include "geometry/point_cloud.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::body_model {
+
+/// Points and outward unit normals, one a point; m, scan frame.
+struct Samples {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> normals;
+};
+
+/// `count` points spread evenly over the mesh's area, as any first n of them are, the same for the same mesh; those whose nearest corner is
+/// flagged in `filled` (empty, or one flag a vertex) are left out: no scan point backs the surface there.
+Samples sample_surface(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, int count);
+
+}  // namespace tensegric_fit::body_model
