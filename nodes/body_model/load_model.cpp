@@ -137,6 +137,16 @@ void take_arrays(const std::map<std::string, Array>& arrays, const Check& check,
       model.weights[v][j] = static_cast<float>(weights[at] / 255);
     }
   }
+  const auto is_arm = [&](int bone) {
+    const std::string& name = model.bones[bone].name;
+    return name.rfind("upperarm", 0) == 0 || name.rfind("lowerarm", 0) == 0 || name.rfind("wrist", 0) == 0;
+  };
+  for (std::size_t v = 0; v < vertices; ++v) {
+    double arm = 0;
+    for (int j = 0; j < Model::kWeights; ++j)
+      if (is_arm(model.carriers[v][j])) arm += model.weights[v][j];
+    model.arm.push_back(arm);
+  }
   for (const double p : array("parts", {vertices})) {
     check(p < static_cast<double>(model.parts.size()), "a vertex' part");
     model.part.push_back(static_cast<unsigned char>(p));

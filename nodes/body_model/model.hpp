@@ -46,6 +46,7 @@ struct Model {
   std::vector<std::array<unsigned char, kWeights>> carriers;  ///< bones of a vertex
   std::vector<std::array<float, kWeights>> weights;     ///< their shares, sum 1
   std::vector<unsigned char> part;                      ///< of each vertex, index into parts
+  std::vector<double> arm;                              ///< of each vertex: how much of it arm bones carry, 0 to 1
   std::vector<std::array<int, 4>> quads;                ///< counter-clockwise from outside
   std::vector<Eigen::Vector3i> triangles;               ///< two a quad
   std::vector<Eigen::Vector3d> inner_mean;              ///< joints (one a bone), then bone points, m

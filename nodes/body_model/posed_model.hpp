@@ -15,6 +15,7 @@ struct Parameters {
   std::vector<Eigen::Vector3d> turns;                      ///< rotation vector of each pose group, rad
   Eigen::VectorXd shape;                                   ///< coefficients, in standard deviations
 
+  Parameters() = default;
   /// Those of the mean woman at rest.
   explicit Parameters(const Model& model);
 

@@ -21,8 +21,25 @@ Eigen::Vector3d RegisteredBody::bone_point(const std::string& name) const {
   throw std::out_of_range("the body model has no bone point " + name);
 }
 
+Eigen::Vector3d RegisteredBody::joint(const std::string& name) const {
+  for (std::size_t b = 0; b < joints.size(); ++b)
+    if (model->bones[b].name == name) return joints[b];
+  throw std::out_of_range("the body model has no bone " + name);
+}
+
 double RegisteredBody::stature() const {
   return std::exp(parameters.log_scale) * model->stature;
+}
+
+RegisteredBody moved(const RegisteredBody& body, const Eigen::Isometry3d& motion) {
+  RegisteredBody result = body;
+  for (auto* points : {&result.posed, &result.skin, &result.joints, &result.bone_points})
+    for (Eigen::Vector3d& p : *points) p = motion * p;
+  result.parameters.rotation = motion.linear() * body.parameters.rotation;
+  result.parameters.position = motion * body.parameters.position;
+  result.vertical = motion.linear() * body.vertical;
+  result.ground = body.ground + result.vertical.dot(motion.translation());
+  return result;
 }
 
 }  // namespace tensegric_fit::body_model

@@ -15,15 +15,24 @@ struct RegisteredBody {
   std::vector<Eigen::Vector3d> posed;     ///< skin by pose and shape alone
   std::vector<Eigen::Vector3d> skin;      ///< and displaced onto the surface
   std::vector<double> off;                ///< m, of the skin from the surface; Matching::kUnmatched where there is none
+  std::vector<double> support;            ///< m, of the skin from the middle of the samples nearest to it: small where they lie all round
+  std::vector<Eigen::Vector3d> joints;    ///< one a bone
   std::vector<Eigen::Vector3d> bone_points;
+  bool scanned = true;                    ///< registered to a scan's points; false: to a mesh that was given
+  Eigen::Vector3d vertical = Eigen::Vector3d::UnitZ();  ///< up, unit vector
+  double ground = 0;                      ///< m along `vertical`, under her soles
 
   /// \throw std::out_of_range: the model has no such point
   Eigen::Vector3d skin_point(const std::string& name) const;
   Eigen::Vector3d bone_point(const std::string& name) const;
+  Eigen::Vector3d joint(const std::string& name) const;
   /// Her left and the pelvis' up, unit vectors.
   Eigen::Vector3d left() const { return parameters.rotation.col(0); }
   Eigen::Vector3d up() const { return parameters.rotation.col(2); }
   double stature() const;  ///< m, of the model in this size, standing straight
 };
+
+/// The same in another frame.
+RegisteredBody moved(const RegisteredBody& body, const Eigen::Isometry3d& motion);
 
 }  // namespace tensegric_fit::body_model

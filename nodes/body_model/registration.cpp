@@ -6,6 +6,8 @@
 #include "body_model/arms.hpp"
 #include "body_model/gauss_newton.hpp"
 #include "geometry/halves.hpp"
+#include "geometry/point_tree.hpp"
+#include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::body_model {
@@ -19,6 +21,8 @@ const Stage kThird{.04, .02, 8, 1, 4000, 40};
 const Stage kFine{.02, .012, 14, 1, 6000, 1000};
 
 constexpr std::size_t kFewest = 500;  // samples
+constexpr int kSamplesOfMesh = 40000;  // 7 mm apart on a woman
+constexpr int kAround = 12;           // samples: two rings of neighbours
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
@@ -62,13 +66,31 @@ std::vector<Parameters> starts(const Model& model, const Samples& samples) {
   return all;
 }
 
+/// m, of each vertex from the mean of the samples nearest to it.
+std::vector<double> support_of(const std::vector<Vector3d>& skin, const std::vector<Vector3d>& samples) {
+  const geometry::PointTree tree(samples);
+  std::vector<double> support(skin.size());
+  geometry::in_halves(skin.size(), [&](std::size_t begin, std::size_t end, int) {
+    std::vector<int> near;
+    for (std::size_t v = begin; v < end; ++v) {
+      tree.nearest(skin[v], kAround, near);
+      Vector3d mean = Vector3d::Zero();
+      for (const int i : near) mean += samples[i] / static_cast<double>(near.size());
+      support[v] = (mean - skin[v]).norm();
+    }
+  });
+  return support;
+}
+
 }  // namespace
 
-Registrar::Registrar(Model model) : model_(std::make_shared<const Model>(std::move(model))), field_(*model_) {}
+Registrar::Registrar(Model model, const Standing& standing)
+    : model_(std::make_shared<const Model>(std::move(model))), field_(*model_), standing_(standing) {}
 
-RegisteredBody Registrar::operator()(const Samples& samples) const {
+RegisteredBody Registrar::operator()(const Samples& surface) const {
   const Model& model = *model_;
-  if (samples.points.size() < kFewest) throw geometry::Refusal(geometry::refusal::kNotABody, "too little surface to be a body");
+  if (surface.points.size() < kFewest) throw geometry::Refusal(geometry::refusal::kNotABody, "too little surface to be a body");
+  const Samples samples = shuffled(surface);
   const Matcher matcher(samples);
   // 1. Which way she faces; 2. where her arms are, of the two likeliest; 3. pose and shape; 4. what they leave over.
   const std::vector<Parameters> start = starts(model, samples);
@@ -85,12 +107,33 @@ RegisteredBody Registrar::operator()(const Samples& samples) const {
   Fitted fitted = *std::min_element(tried.begin(), tried.end(), better);
   for (const Stage& stage : {kThird, kFine}) fitted = fit_stage(model, matcher, fitted.parameters, stage);
   const PosedModel posed(model, fitted.parameters);
-  RegisteredBody body{model_, fitted.parameters, fitted.residual, posed.vertices(), {}, {}, {}};
+  RegisteredBody body;
+  body.model = model_;
+  body.parameters = fitted.parameters;
+  body.residual = fitted.residual;
+  body.posed = posed.vertices();
   const Displaced displaced = displace(model, field_, matcher, fitted.parameters);
   body.skin = displaced.vertices;
   body.off = field_.spread(displaced.distances);
+  body.support = support_of(body.skin, samples.points);
+  for (std::size_t b = 0; b < model.bones.size(); ++b) body.joints.push_back(posed.joint(static_cast<int>(b)));
   for (std::size_t i = 0; i < model.bone_points.size(); ++i) body.bone_points.push_back(posed.bone_point(static_cast<int>(i)));
   return body;
+}
+
+RegisteredBody register_mesh(const Registrar& registrar, const geometry::TriangleMesh& mesh) {
+  RegisteredBody body = registrar(sample_surface(mesh, {}, kSamplesOfMesh));
+  body.scanned = false;
+  body.vertical = upright(body, registrar.standing());
+  body.ground = body.vertical.dot(mesh.vertices.front());
+  for (const Vector3d& v : mesh.vertices) body.ground = std::min(body.ground, body.vertical.dot(v));
+  return body;
+}
+
+const Registrar& shipped_registrar() {
+  static const Registrar registrar(load_model(geometry::shipped_folder("body_model") + "/women.tfb"),
+                                   load_standing(geometry::shipped_folder("body_model") + "/standing.yaml"));
+  return registrar;
 }
 
 }  // namespace tensegric_fit::body_model

@@ -4,20 +4,29 @@
 #include "body_model/displacement.hpp"
 #include "body_model/registered_body.hpp"
 #include "body_model/samples.hpp"
+#include "body_model/standing.hpp"
 
 namespace tensegric_fit::body_model {
 
 /// A model made ready for any number of registrations.
 class Registrar {
  public:
-  explicit Registrar(Model model);
-  /// \param samples of one person, or of parts of her, within 15 degrees of upright (z up) \throw Refusal not_a_body
-  RegisteredBody operator()(const Samples& samples) const;
+  Registrar(Model model, const Standing& standing);
+  /// \param surface of one person, or of parts of her, within 15 degrees of upright (z up) \throw Refusal not_a_body
+  RegisteredBody operator()(const Samples& surface) const;
   const Model& model() const { return *model_; }
+  const Standing& standing() const { return standing_; }
 
  private:
   std::shared_ptr<const Model> model_;
   SkinField field_;
+  Standing standing_;
 };
+
+/// The model on a mesh that was given: up as for a scan, the ground under its lowest vertex. \throw Refusal not_a_body
+RegisteredBody register_mesh(const Registrar& registrar, const geometry::TriangleMesh& mesh);
+
+/// That of the shipped model, loaded once. \throw Refusal broken_file
+const Registrar& shipped_registrar();
 
 }  // namespace tensegric_fit::body_model

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
 
 namespace tensegric_fit::body_model {
 namespace {
@@ -16,6 +18,19 @@ double radical_inverse(unsigned i, unsigned base) {
 }
 
 }  // namespace
+
+Samples shuffled(const Samples& samples) {
+  std::vector<std::size_t> order(samples.points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::mt19937 random(1);
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);  // std::shuffle differs between libraries
+  Samples result;
+  for (const std::size_t i : order) {
+    result.points.push_back(samples.points[i]);
+    result.normals.push_back(samples.normals[i]);
+  }
+  return result;
+}
 
 Samples sample_surface(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, int count) {
   const std::vector<Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);

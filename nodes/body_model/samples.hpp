@@ -14,6 +14,9 @@ struct Samples {
   std::vector<Eigen::Vector3d> normals;
 };
 
+/// The same in a random order, always the same one: any first n of them are spread over the whole.
+Samples shuffled(const Samples& samples);
+
 /// `count` points spread evenly over the mesh's area, as any first n of them are, the same for the same mesh; those whose nearest corner is
 /// flagged in `filled` (empty, or one flag a vertex) are left out: no scan point backs the surface there.
 Samples sample_surface(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, int count);

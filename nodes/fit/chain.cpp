@@ -51,18 +51,30 @@ Body measure_scan(const geometry::PointCloud& scan, const Settings& settings, St
   Body body;
   {
     const Stopwatch watch(times.reconstruction);
-    body.mesh = reconstruction::reconstruct(scan, settings.reconstruction);
+    const auto registered = [&times](const body_model::Samples& samples) {
+      const Stopwatch registration(times.body_model);
+      return body_model::shipped_registrar()(samples);
+    };
+    reconstruction::Reconstruction result = reconstruction::reconstruct(
+        scan, settings.reconstruction, {registered, body_model::shipped_registrar().standing()});
+    body.mesh = std::move(result.body);
+    body.model = std::move(result.model);
   }
+  times.reconstruction -= times.body_model;
   const Stopwatch watch(times.landmarks);
-  body.measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, settings.landmarks);
+  body.measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, *body.model, landmarks::shipped_precision());
   geometry::doubt_fractured(body.mesh.fractures, body.measures);
   return body;
 }
 
-Body measure_mesh(geometry::TriangleMesh mesh, const Settings& settings, StageTimes& times) {
+Body measure_mesh(geometry::TriangleMesh mesh, const Settings&, StageTimes& times) {
   Body body = take_mesh(std::move(mesh));
+  {
+    const Stopwatch watch(times.body_model);
+    body.model = body_model::register_mesh(body_model::shipped_registrar(), body.mesh.mesh);
+  }
   const Stopwatch watch(times.landmarks);
-  body.measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, settings.landmarks);
+  body.measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, *body.model, landmarks::shipped_precision());
   return body;
 }
 

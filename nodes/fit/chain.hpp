@@ -1,9 +1,11 @@
 /// The whole chain in one process: the same core calls as the nodes make, in the same order.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "body_model/registration.hpp"
 #include "control_mesh/fit_template.hpp"
 #include "geometry/body_measures.hpp"
 #include "geometry/point_cloud.hpp"
@@ -19,7 +21,6 @@ namespace tensegric_fit::fit {
 /// Options of all stages.
 struct Settings {
   reconstruction::Options reconstruction;
-  landmarks::Options landmarks;
   control_mesh::Options control_mesh;
   tensegric::ModelOptions model;
   tensegric::SolverOptions solver;
@@ -28,12 +29,13 @@ struct Settings {
 
 /// What a stage took, milliseconds of wall clock.
 struct StageTimes {
-  double reconstruction = 0, landmarks = 0, control_mesh = 0, tensegric = 0, tffd = 0;
+  double reconstruction = 0, body_model = 0, landmarks = 0, control_mesh = 0, tensegric = 0, tffd = 0;
 };
 
 /// A body as far as it is known without a garment.
 struct Body {
   reconstruction::BodyMesh mesh;
+  std::optional<body_model::RegisteredBody> model;  ///< none of a shape that was not measured
   geometry::BodyMeasures measures;
 };
 

@@ -30,6 +30,7 @@ Json json_of(const Eigen::Isometry3d& pose) {
 Json stages_of(const StageTimes& times) {
   const auto ms = [](double value) { return Json{{"ms", value}}; };
   return {{"reconstruction", ms(times.reconstruction)},
+          {"body_model", ms(times.body_model)},
           {"landmarks", ms(times.landmarks)},
           {"control_mesh", ms(times.control_mesh)},
           {"tensegric", ms(times.tensegric)},

@@ -16,6 +16,7 @@ struct Landmark {
   Eigen::Vector3d position;
   double confidence;
   std::string reason;
+  double half_width = 0;  ///< m, radius of the ball that holds it at 95 %; 0 where nothing is said
 };
 
 /// A height above the soles or a girth, metres. Heights: bust, underbust, waist, hip, crotch, neck, stature.
@@ -25,7 +26,7 @@ struct Measure {
   double metres;
   double confidence;
   std::string reason;
-  double half_width = 0;  ///< metres, of a measured girth's 95 % interval; 0 where nothing is said
+  double half_width = 0;  ///< m, of the 95 % interval; 0 where nothing is said
 };
 
 /// The tape of a girth as drawn: a closed loop in the scan's frame.

@@ -1,21 +1,11 @@
-/// Up, front and left of a body, found from its shape alone.
+/// The body's own frame.
 #pragma once
 
-#include <string>
-
-#include "geometry/triangle_mesh.hpp"
+#include "body_model/registered_body.hpp"
 
 namespace tensegric_fit::landmarks {
 
-/// `body_from_scan`: x forward, y left, z up, origin on the floor between the feet. Confidence of the front,
-/// 0 to 1.
-struct BodyFrame {
-  Eigen::Isometry3d body_from_scan;
-  double confidence;
-  std::string reason;
-};
-
-/// \throw Refusal not_a_body, wrong_unit, missing_part:legs
-BodyFrame find_body_frame(const geometry::TriangleMesh& body);
+/// Takes the scan's frame to the body's (REP 103): x forward, y to her left, z up, on the ground between the feet.
+Eigen::Isometry3d body_frame(const body_model::RegisteredBody& body);
 
 }  // namespace tensegric_fit::landmarks

@@ -3,318 +3,268 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
+#include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
 #include "landmarks/body_frame.hpp"
-#include "landmarks/bust.hpp"
-#include "landmarks/girth_levels.hpp"
-#include "landmarks/girth_spread.hpp"
-#include "landmarks/hanging_breast.hpp"
-#include "landmarks/limb_girths.hpp"
-#include "landmarks/lower_trunk.hpp"
-#include "landmarks/neck.hpp"
-#include "landmarks/shoulders.hpp"
-#include "landmarks/stoop.hpp"
-#include "landmarks/trunk.hpp"
+#include "landmarks/finders.hpp"
+#include "landmarks/labels.hpp"
 
 namespace tensegric_fit::landmarks {
 namespace {
 
+using body_model::RegisteredBody;
 using Eigen::Vector3d;
-using geometry::BodyMeasures;
-using geometry::TriangleMesh;
+using Tape = std::vector<Vector3d>;
 
-constexpr double kUnderbustBelowFold = 0.003;  // the tape lies just under the fold
-constexpr double kHiddenFold = 0.003;          // more than that above the fold found is uncertain
-constexpr double kPocketDepth = 0.010;         // a fold in a pocket is as uncertain as that
-constexpr double kWaistAboveHip = 0.10, kWaistBelowUnderbust = 0.015;
+constexpr double kUnderbustBelowFold = 0.003;                      // m: the tape lies just under the fold (definition)
+constexpr double kWaistAboveHip = 0.10, kWaistBelowUnderbust = 0.015;  // m (definition)
+constexpr double kBreast = 0.045;     // m round the bust point: skin that says where the breast points
+constexpr double kSeat = 0.02, kBelowWaist = 0.04;  // m: buttocks from below the crotch to below the navel
+constexpr double kAboveShoulder = 0.05, kBelowFold = 0.02;  // m: the axilla is in between (definition)
+constexpr double kLevelArm = M_PI / 3;  // rad; an arm held out more has its axilla on a plane that rises with it (definition)
 
-TriangleMesh in_frame(const TriangleMesh& mesh, const Eigen::Isometry3d& frame) {
-  TriangleMesh result = mesh;
-  for (Vector3d& v : result.vertices) v = frame * v;
-  return result;
+template <typename T>
+std::optional<Vector3d> as_figure(const std::optional<T>& value) {
+  if (!value) return std::nullopt;
+  return Vector3d(*value, 0, 0);
 }
 
-// Collects results in the body's frame and gives them out in the scan's.
-class Record {
- public:
-  Record(const BodyShape& body, const std::vector<char>& filled, const BodyFrame& frame)
-      : body_(body), filled_(filled), frame_(frame), scan_from_body_(frame.body_from_scan.inverse()) {
-    measures_.body_from_scan = frame.body_from_scan;
-  }
+double length(const Tape& tape) { return geometry::length_of(tape, true); }
 
-  void landmark(const std::string& name, const Vector3d& point, double confidence = 0.9,
-                std::string reason = "") {
-    if (frame_.confidence <
-        std::min(confidence, 0.5)) {  // front and back may be swapped, and so left and right
-      confidence = frame_.confidence;
-      reason = frame_.reason;
-    }
-    if (unseen(point) && confidence > 0.45) {
-      confidence = 0.45;
-      reason = "the scan did not see the skin there";
-    }
-    measures_.landmarks.push_back({name, scan_from_body_ * point, confidence, std::move(reason)});
-  }
-
-  void height(const std::string& name, double metres, double confidence = 0.9, std::string reason = "") {
-    measures_.heights.push_back({name, metres, confidence, std::move(reason)});
-  }
-
-  /// `tape_at` gives the tape at an offset from its level; `doubt`, in metres, is what adds to its spread.
-  void girth(const std::string& name, const std::function<Tape(double)>& tape_at, double confidence = 0.9,
-             std::string reason = "", double doubt = 0) {
-    const Tape tape = tape_at(0);
-    if (tape.size() < 3) return;
-    measures_.girths.push_back({name, geometry::length_of(tape, true), confidence, std::move(reason),
-                                std::hypot(half_width_of(body_, tape_at), doubt)});
-    geometry::GirthLoop loop{name, {}};
-    for (const Vector3d& p : tape) loop.points.push_back(scan_from_body_ * p);
-    measures_.loops.push_back(std::move(loop));
-  }
-
-  /// Of the neck or a limb.
-  void girth(const std::string& name, const Tape& tape, double confidence, std::string reason) {
-    if (tape.size() < 3) return;
-    girth(
-        name, [&](double offset) { return offset == 0 ? tape : parallel_tape(body_, tape, offset); },
-        confidence, std::move(reason));
-  }
-
-  void missing(const std::string& name, const std::string& reason) {
-    measures_.missing.push_back({name, reason});
-  }
-
-  BodyMeasures take() { return std::move(measures_); }
-
- private:
-  // The nearest vertex is one of a filled hole.
-  bool unseen(const Vector3d& point) const {
-    if (filled_.empty()) return false;
-    std::size_t nearest = 0;
-    for (std::size_t v = 1; v < filled_.size(); ++v)
-      if ((body_.mesh.vertices[v] - point).squaredNorm() <
-          (body_.mesh.vertices[nearest] - point).squaredNorm())
-        nearest = v;
-    return filled_[nearest] != 0;
-  }
-
-  const BodyShape& body_;
-  const std::vector<char>& filled_;
-  const BodyFrame& frame_;
-  Eigen::Isometry3d scan_from_body_;
-  BodyMeasures measures_;
+/// One of the two surfaces that a figure is read on.
+struct Side2 {
+  Surface surface;
+  Trunk trunk;
+  explicit Side2(Surface s) : surface(std::move(s)), trunk(surface) {}
 };
 
-void sides(const Trunk& trunk, const std::string& name, double level, double confidence, Record& record) {
-  const std::vector<Outline> outline = trunk.outline_at(level);
-  if (outline.empty()) return;
-  for (Side side : {kLeft, kRight})
-    record.landmark(name + kSuffix[side], side_of(outline.front(), side), confidence,
-                    confidence < 0.5 ? "its level is by proportion" : "");
-}
+class Reader {
+ public:
+  Reader(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, const RegisteredBody& model, const Precision& precision)
+      : body_(model),
+        precision_(precision),
+        frame_(body_frame(model)),
+        mesh_(labelled(mesh, filled, model, frame_)),
+        skin_(skin_of(model, frame_)),
+        normals_(geometry::vertex_normals(skin_.surface.mesh.vertices, skin_.surface.mesh.triangles)),
+        tree_(skin_.surface.mesh.vertices) {}
 
-void limb(const std::string& name, const LimbGirth& girth, Record& record) {
-  if (girth.tape.empty()) {
-    record.missing(name, girth.reason);
-  } else {
-    record.girth(name, girth.tape, girth.confidence, girth.reason);
-  }
-}
-
-double lower_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
-  const double crotch = body.crotch.height;
-  // Thighs that touch, or a gap that the scan did not see: 0.006 statures are 10 mm.
-  const bool hidden = crotch - body.levels.legs_part > 0.006 * body.stature;
-  const double certainty = hidden ? 0.45 : 0.9;
-  const std::string hiding = hidden ? "hidden between the thighs" : "";
-  record.landmark("crotch", find_crotch(body), certainty, hiding);
-  record.height("crotch", crotch, certainty, hiding);
-
-  double sum = 0;
-  int found = 0;
-  for (Side side : {kLeft, kRight}) {
-    Vector3d point;
-    if (!find_buttock(body, side, point)) {
-      for (const char* name : {"buttock", "gluteal_fold"})
-        record.missing(std::string(name) + kSuffix[side], "no buttock stands out");
-      continue;
+  Reading read() {
+    for (const Side side : kSides) bust_point(side);
+    for (const Side side : kSides) fold(side);
+    level("bust", {"bust_point_L", "bust_point_R"}, false);
+    level_of_folds();
+    crotch();
+    for (const Side side : kSides) buttock(side);
+    level("hip", {"buttock_L", "buttock_R"}, false);
+    waist();
+    girth("bust", [&](const Trunk& t) { return t.tape(height("bust")); });
+    girth("underbust", [&](const Trunk& t) { return t.tape_of_torso(height("underbust") - kUnderbustBelowFold); });
+    girth("waist", [&](const Trunk& t) { return t.tape_of_torso(height("waist")); });
+    girth("hip", [&](const Trunk& t) { return t.tape(height("hip")); });
+    for (const Side side : kSides) {
+      shoulder(side);
+      axilla(side);
     }
-    record.landmark(std::string("buttock") + kSuffix[side], point);
-    const GlutealFold fold = find_gluteal_fold(body, point);
-    record.landmark(std::string("gluteal_fold") + kSuffix[side], fold.point, fold.confidence, fold.reason);
-    sum += point.z();
-    ++found;
+    neck();
+    stature();
+    return {frame_, std::move(figures_)};
   }
-  for (Side side : {kLeft, kRight})
-    limb(std::string("thigh") + kSuffix[side], find_thigh_girth(body, side), record);
-  const double hip = found > 0 ? sum / found : crotch + 0.05 * body.stature;
-  record.height("hip", hip, found > 0 ? 0.9 : 0.3,
-                found > 0 ? "" : "no buttock stands out; a level by proportion");
-  record.girth("hip", [&](double offset) { return tape_loop(trunk.outline_at(hip + offset)); });
-  sides(trunk, "hip_side", hip, found > 0 ? 0.9 : 0.3, record);
-  return hip;
-}
 
-double underbust(const BodyShape& body, const Trunk& trunk, const std::array<Vector3d, 2>& tips,
-                 Record& record) {
-  double height = 1e9, seen = 1e9, confidence = 1;
-  bool in_pocket = false, inferred = false;
-  std::string reason;
-  for (Side side : {kLeft, kRight}) {
-    Fold fold = find_fold(body, tips[side], side);
-    const double above_web = fold_above_web(body, trunk, fold.lowest, tips[side], side);
-    if (above_web > kHiddenFold && !fold.in_pocket) {
-      fold.confidence = std::min(fold.confidence, 0.45);
-      fold.reason = "the breast hangs over its fold; where it is one with the chest";
+ private:
+  Vector3d expected(const std::string& name) const { return frame_ * body_.skin_point(name); }
+
+  /// RegisteredBody::support round a point.
+  double support_at(const Vector3d& point) const { return std::min(body_.support[tree_.nearest(point)], kWorst); }
+  double support_along(const Tape& tape) const {
+    double sum = 0;
+    for (const Vector3d& p : tape) sum += support_at(p);
+    return tape.empty() ? kWorst : sum / static_cast<double>(tape.size());
+  }
+
+  void add(Kind kind, const std::string& name, std::optional<Vector3d> on_mesh, std::optional<Vector3d> on_model, double support, Tape loop = {}) {
+    if (!on_mesh && !on_model) return;
+    figures_.push_back({kind, name, std::move(on_mesh), std::move(on_model), support, body_.residual, std::move(loop)});
+  }
+  const Figure* find(Kind kind, const std::string& name) const {
+    const auto found = std::find_if(figures_.begin(), figures_.end(), [&](const Figure& f) { return f.kind == kind && f.name == name; });
+    return found == figures_.end() ? nullptr : &*found;
+  }
+  Vector3d point(const std::string& name) const { return settle(*find(Kind::point, name), precision_, body_.scanned).value; }
+  double height(const std::string& name) const { return settle(*find(Kind::height, name), precision_, body_.scanned).value.x(); }
+
+  void bust_point(Side side) {
+    const std::string name = std::string("bust_point") + kSuffix[side];
+    const Vector3d there = expected(name);
+    Vector3d outward = Vector3d::Zero();
+    for (std::size_t v = 0; v < normals_.size(); ++v)
+      if ((skin_.surface.mesh.vertices[v] - there).norm() < kBreast && skin_.surface.arm[v] < 0.5) outward += normals_[v];
+    const BustPoint found = find_bust_point(mesh_.surface, there, outward.normalized());
+    add(Kind::point, name, found.nipple, there, support_at(there));
+  }
+
+  void fold(Side side) {
+    const Vector3d tip = point(std::string("bust_point") + kSuffix[side]);
+    const Fold on_model = find_fold(skin_.trunk, tip, side, {});
+    const Fold on_mesh = find_fold(mesh_.trunk, tip, side, on_model.places);
+    lowest_[0][side] = on_mesh.places.empty() ? std::nullopt : std::optional<Vector3d>(on_mesh.lowest);
+    lowest_[1][side] = on_model.places.empty() ? std::nullopt : std::optional<Vector3d>(on_model.lowest);
+    const auto first = [](const Fold& f) { return f.places.empty() ? std::nullopt : std::optional<Vector3d>(f.places.front()); };
+    if (!on_model.places.empty()) add(Kind::point, std::string("underbust") + kSuffix[side], first(on_mesh), first(on_model), support_at(on_model.places.front()));
+  }
+
+  /// The mean height of points.
+  void level(const std::string& name, const std::vector<std::string>& points, bool) {
+    std::optional<double> on_mesh = 0.0, on_model = 0.0;
+    double support = 0;
+    for (const std::string& p : points) {
+      const Figure* figure = find(Kind::point, p);
+      if (figure == nullptr) return;
+      const auto take = [&](std::optional<double>& sum, const std::optional<Vector3d>& value) {
+        if (sum && value) *sum += value->z() / static_cast<double>(points.size());
+        else sum.reset();
+      };
+      take(on_mesh, figure->on_mesh);
+      take(on_model, figure->on_model);
+      support = std::max(support, figure->support);
     }
-    record.landmark(std::string("underbust") + kSuffix[side], fold.below_bust_point, fold.confidence,
-                    fold.reason);
-    seen = std::min(seen, fold.lowest);
-    const double told = above_web > 0 ? std::max(fold.by_walls, fold.lowest + above_web) : fold.by_walls;
-    if (told < height) {
-      height = told;
-      inferred = above_web == 0;
+    add(Kind::height, name, as_figure(on_mesh), as_figure(on_model), support);
+  }
+
+  void level_of_folds() {
+    std::optional<double> lowest[2];
+    double support = 0;
+    for (int s = 0; s < 2; ++s)
+      if (lowest_[s][0] && lowest_[s][1]) lowest[s] = std::min(lowest_[s][0]->z(), lowest_[s][1]->z());
+    for (const Side side : kSides)
+      if (lowest_[1][side]) support = std::max(support, support_at(*lowest_[1][side]));
+    add(Kind::height, "underbust", as_figure(lowest[0]), as_figure(lowest[1]), support);
+  }
+
+  void crotch() {
+    const Vector3d there = expected("crotch");
+    const auto on_mesh = find_crotch(mesh_.surface, there);
+    add(Kind::point, "crotch", on_mesh, there, support_at(there));
+    add(Kind::height, "crotch", as_figure(on_mesh ? std::optional<double>(on_mesh->z()) : std::nullopt), Vector3d(there.z(), 0, 0), support_at(there));
+  }
+
+  void buttock(Side side) {
+    const double lowest = expected("crotch").z() - kSeat, highest = expected("navel").z() - kBelowWaist;
+    const Vector3d* rearmost = nullptr;
+    for (std::size_t v = 0; v < normals_.size(); ++v) {
+      const Vector3d& p = skin_.surface.mesh.vertices[v];
+      if (skin_.surface.arm[v] > 0.5 || kSign[side] * (p.y() - expected_crotch_y()) < kSeat || p.z() < lowest || p.z() > highest) continue;
+      if (rearmost == nullptr || p.x() < rearmost->x()) rearmost = &p;
     }
-    in_pocket = in_pocket || fold.in_pocket;
-    if (fold.confidence < confidence) {
-      confidence = fold.confidence;
-      reason = fold.reason;
-    }
+    if (rearmost == nullptr) return;
+    add(Kind::point, std::string("buttock") + kSuffix[side], find_buttock(mesh_.trunk, *rearmost), find_buttock(skin_.trunk, *rearmost), support_at(*rearmost));
   }
-  record.height("underbust", height, confidence, reason);
-  seen -= kUnderbustBelowFold;
-  const double level = height - kUnderbustBelowFold;
-  const auto trunk_at = [&](double at) {
-    std::vector<Outline> outline = trunk.outline_at(at);
-    for (Outline& section : outline) section = without_hanging_breasts(section, tips, body.stature);
-    return outline;
-  };
-  const auto tape_at = [&](double offset) {
-    if (inferred && level > seen) return tape_carried_up(trunk_at, seen, level + offset);
-    return tape_loop(trunk_at(level + offset));
-  };
-  const double doubt =
-      in_pocket ? std::abs(tape_length(trunk_at(seen)) - tape_length(trunk_at(seen - kPocketDepth))) : 0;
-  record.girth("underbust", tape_at, confidence, reason, doubt);
-  return height;
-}
+  double expected_crotch_y() const { return expected("crotch").y(); }
 
-double bust(const BodyShape& body, const Trunk& trunk, Record& record) {
-  double height = 0, confidence = 1;
-  std::string reason;
-  std::array<Vector3d, 2> tips;
-  for (Side side : {kLeft, kRight}) {
-    const BustPoint tip = find_bust_point(body, trunk, side);
-    record.landmark(std::string("bust_point") + kSuffix[side], tip.point, tip.confidence, tip.reason);
-    height += tip.point.z() / 2;
-    if (tip.confidence < confidence) {
-      confidence = tip.confidence;
-      reason = tip.reason;
-    }
-    tips[side] = tip.point;
-  }
-  record.height("bust", height, confidence, reason);
-  record.girth(
-      "bust", [&](double offset) { return tape_loop(trunk.outlines_with_breasts_at(height + offset)); },
-      confidence, reason);
-  return underbust(body, trunk, tips, record);
-}
-
-void waist(const BodyShape& body, const Trunk& trunk, double hip, double underbust, Record& record) {
-  const WaistLevel level = find_waist(body, trunk, hip + kWaistAboveHip, underbust - kWaistBelowUnderbust);
-  record.height("waist", level.height, level.confidence, level.reason);
-  record.girth(
-      "waist", [&](double offset) { return tape_loop(trunk.outline_at(level.height + offset)); },
-      level.confidence, level.reason);
-  sides(trunk, "waist_side", level.height, level.confidence, record);
-
-  const double navel = navel_height(body);
-  const std::vector<Outline> outline = trunk.outline_at(navel);
-  if (outline.empty()) return;
-  Vector3d front = outline.front().points.front();
-  for (const Vector3d& p : outline.front().points) {
-    const bool nearer =
-        std::abs(p.y() - outline.front().centroid.y()) < std::abs(front.y() - outline.front().centroid.y());
-    if (p.x() > outline.front().centroid.x() && (nearer || front.x() < outline.front().centroid.x()))
-      front = p;
-  }
-  record.landmark("navel", front, 0.4, "its level is by proportion");
-}
-
-void neck(const BodyShape& body, const Neck& found, Record& record) {
-  if (!found.found) {
-    for (const char* name : {"neck_front", "neck_back", "neck_side_L", "neck_side_R", "neck"})
-      record.missing(name, found.missing);
-    return;
-  }
-  record.landmark("neck_front", found.front, found.confidence, found.reason);
-  record.landmark("neck_back", find_neck_back(body, found), found.confidence, found.reason);
-  for (Side side : {kLeft, kRight})
-    record.landmark(std::string("neck_side") + kSuffix[side], find_neck_side(body, found, side),
-                    found.confidence, found.reason);
-  record.height("neck", found.origin.z(), found.confidence, found.reason);
-  record.girth("neck", found.tape, found.confidence, found.reason);
-}
-
-void arms(const BodyShape& body, const Trunk& trunk, const Neck& found_neck, Record& record) {
-  ShoulderHints hints;
-  if (found_neck.found) hints.stoop = stoop_of(body, found_neck);
-  for (Side side : {kLeft, kRight}) {
-    const Axilla& axilla = trunk.axilla(side);
-    const std::string suffix = kSuffix[side];
-    if (!axilla.found) {
-      for (const char* name : {"axilla", "upper_arm"})
-        record.missing(name + suffix, "no arm parts from the trunk");
-      continue;
-    }
-    record.landmark("axilla" + suffix, axilla.point, axilla.filled ? 0.45 : 0.9,
-                    axilla.filled ? "the armpit is filled with skin that the scan did not see" : "");
-    const LimbGirth girth = find_upper_arm_girth(body, axilla, side);
-    limb("upper_arm" + suffix, girth, record);
-    if (!girth.tape.empty()) hints.arm_girths[side] = geometry::length_of(girth.tape, true);
-  }
-  for (Side side : {kLeft, kRight}) {
-    const std::string name = std::string("shoulder") + kSuffix[side];
-    const Shoulder shoulder = find_shoulder(body, trunk, found_neck, hints, side);
-    if (shoulder.found) {
-      record.landmark(name, shoulder.point, shoulder.confidence, shoulder.reason);
+  void waist() {
+    if (find(Kind::height, "hip") == nullptr || find(Kind::height, "underbust") == nullptr) return;
+    const double low = height("hip") + kWaistAboveHip, high = height("underbust") - kWaistBelowUnderbust;
+    const auto on_mesh = find_waist(mesh_.trunk, low, high), on_model = find_waist(skin_.trunk, low, high);
+    if (on_mesh && on_model) {
+      add(Kind::height, "waist", as_figure(on_mesh), as_figure(on_model), support_along(skin_.trunk.tape_of_torso(*on_model)));
     } else {
-      record.missing(name, shoulder.reason);
+      no_waist_ = true;
+      add(Kind::height, "waist", std::nullopt, Vector3d(expected("navel").z(), 0, 0), kWorst);
     }
   }
-}
 
-void upper_trunk(const BodyShape& body, const Trunk& trunk, Record& record) {
-  const Neck found_neck = find_neck(body, trunk);
-  neck(body, found_neck, record);
-  arms(body, trunk, found_neck, record);
-  if (body.levels.has_head) {
-    record.height("stature", body.stature);
-  } else {
-    record.height("stature", body.stature, 0.3, "no head; estimated from the length of the legs");
+  template <typename TapeOf>
+  void girth(const std::string& name, const TapeOf& tape_of) {
+    if (find(Kind::height, name) == nullptr) return;
+    girth_of(name, tape_of(mesh_.trunk), tape_of(skin_.trunk));
   }
-}
+  void girth_of(const std::string& name, Tape on_mesh, Tape on_model) {
+    if (on_mesh.size() < 3 && on_model.size() < 3) return;
+    const auto value = [](const Tape& t) { return t.size() < 3 ? std::nullopt : std::optional<double>(length(t)); };
+    const double support = support_along(on_model.size() < 3 ? on_mesh : on_model);
+    add(Kind::girth, name, as_figure(value(on_mesh)), as_figure(value(on_model)), support, on_mesh.size() < 3 ? on_model : on_mesh);
+  }
+
+  void shoulder(Side side) {
+    const Vector3d bone = frame_ * body_.bone_point(std::string("acromion") + kSuffix[side]);
+    add(Kind::point, std::string("shoulder") + kSuffix[side], skin_above(mesh_.surface, bone), skin_above(skin_.surface, bone), support_at(bone));
+  }
+
+  void axilla(Side side) {
+    const std::string arm = kSuffix[side] + 1;
+    const Vector3d way = frame_.linear() * (body_.joint("lowerarm01." + arm) - body_.joint("upperarm01." + arm));
+    const double raised = std::atan2(kSign[side] * way.y(), -way.z()), rise = raised >= kLevelArm ? raised / 2 : 0;
+    const Vector3d bone = frame_ * body_.bone_point(std::string("acromion") + kSuffix[side]);
+    const auto lowest = lowest_[1][side] ? lowest_[1][side]->z() : expected(std::string("bust_point") + kSuffix[side]).z();
+    const auto on_mesh = find_axilla(mesh_.surface, side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
+    const auto on_model = find_axilla(skin_.surface, side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
+    add(Kind::point, std::string("axilla") + kSuffix[side], on_mesh, on_model, support_at(on_model ? *on_model : bone));
+  }
+
+  void neck() {
+    const Vector3d front = expected("neck_ring_front"), back = expected("neck_ring_back"), left = expected("neck_ring_L"), right = expected("neck_ring_R");
+    const Vector3d base = (front + back + left + right) / 4, along = (front - back).cross(left - right).normalized();
+    girth_of("neck", find_neck(mesh_.surface, base, along), find_neck(skin_.surface, base, along));
+    add(Kind::height, "neck", std::nullopt, Vector3d(base.z(), 0, 0), support_at(front));
+    for (const char* name : {"neck_front", "neck_back", "neck_side_L", "neck_side_R", "navel"})
+      add(Kind::point, name, std::nullopt, expected(name), support_at(expected(name)));
+  }
+
+  void stature() {
+    const auto top = [](const Surface& s) { return geometry::bounding_box(s.mesh.vertices)[1].z(); };
+    Vector3d crown = skin_.surface.mesh.vertices.front();
+    for (const Vector3d& p : skin_.surface.mesh.vertices)
+      if (p.z() > crown.z()) crown = p;
+    add(Kind::height, "stature", Vector3d(top(mesh_.surface), 0, 0), Vector3d(crown.z(), 0, 0), support_at(crown));
+  }
+
+  static constexpr double kWorst = 0.1;  // m; support is no worse than that
+
+  const RegisteredBody& body_;
+  const Precision& precision_;
+  Eigen::Isometry3d frame_;
+  Side2 mesh_, skin_;
+  std::vector<Vector3d> normals_;
+  geometry::PointTree tree_;
+  std::vector<Figure> figures_;
+  std::array<std::array<std::optional<Vector3d>, 2>, 2> lowest_;  ///< of the folds: on mesh and model, left and right
+  bool no_waist_ = false;
+};
 
 }  // namespace
 
-BodyMeasures find_landmarks(const TriangleMesh& mesh, const std::vector<char>& filled, const Options&) {
+Reading read_figures(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, const RegisteredBody& model, const Precision& precision) {
   geometry::check_mesh(mesh);
-  if (mesh.triangles.empty())
-    throw geometry::Refusal(geometry::refusal::kNotABody, "not a standing body: the mesh has no triangles");
+  if (mesh.triangles.empty()) throw geometry::Refusal(geometry::refusal::kBadMesh, "the mesh has no triangles");
   if (!filled.empty() && filled.size() != mesh.vertices.size())
-    throw geometry::Refusal(geometry::refusal::kBadMesh, "one flag a vertex is needed to tell filled holes");
+    throw geometry::Refusal(geometry::refusal::kBadMesh, "one flag per vertex is needed to know filled holes");
+  return Reader(mesh, filled, model, precision).read();
+}
 
-  const BodyFrame frame = find_body_frame(mesh);
-  const BodyShape body(in_frame(mesh, frame.body_from_scan), filled);
-  const Trunk trunk(body);
-  Record record(body, filled, frame);
-  const double hip = lower_trunk(body, trunk, record);
-  const double underbust = bust(body, trunk, record);
-  waist(body, trunk, hip, underbust, record);
-  upper_trunk(body, trunk, record);
-  return record.take();
+geometry::BodyMeasures find_landmarks(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, const RegisteredBody& model,
+                                      const Precision& precision) {
+  const Reading reading = read_figures(mesh, filled, model, precision);
+  geometry::BodyMeasures measures;
+  measures.body_from_scan = reading.body_from_scan;
+  const Eigen::Isometry3d scan_from_body = reading.body_from_scan.inverse();
+  for (const Figure& figure : reading.figures) {
+    const Settled settled = settle(figure, precision, model.scanned);
+    const double limit = limit_of(figure), confidence = limit / (limit + settled.half_width);
+    const std::string reason = confidence < 0.5 ? "its 95 % interval is wider than ISO 20685 allows" : "";
+    switch (figure.kind) {
+      case Kind::point: measures.landmarks.push_back({figure.name, scan_from_body * settled.value, confidence, reason, settled.half_width}); break;
+      case Kind::height: measures.heights.push_back({figure.name, settled.value.x(), confidence, reason, settled.half_width}); break;
+      case Kind::girth: {
+        measures.girths.push_back({figure.name, settled.value.x(), confidence, reason, settled.half_width});
+        geometry::GirthLoop loop{figure.name, {}};
+        for (const Vector3d& p : figure.loop) loop.points.push_back(scan_from_body * p);
+        measures.loops.push_back(std::move(loop));
+        break;
+      }
+    }
+  }
+  return measures;
 }
 
 }  // namespace tensegric_fit::landmarks

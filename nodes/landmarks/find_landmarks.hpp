@@ -1,19 +1,28 @@
-/// Body mesh -> landmarks, heights, girths (ISO 8559-1 names; DESIGN §2 and §6).
+/// Body mesh and the body model registered to it -> landmarks, heights, girths (ISO 8559-1 names; DESIGN §2 and §6).
 #pragma once
 
 #include <vector>
 
+#include "body_model/registered_body.hpp"
 #include "geometry/body_measures.hpp"
 #include "geometry/triangle_mesh.hpp"
+#include "landmarks/figures.hpp"
 
 namespace tensegric_fit::landmarks {
 
-/// Field defaults are the parameters' defaults.
-struct Options {};
+/// What is known of every figure of a body before it is settled how much mesh and model count, in the body's frame.
+struct Reading {
+  Eigen::Isometry3d body_from_scan;
+  std::vector<Figure> figures;
+};
 
-/// `filled` is empty or has one flag a vertex: 1 where the scan saw nothing; landmarks there are less
-/// certain. \throw Refusal not_a_body, wrong_unit, missing_part:<part>
-geometry::BodyMeasures find_landmarks(const geometry::TriangleMesh& body, const std::vector<char>& filled,
-                                      const Options& options);
+/// `filled` is empty or has one flag a vertex: 1 where the scan saw nothing. `model`: registered to the same person, in the mesh's
+/// frame. \throw Refusal bad_mesh, non_finite
+Reading read_figures(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, const body_model::RegisteredBody& model,
+                     const Precision& precision);
+
+/// \throw Refusal as read_figures
+geometry::BodyMeasures find_landmarks(const geometry::TriangleMesh& mesh, const std::vector<char>& filled,
+                                      const body_model::RegisteredBody& model, const Precision& precision);
 
 }  // namespace tensegric_fit::landmarks

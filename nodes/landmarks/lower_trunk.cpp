@@ -1,101 +1,137 @@
-#include "landmarks/lower_trunk.hpp"
-
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "landmarks/profile.hpp"
-#include "landmarks/surface_point.hpp"
+#include "landmarks/finders.hpp"
 
 namespace tensegric_fit::landmarks {
 namespace {
 
-// Statures: the perineum's middle, on bone, however far back thighs touch; and of what thighs are deeper than
-// slim ones, this share lies as fat before the bone.
-constexpr double kBehindPubis = 0.044, kSlimThigh = 0.092, kFatBefore = 0.08;
-constexpr double kThighBelowCrotch = 0.03;
+using Eigen::Vector3d;
 
-// Statures over the crotch: buttocks stand out 0.048 to 0.062 up, rolls of the back from 0.10 on.
-constexpr double kLowestSeat = -0.02, kHighestSeat = 0.09;
+constexpr double kLevels = 0.0025, kSmoothing = 2;  // m between tapes; levels: deviation of the Gaussian over their girths
+constexpr int kEnd = 3;                             // levels; a least girth this near the end of the search is the end's
+constexpr double kBottom = 0.0176;                  // m each way, of the parabola through the least girth
+constexpr double kMoved = 0.006;                    // m that it may move the level
+constexpr double kSeat = 0.040, kNarrowSeat = 0.025;  // m of a buttock's profile up and down; where that is round enough, less
+constexpr double kLeastRound = 2;                     // 1/m; flatter profiles have no apex
+constexpr double kBeside = 0.010, kProfile = 0.12;    // m to the sides; of a profile's length
+constexpr int kProfiles = 4;                          // on each side of the middle one
+constexpr double kMidline = 0.010, kPerineum = 0.04;  // m: to the sides and round it
 
-constexpr double kThigh = 0.13;  // statures under the buttock point: the back of the thigh, below the fold
-constexpr double kFoldByProportion = 0.065;
-constexpr double kFoldDepth = 0.003;  // m under the straight edge; less is no fold
+/// Where a quadratic surface through the skin of a buttock is rearmost; `start` where it is so nowhere near.
+Vector3d rearmost_near(const Surface& surface, const Vector3d& start) {
+  Vector3d place = start;
+  for (int pass = 0; pass < 8; ++pass) {
+    const std::vector<int> near = vertices_near(surface, place, kSeat, [&](int v) { return surface.arm[v] < 0.5; });
+    if (near.size() < 12) return start;  // twice the unknowns
+    Eigen::MatrixXd terms(near.size(), 6);
+    Eigen::VectorXd depth(near.size());
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      const Vector3d d = (surface.mesh.vertices[near[i]] - place) / kSeat;
+      terms.row(static_cast<int>(i)) << 1, d.y(), d.z(), d.y() * d.y(), d.y() * d.z(), d.z() * d.z();
+      depth[static_cast<int>(i)] = d.x();
+    }
+    const Eigen::VectorXd c = terms.colPivHouseholderQr().solve(depth);
+    Eigen::Matrix2d curvature;
+    curvature << 2 * c[3], c[4], c[4], 2 * c[5];
+    if (curvature.determinant() <= 0 || curvature.trace() <= 0) return start;
+    Eigen::Vector2d step = -curvature.inverse() * Eigen::Vector2d(c[1], c[2]);
+    if (step.norm() > 0.5) step *= 0.5 / step.norm();
+    place += kSeat * Vector3d(c[0], step.x(), step.y());
+    if ((place - start).norm() > kSeat) return start;
+    if (step.norm() < 0.01) break;
+  }
+  return place;
+}
 
-constexpr double kFlatSide = 0.003;  // m
+double girth(const std::vector<Vector3d>& tape) { return tape.size() < 3 ? -1 : geometry::length_of(tape, true); }
 
 }  // namespace
 
-bool find_buttock(const BodyShape& body, Side side, Eigen::Vector3d& point) {
-  const double s = body.stature, crotch = body.crotch.height;
-  const double near = kSign[side] * 0.01 * s,
-               far = kSign[side] * 0.10 * s;  // beside the cleft, within the hips
-  const Level& level = body.levels.levels[body.levels.nearest(crotch + 0.05 * s)];
-  if (level.trunk < 0) return false;
-  const Eigen::Vector2d& middle = level.outlines[level.trunk].centroid;
-  const std::vector<int> seat =
-      vertices_in_box(body, {middle.x() - s, middle.y() + std::min(near, far), crotch + kLowestSeat * s},
-                      {middle.x(), middle.y() + std::max(near, far), crotch + kHighestSeat * s});
-  if (seat.empty()) return false;
-  const Eigen::Vector3d back = -Eigen::Vector3d::UnitX();
-  // 35 mm of skin: wide enough that half a millimetre of noise moves the apex by a millimetre only.
-  point = apex_of_bulge(body, body.mesh.vertices[furthest_vertex(body, seat, back)], back, 0.021 * s);
-  return true;
-}
-
-GlutealFold find_gluteal_fold(const BodyShape& body, const Eigen::Vector3d& buttock) {
-  const double s = body.stature, beside = 0.01;
-  const std::vector<int> skin = triangles_in_box(
-      body, {buttock.x() - 0.02 * s, buttock.y() - beside, buttock.z() - (kThigh + 0.03) * s},
-      {buttock.x() + 0.09 * s, buttock.y() + beside, buttock.z()});
-  const Profile profile = cut_profile(body, skin, buttock, -Eigen::Vector3d::UnitX());
-  const Eigen::Vector3d* deepest = nullptr;
-  const Eigen::Vector3d* by_proportion = nullptr;
-  if (!profile.points.empty() && profile.points.back().z() < buttock.z() - kThigh * s) {
-    const Eigen::Vector3d edge = (profile.points.back() - buttock).normalized();
-    const Eigen::Vector3d inwards = profile.sideways.cross(edge);
-    double depth = kFoldDepth;
-    for (const Eigen::Vector3d& p : profile.points) {
-      if (by_proportion == nullptr && p.z() < buttock.z() - kFoldByProportion * s) by_proportion = &p;
-      if (inwards.dot(p - buttock) <= depth) continue;
-      depth = inwards.dot(p - buttock);
-      deepest = &p;
+std::optional<Vector3d> find_buttock(const Trunk& trunk, const Vector3d& start_at) {
+  const Vector3d expected = rearmost_near(trunk.surface(), start_at);
+  // Profiles side by side: of each the parabola's apex, and the median of them.
+  std::vector<Vector3d> apexes;
+  for (int i = -kProfiles; i <= kProfiles; ++i) {
+    const Vector3d start = expected + kBeside * i / kProfiles * Vector3d::UnitY();
+    Profile profile = profile_down(trunk, start + kSeat * Vector3d::UnitZ(), kProfile);
+    for (const double reach : {kNarrowSeat, kSeat}) {
+      Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+      Vector3d sums = Vector3d::Zero();
+      for (const Vector3d& p : profile.points) {
+        const Vector3d d = (p - start) / kSeat;
+        if (std::abs(p.z() - start.z()) > reach || d.x() > 1) continue;
+        const Vector3d terms(1, d.z(), d.z() * d.z());
+        squares += terms * terms.transpose();
+        sums += d.x() * terms;
+      }
+      if (squares(0, 0) < kNarrowSeat / Profile::kStep) continue;  // half of the profile's points
+      const Vector3d c = squares.ldlt().solve(sums);
+      if (c[2] < kLeastRound * kSeat / 2) continue;  // flat: the wider reach may tell
+      const double up = std::clamp(-c[1] / (2 * c[2]), -0.5, 0.5);
+      apexes.emplace_back(start + kSeat * Vector3d(c[0] + up * (c[1] + up * c[2]), 0, up));
+      break;
     }
   }
-  if (deepest != nullptr) return {*deepest, 0.8, ""};
-  return {
-      by_proportion != nullptr ? *by_proportion : buttock - kFoldByProportion * s * Eigen::Vector3d::UnitZ(),
-      0.3, "no fold under the buttock; a level by proportion"};
+  if (apexes.empty()) return std::nullopt;
+  std::sort(apexes.begin(), apexes.end(), [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); });
+  return apexes[apexes.size() / 2];
 }
 
-Eigen::Vector3d side_of(const Outline& outline, Side side) {
-  double farthest = -1e9, x_sum = 0;
-  for (const Eigen::Vector3d& p : outline.points) farthest = std::max(farthest, kSign[side] * p.y());
-  int count = 0;
-  for (const Eigen::Vector3d& p : outline.points) {
-    if (kSign[side] * p.y() < farthest - kFlatSide) continue;
-    x_sum += p.x();
-    ++count;
+std::optional<double> find_waist(const Trunk& trunk, double lowest, double highest) {
+  std::vector<double> heights, raw;
+  for (double z = lowest; z <= highest + 1e-9; z += kLevels) {
+    const double g = girth(trunk.tape_of_torso(z));
+    if (g < 0) continue;
+    heights.push_back(z);
+    raw.push_back(g);
   }
-  const double x = x_sum / count;
-  const Eigen::Vector3d* best = &outline.points.front();
-  const auto off_middle = [&](const Eigen::Vector3d& p) {
-    return kSign[side] * p.y() < farthest - kFlatSide ? 1e9 : std::abs(p.x() - x);
-  };
-  for (const Eigen::Vector3d& p : outline.points)
-    if (off_middle(p) < off_middle(*best)) best = &p;
-  return *best;
+  const int count = static_cast<int>(raw.size());
+  if (count <= 2 * kEnd + 2) return std::nullopt;
+  std::vector<double> girths(count);
+  for (int i = 0; i < count; ++i) {
+    double sum = 0, weight = 0;
+    for (int k = -8; k <= 8; ++k) {
+      const double w = std::exp(-0.5 * k * k / (kSmoothing * kSmoothing));
+      int j = i + k;  // mirrored at the ends
+      if (j < 0) j = -1 - j;
+      if (j >= count) j = 2 * count - 1 - j;
+      sum += w * raw[std::clamp(j, 0, count - 1)];
+      weight += w;
+    }
+    girths[i] = sum / weight;
+  }
+  const int least = static_cast<int>(std::min_element(girths.begin(), girths.end()) - girths.begin());
+  if (least < kEnd || least >= count - kEnd) return std::nullopt;
+  std::vector<int> near;
+  for (int i = 0; i < count; ++i)
+    if (std::abs(heights[i] - heights[least]) < kBottom) near.push_back(i);
+  Eigen::MatrixXd terms(near.size(), 3);
+  Eigen::VectorXd values(near.size());
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    const double d = heights[near[i]] - heights[least];
+    terms.row(static_cast<int>(i)) << 1, d, d * d;
+    values[static_cast<int>(i)] = girths[near[i]];
+  }
+  const Eigen::Vector3d c = terms.colPivHouseholderQr().solve(values);
+  return heights[least] + (c[2] > 0 ? std::clamp(-c[1] / (2 * c[2]), -kMoved, kMoved) : 0);
 }
 
-Eigen::Vector3d find_crotch(const BodyShape& body) {
-  const double y = body.crotch.above.y, s = body.stature;
-  const Bridge bridge = narrowest_bridge(body.sliced.outlines_at(body.crotch.height + 0.008 * s), y, y);
-  const Level& thighs = body.levels.levels[body.levels.nearest(
-      std::min(body.crotch.height - kThighBelowCrotch * s, body.levels.legs_part))];
-  double depth = 0;
-  for (const int leg : thighs.legs)
-    if (leg >= 0) depth += (thighs.outlines[leg].high.x() - thighs.outlines[leg].low.x()) / (2 * s);
-  const double behind = kBehindPubis + kFatBefore * std::max(depth - kSlimThigh, 0.0);
-  return {std::max(bridge.front - behind * s, bridge.back), y, body.crotch.height};
+std::optional<Vector3d> find_crotch(const Surface& surface, const Vector3d& expected) {
+  std::optional<Vector3d> lowest;
+  const auto all = [](const Eigen::Vector3i&) { return true; };
+  double nearest = kPerineum;
+  for (const geometry::SectionLoop& loop : cut(surface, expected, Vector3d::UnitY(), all)) {
+    double far = 1e9;
+    for (const Vector3d& p : loop.points) far = std::min(far, (p - expected).norm());
+    if (far >= nearest) continue;
+    nearest = far;
+    lowest.reset();
+    for (const Vector3d& p : loop.points)
+      if ((p - expected).norm() < 0.06 && (!lowest || p.z() < lowest->z())) lowest = p;
+  }
+  return lowest;
 }
 
 }  // namespace tensegric_fit::landmarks

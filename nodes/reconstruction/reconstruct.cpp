@@ -17,18 +17,18 @@
 #include "reconstruction/poisson.hpp"
 #include "reconstruction/registration.hpp"
 #include "reconstruction/repair.hpp"
-#include "reconstruction/sight_lines.hpp"
-#include "reconstruction/soles.hpp"
 #include "reconstruction/standing.hpp"
 #include "reconstruction/support.hpp"
 #include "reconstruction/surface_fit.hpp"
 #include "reconstruction/surface_points.hpp"
 #include "reconstruction/thinning.hpp"
+#include "reconstruction/unseen_skin.hpp"
 #include "reconstruction/validate.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
 
+using body_model::RegisteredBody;
 using geometry::PointCloud;
 using geometry::TriangleMesh;
 
@@ -44,8 +44,7 @@ constexpr double kLowestBust = 0.53, kHighestBust = 0.88;  // of the height: fro
 constexpr double kBeltShare = 0.15, kBeltLow = 0.66, kBeltHigh = 0.78;
 constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher stands on something else
 
-const double kFlatOnFloor =
-    std::cos(2.5 * M_PI / 180);  // soles that are less level than that do not lie on the floor
+constexpr double kSampleCube = 0.007;  // m: 30,000 samples of a person
 
 void transform(PointCloud& cloud, const Eigen::Isometry3d& by) {
   for (Eigen::Vector3d& p : cloud.points) p = by * p;
@@ -97,7 +96,7 @@ double cell_width(const std::vector<Eigen::Vector3d>& points, int depth) {
 }
 
 /// The body's points, upright, the ground under the soles at z = 0; `from_scan` takes the scan to them.
-PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometry3d& from_scan) {
+PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometry3d& from_scan, bool& on_floor) {
   const std::optional<Floor> floor = find_floor(pick(scan, without_stray(scan.points)).points);
   const Eigen::Vector3d middle = geometry::bounding_box(scan.points)[0];
   from_scan = floor ? level(floor->normal, floor->offset, middle)
@@ -117,22 +116,22 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
     body = pick(body, body_points(body.points));
   }
   check_shape(body.points, options);
-  Eigen::Isometry3d to_ground = resting_plane(body.points);
-  const bool leans = to_ground.linear()(2, 2) < kFlatOnFloor;
-  if (!floor || leans || lowest_of(body.points) > kOffTheFloor) {
-    // The booth's vertical, where it can be hers, is better than what is seen of the soles.
-    if (!leans)
-      to_ground =
-          level(Eigen::Vector3d::UnitZ(), lowest_of(body.points), geometry::bounding_box(body.points)[0]);
-    transform(body, to_ground);
-    const Eigen::Translation3d down(0, 0, -ground_under(body.points));
-    transform(body, Eigen::Isometry3d(down));
-    from_scan = down * to_ground * from_scan;
+  on_floor = floor && lowest_of(body.points) <= kOffTheFloor;
+  if (!on_floor) {
+    const Eigen::Isometry3d down(Eigen::Translation3d(0, 0, -lowest_of(body.points)));
+    transform(body, down);
+    from_scan = down * from_scan;
   }
   return body;
 }
 
-}  // namespace
+/// What a scan shows of a person.
+struct Person {
+  PointCloud cloud;                           ///< with outward normals, upright, the ground under the soles at z = 0
+  Eigen::Isometry3d from_scan;                ///< takes the scan to the cloud's frame
+  bool on_floor;                              ///< the floor was seen: z = 0 is it
+  std::vector<geometry::Fracture> fractures;  ///< scan frame; mended in the cloud where it is known who saw what
+};
 
 Person find_person(const PointCloud& scan, const Options& options) {
   check_options(options);
@@ -140,7 +139,7 @@ Person find_person(const PointCloud& scan, const Options& options) {
   // sensor where the others see them.
   Person person;
   PointCloud& body = person.cloud;
-  body = standing_body(without_surplus(usable_points(scan, options), options), options, person.from_scan);
+  body = standing_body(without_surplus(usable_points(scan, options), options), options, person.from_scan, person.on_floor);
   const Sightings sightings =
       body.sensor.empty() ? sightings_of(body.points) : Sightings{std::move(body.sensor), {}};
   body.sensor.clear();
@@ -155,13 +154,34 @@ Person find_person(const PointCloud& scan, const Options& options) {
   return person;
 }
 
-BodyMesh surface_of(const Person& person, const Options& options) {
+/// The cloud as what a model is registered to.
+body_model::Samples samples_of(const PointCloud& cloud) {
+  const PointCloud means = merged(cloud, kSampleCube);
+  body_model::Samples samples;
+  for (std::size_t i = 0; i < means.points.size(); ++i) {
+    if (means.normals[i].squaredNorm() < 0.5) continue;  // two sheets that face each other
+    samples.points.push_back(means.points[i]);
+    samples.normals.push_back(means.normals[i]);
+  }
+  return samples;
+}
+
+/// Up and the ground, now that it is known where her feet are.
+void stand(Person& person, RegisteredBody& model, const body_model::Standing& standing) {
+  if (person.on_floor) return;
+  model.vertical = body_model::upright(model, standing);
+  model.ground = body_model::ground_under(model, person.cloud.points, standing);
+  const Eigen::Isometry3d to_ground = level(model.vertical, model.ground, person.cloud.points.front());
+  transform(person.cloud, to_ground);
+  model = moved(model, to_ground);
+  person.from_scan = to_ground * person.from_scan;
+}
+
+BodyMesh surface_of(const Person& person, const Options& options, const RegisteredBody& model) {
   PointCloud body = person.cloud;
   const std::size_t seen = body.points.size();
-  // 1. Points where no sensor sees but the shape is known.
-  const PointCloud soles = sole_points(body.points);
-  append(body, sight_line_points(body));
-  append(body, soles);
+  // 1. Skin where no sensor sees but the shape is known.
+  append(body, unseen_skin(model, body));
   // 2. One closed surface on the points and above the ground.
   TriangleMesh mesh = one_closed_surface(
       poisson_surface(thinned(body, fine_heights(body.points, options)), options.poisson_depth));
@@ -175,7 +195,6 @@ BodyMesh surface_of(const Person& person, const Options& options) {
   result.mesh =
       geometry::with_finer_belt(mesh, options.body_triangles, kBeltLow * height, kBeltHigh * height);
   fit_to_points(result.mesh, body);
-  for (Eigen::Vector3d& v : result.mesh.vertices) v.z() = std::max(v.z(), 0.0);
   result.points_used = seen;
   body.points.resize(seen);
   result.filled = filled_vertices(result.mesh, body.points, options.support_distance);
@@ -188,8 +207,14 @@ BodyMesh surface_of(const Person& person, const Options& options) {
   return result;
 }
 
-BodyMesh reconstruct(const PointCloud& scan, const Options& options) {
-  return surface_of(find_person(scan, options), options);
+}  // namespace
+
+Reconstruction reconstruct(const PointCloud& scan, const Options& options, const Anatomy& anatomy) {
+  Person person = find_person(scan, options);
+  RegisteredBody model = anatomy.registered(samples_of(person.cloud));
+  stand(person, model, anatomy.standing);
+  Reconstruction result{surface_of(person, options, model), moved(model, person.from_scan.inverse())};
+  return result;
 }
 
 }  // namespace tensegric_fit::reconstruction

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
+#include "body_model/registered_body.hpp"
+#include "body_model/samples.hpp"
+#include "body_model/standing.hpp"
 #include "geometry/fracture.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/triangle_mesh.hpp"
@@ -38,17 +42,19 @@ struct BodyMesh {
   std::size_t points_used = 0;                ///< points of the body, after floor, frame and outliers
 };
 
-/// What a scan shows of a person.
-struct Person {
-  geometry::PointCloud cloud;                 ///< with outward normals, upright, the ground under the soles at z = 0
-  Eigen::Isometry3d from_scan;                ///< takes the scan to the cloud's frame
-  std::vector<geometry::Fracture> fractures;  ///< scan frame; mended in the cloud where it is known who saw what
+/// What the reconstruction asks of the body model.
+struct Anatomy {
+  /// Registers the model to a person's oriented points, metres, z up by the booth, in their frame.
+  std::function<body_model::RegisteredBody(const body_model::Samples&)> registered;
+  body_model::Standing standing;
 };
 
-Person find_person(const geometry::PointCloud& scan, const Options& options);
-BodyMesh surface_of(const Person& person, const Options& options);
+struct Reconstruction {
+  BodyMesh body;
+  body_model::RegisteredBody model;  ///< in the scan's frame
+};
 
 /// \throw Refusal empty_cloud, non_finite, too_few_points, wrong_unit, not_a_body, bad_option ...
-BodyMesh reconstruct(const geometry::PointCloud& scan, const Options& options);
+Reconstruction reconstruct(const geometry::PointCloud& scan, const Options& options, const Anatomy& anatomy);
 
 }  // namespace tensegric_fit::reconstruction

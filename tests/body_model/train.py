@@ -21,8 +21,8 @@ COMPONENTS = 60
 STATURE = 1.70
 FINGER_WEIGHT, FACE_WEIGHT = .05, .15             # of a vertex' area: how much hands and face count in the components
 # How much skin counts in a fit: heads have hair, hands hold things, feet stand in the dark.
-FIT_WEIGHT = dict(head=.15, upper_arm=.5, forearm=.5, hand=.25, foot=.4)
-FIT_SPACING = dict(head=.028, trunk=.015, breast=.015, neck=.015)     # m between points; elsewhere:
+FIT_WEIGHT = dict(head=.15, upper_arm=.5, forearm=.5, hand=.25)
+FIT_SPACING = dict(head=.028, trunk=.015, breast=.012, neck=.012, foot=.014)     # m between points; elsewhere:
 LIMB_SPACING = .024
 POSE_LIMBS = 'clavicle shoulder01 upperarm01 lowerarm01 wrist upperleg01 lowerleg01 foot'.split()
 DRIVEN = ['root', 'spine05', 'spine04', 'spine03', 'spine02', 'spine01', 'neck01', 'neck02', 'neck03', 'head']
@@ -240,7 +240,7 @@ def main():
     acromion = np.stack([mean[[ACROMION, body.mirror[ACROMION]]]])[0], basis[:, [ACROMION, body.mirror[ACROMION]]]
     extra_mean = np.vstack([mean[n:], acromion[0]])
     extra_basis = np.concatenate([basis[:, n:], acromion[1]], 1)
-    hidden = inside_head(body, mean[:n], part) | (fingers > .2)
+    hidden = inside_head(body, mean[:n], part) | ((fingers > .2) & ~np.isin(part, [PARTS.index('foot_L'), PARTS.index('foot_R')]))
     kind = lambda p: p[:-2] if p[-2:] in ('_L', '_R') else p
     chosen = fit_points(mean[:n], part, hidden, lambda p: FIT_SPACING.get(kind(p), LIMB_SPACING))
     fit_weight = stands_for(mean[:n], quad_areas(mean[:n], body.quads) * ~hidden, chosen)

@@ -1,0 +1,73 @@
+#include "body_model/standing.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/checked_yaml.hpp"
+
+namespace tensegric_fit::body_model {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kSole = 0.006;      // m over the lowest point of the feet at rest: skin that bears her
+constexpr double kClearly = 2.5;     // deviations: of 100 women who stand upright one seems to lean so far
+constexpr std::size_t kStray = 9;    // points that may lie below the feet
+
+/// Of the model's soles, where pose and shape have them.
+std::vector<Vector3d> soles_of(const RegisteredBody& body) {
+  const Model& model = *body.model;
+  double lowest = model.mean.front().z();
+  for (const Vector3d& p : model.mean) lowest = std::min(lowest, p.z());
+  std::vector<Vector3d> soles;
+  for (std::size_t v = 0; v < model.mean.size(); ++v)
+    if (model.mean[v].z() < lowest + kSole) soles.push_back(body.posed[v]);
+  return soles;
+}
+
+Vector3d mean_of(const std::vector<Vector3d>& points) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3d& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
+}
+
+Vector3d normal_of(const std::vector<Vector3d>& points, const Vector3d& up) {
+  const Vector3d mean = mean_of(points);
+  Matrix3d squares = Matrix3d::Zero();
+  for (const Vector3d& p : points) squares += (p - mean) * (p - mean).transpose();
+  const Vector3d normal = Eigen::SelfAdjointEigenSolver<Matrix3d>(squares).eigenvectors().col(0);
+  return normal.dot(up) < 0 ? Vector3d(-normal) : normal;
+}
+
+}  // namespace
+
+Standing load_standing(const std::string& path) {
+  constexpr const char* kCode = geometry::refusal::kBrokenFile;
+  const YAML::Node root = geometry::load_yaml_map(path, kCode);
+  geometry::check_keys(root, {"made", "bodies", "error", "forwards", "sideways", "along", "seen", "soles"}, path, kCode);
+  const auto degrees = [&](const char* key) { return geometry::number_in(root, key, -5, 5, path, kCode) * M_PI / 180; };
+  const auto metres = [&](const char* key) { return geometry::number_in(root, key, 0, 0.02, path, kCode); };
+  return {degrees("forwards"), degrees("sideways"), degrees("along"), metres("seen"), metres("soles")};
+}
+
+Vector3d upright(const RegisteredBody& body, const Standing& standing) {
+  const Vector3d legs = (body.joint("upperleg01.L") + body.joint("upperleg01.R") - body.joint("foot.L") - body.joint("foot.R")).normalized();
+  Vector3d up = (legs + normal_of(soles_of(body), legs)).normalized();
+  const Vector3d left = (body.left() - body.left().dot(up) * up).normalized(), forward = left.cross(up);
+  up = (up - std::tan(standing.forwards) * forward).normalized();
+  const Vector3d tilt = up - up.dot(body.vertical) * body.vertical;
+  return std::hypot(tilt.dot(left) / standing.sideways, tilt.dot(forward) / standing.along) < kClearly ? body.vertical : up;
+}
+
+double ground_under(const RegisteredBody& body, const std::vector<Vector3d>& points, const Standing& standing) {
+  const double soles = body.vertical.dot(mean_of(soles_of(body))) - standing.soles * std::exp(body.parameters.log_scale);
+  std::vector<double> heights;
+  for (const Vector3d& p : points) heights.push_back(body.vertical.dot(p));
+  if (heights.size() <= kStray) return soles;
+  std::nth_element(heights.begin(), heights.begin() + kStray, heights.end());
+  return (soles + heights[kStray] - standing.seen) / 2;
+}
+
+}  // namespace tensegric_fit::body_model

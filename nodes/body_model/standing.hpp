@@ -1,0 +1,25 @@
+/// How a person stands: up, and the ground under her soles.
+#pragma once
+
+#include "body_model/registered_body.hpp"
+
+namespace tensegric_fit::body_model {
+
+/// What women who stand upright on level ground look like in a scan: fitted by tests/body_model/fit_standing.py.
+struct Standing {
+  double forwards;         ///< rad: soles and legs of the model lean forwards by so much
+  double sideways, along;  ///< rad: deviations of that lean, to the side and forwards, sway included
+  double seen;             ///< m above the ground: the lowest points that sensors see of feet
+  double soles;            ///< m above the ground: the model's soles, on average
+};
+
+/// \throw Refusal broken_file: not there, unknown keys, values out of range
+Standing load_standing(const std::string& path);
+
+/// Up, a unit vector: body.vertical, the booth's own, unless legs and soles clearly stand on another.
+Eigen::Vector3d upright(const RegisteredBody& body, const Standing& standing);
+
+/// The ground along body.vertical, m: from the model's soles and from the lowest points of a scan alike, as each is off on its own.
+double ground_under(const RegisteredBody& body, const std::vector<Eigen::Vector3d>& points, const Standing& standing);
+
+}  // namespace tensegric_fit::body_model

@@ -1,0 +1,81 @@
+#include "landmarks/figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/checked_yaml.hpp"
+#include "geometry/shipped_files.hpp"
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::landmarks {
+namespace {
+
+constexpr const char* kCode = geometry::refusal::kBrokenFile;
+constexpr double kLargest = 100;  // of any coefficient
+
+Spread spread_in(const YAML::Node& node, const std::string& where) {
+  geometry::check_keys(node, {"base", "support"}, where, kCode);
+  return {geometry::number_in(node, "base", 0, kLargest, where, kCode), geometry::number_in(node, "support", 0, kLargest, where, kCode)};
+}
+
+std::map<std::string, FigurePrecision> figures_in(const YAML::Node& node, const std::string& where) {
+  if (!node || !node.IsMap()) throw geometry::Refusal(kCode, where + " must be a map of figures");
+  std::map<std::string, FigurePrecision> figures;
+  for (const auto& entry : node) {
+    const std::string name = entry.first.as<std::string>(), here = where + ", " + name;
+    geometry::check_keys(entry.second, {"mesh", "model", "disagreement", "half_width", "error", "covered", "n"}, here, kCode);
+    figures[name] = {spread_in(entry.second["mesh"], here + ", mesh"), spread_in(entry.second["model"], here + ", model"),
+                     geometry::number_in(entry.second, "disagreement", 0, kLargest, here, kCode),
+                     geometry::number_in(entry.second, "half_width", 0, kLargest, here, kCode)};
+  }
+  return figures;
+}
+
+std::string key_of(const Figure& figure) {
+  constexpr const char* kKinds[] = {"point ", "height ", "girth "};
+  std::string name = figure.name;
+  if (name.size() > 2 && (name.substr(name.size() - 2) == "_L" || name.substr(name.size() - 2) == "_R")) name.resize(name.size() - 2);
+  return kKinds[static_cast<int>(figure.kind)] + name;
+}
+
+double deviation(const Spread& spread, double misfit, double support) { return std::hypot(spread.base * misfit, spread.support * support); }
+
+}  // namespace
+
+Precision load_precision(const std::string& path) {
+  const YAML::Node root = geometry::load_yaml_map(path, kCode);
+  geometry::check_keys(root, {"made", "bodies", "mesh", "scan"}, path, kCode);
+  return {figures_in(root["mesh"], path + ": mesh"), figures_in(root["scan"], path + ": scan")};
+}
+
+const Precision& shipped_precision() {
+  static const Precision precision = load_precision(geometry::shipped_folder("body_model") + "/precision.yaml");
+  return precision;
+}
+
+Settled settle(const Figure& figure, const Precision& precision, bool scanned) {
+  const auto& of_source = scanned ? precision.of_scan : precision.of_mesh;
+  const auto found = of_source.find(key_of(figure));
+  if (found == of_source.end())
+    throw geometry::Refusal(kCode, "the precision of '" + key_of(figure) + "' is not known: the file does not fit this version");
+  const FigurePrecision& p = found->second;
+  const double mesh = deviation(p.mesh, 1, figure.support), model = deviation(p.model, figure.misfit, figure.support);
+  if (!figure.on_mesh) return {*figure.on_model, p.half_width * model};
+  if (!figure.on_model) return {*figure.on_mesh, p.half_width * mesh};
+  const double share = mesh * mesh + model * model > 0 ? model * model / (mesh * mesh + model * model) : 1;
+  const Eigen::Vector3d apart = *figure.on_mesh - *figure.on_model;
+  return {*figure.on_model + share * apart, p.half_width * std::hypot(mesh * std::sqrt(share), p.disagreement * apart.norm())};
+}
+
+double limit_of(const Figure& figure) {
+  // ISO 20685-1:2018, table 1: small girths and heights 4 mm, large girths 9 mm; points of the torso 10 mm, of which bust points half.
+  const bool small = figure.name == "neck" || figure.name.rfind("upper_arm", 0) == 0;
+  switch (figure.kind) {
+    case Kind::girth: return small ? 0.004 : 0.009;
+    case Kind::height: return 0.004;
+    case Kind::point: break;
+  }
+  return figure.name.rfind("bust_point", 0) == 0 ? 0.005 : 0.010;
+}
+
+}  // namespace tensegric_fit::landmarks

@@ -1,0 +1,59 @@
+/// A figure as mesh and body model have it, and what to make of the two.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tensegric_fit::landmarks {
+
+/// How far off a reading is, m, on bodies whose truth is known: the root of base^2 (of a model: (base * residual)^2) and
+/// (slope * support)^2.
+struct Spread {
+  double base, support;
+};
+
+/// Of one figure.
+struct FigurePrecision {
+  Spread mesh, model;
+  double disagreement;  ///< share of the distance between the two readings that counts as error
+  double half_width;    ///< of the 95 % interval, in spreads
+};
+
+/// Of all figures, for meshes that were given and for scans: what tests/body_model/fit_precision.py writes.
+struct Precision {
+  std::map<std::string, FigurePrecision> of_mesh, of_scan;  ///< by "girth bust", "height hip", "point bust_point" (both sides)
+};
+
+/// \throw Refusal broken_file
+Precision load_precision(const std::string& path);
+
+/// The shipped one, loaded once. \throw Refusal broken_file
+const Precision& shipped_precision();
+
+enum class Kind { point, height, girth };
+
+struct Figure {
+  Kind kind;
+  std::string name;
+  std::optional<Eigen::Vector3d> on_mesh, on_model;  ///< body frame, m; of heights and girths x alone
+  double support = 0;                                ///< m: RegisteredBody::support there
+  double misfit = 0;                                 ///< m: RegisteredBody::residual
+  std::vector<Eigen::Vector3d> loop;                 ///< of a girth: the tape, body frame
+};
+
+/// A settled figure.
+struct Settled {
+  Eigen::Vector3d value;
+  double half_width;  ///< m, of the 95 % interval; of a point, the radius
+};
+
+/// Mesh and model weighted by how far off each may be.
+Settled settle(const Figure& figure, const Precision& precision, bool scanned);
+
+/// What ISO 20685 allows, m.
+double limit_of(const Figure& figure);
+
+}  // namespace tensegric_fit::landmarks

@@ -1,0 +1,49 @@
+/// Where landmarks are on a surface, near where the body model has them. Each finder is its definition (README) and nothing else: what
+/// to make of a place that no sensor saw is decided by whoever calls it.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "landmarks/surface.hpp"
+
+namespace tensegric_fit::landmarks {
+
+/// The most prominent place of a breast near `expected`, along `outward` (unit): the apex of the bulge and, where one stands out, the nipple.
+struct BustPoint {
+  Eigen::Vector3d apex;
+  std::optional<Eigen::Vector3d> nipple;
+  double clearness = 0;  ///< of the nipple: its height by the noise
+};
+BustPoint find_bust_point(const Surface& surface, const Eigen::Vector3d& expected, const Eigen::Vector3d& outward);
+
+/// The inframammary fold from below the bust point 55 mm inwards: most hollow places of sagittal profiles 5 mm apart.
+struct Fold {
+  std::vector<Eigen::Vector3d> places;  ///< the first below the bust point; empty where nothing is hollow
+  double curvature = 0;                 ///< 1/m, of the first
+  Eigen::Vector3d lowest = Eigen::Vector3d::Zero();
+};
+/// `expected`: places of the fold on another surface of the body, in the same order, or empty: looked for within some centimetres.
+Fold find_fold(const Trunk& trunk, const Eigen::Vector3d& bust_point, Side side, const std::vector<Eigen::Vector3d>& expected);
+
+/// Where the back of a buttock is rearmost, by a parabola through its profiles near `expected`; nothing where it has no apex there.
+std::optional<Eigen::Vector3d> find_buttock(const Trunk& trunk, const Eigen::Vector3d& expected);
+
+/// Least girth between two heights; nothing where the girth has no minimum in between.
+std::optional<double> find_waist(const Trunk& trunk, double lowest, double highest);
+
+/// Lowest place of the midline between the legs, near `expected`.
+std::optional<Eigen::Vector3d> find_crotch(const Surface& surface, const Eigen::Vector3d& expected);
+
+/// Middle of the gap between arm and trunk on the highest level plane that parts them; of an arm held out, of a plane that rises
+/// outwards by `rise` rad. `lowest`, `highest`: heights between which it is looked for.
+std::optional<Eigen::Vector3d> find_axilla(const Surface& surface, Side side, double lowest, double highest, double rise);
+
+/// The highest skin on the vertical through a point under the skin.
+std::optional<Eigen::Vector3d> skin_above(const Surface& surface, const Eigen::Vector3d& point);
+
+/// Least girth of the neck in planes parallel to the one through `base`, from there to 40 mm along `along` (unit): its tape; empty where
+/// no closed loop runs round.
+std::vector<Eigen::Vector3d> find_neck(const Surface& surface, const Eigen::Vector3d& base, const Eigen::Vector3d& along);
+
+}  // namespace tensegric_fit::landmarks

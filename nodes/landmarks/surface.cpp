@@ -1,0 +1,191 @@
+#include "landmarks/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tensegric_fit::landmarks {
+namespace {
+
+using Eigen::Vector3d;
+using geometry::SectionLoop;
+
+constexpr double kSlab = 0.02;      // m
+constexpr double kSmoothing = 4;    // steps: deviation of the Gaussian that takes noise out of a profile
+constexpr std::size_t kFewest = 8;  // points of a loop; less are slivers where an arm was cut off
+
+/// The triangles as a mesh of their own, numbered anew.
+geometry::TriangleMesh piece_of(const Surface& surface, const std::vector<int>& triangles) {
+  geometry::TriangleMesh piece;
+  std::vector<int> used;
+  for (const int t : triangles)
+    for (int k = 0; k < 3; ++k) used.push_back(surface.mesh.triangles[t][k]);
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (const int v : used) piece.vertices.push_back(surface.mesh.vertices[v]);
+  for (const int t : triangles) {
+    Eigen::Vector3i corners;
+    for (int k = 0; k < 3; ++k)
+      corners[k] = static_cast<int>(std::lower_bound(used.begin(), used.end(), surface.mesh.triangles[t][k]) - used.begin());
+    piece.triangles.push_back(corners);
+  }
+  return piece;
+}
+
+std::vector<SectionLoop> without_slivers(std::vector<SectionLoop> loops) {
+  loops.erase(std::remove_if(loops.begin(), loops.end(), [](const SectionLoop& l) { return l.points.size() <= kFewest; }), loops.end());
+  return loops;
+}
+
+double width_of(const SectionLoop& loop) {
+  const auto box = geometry::bounding_box(loop.points);
+  return (box[1] - box[0]).sum();
+}
+
+std::vector<Vector3d> smoothed(const std::vector<Vector3d>& line) {
+  const int reach = static_cast<int>(3 * kSmoothing), last = static_cast<int>(line.size()) - 1;
+  std::vector<Vector3d> result(line.size(), Vector3d::Zero());
+  for (int i = 0; i <= last; ++i) {
+    double sum = 0;
+    for (int k = -reach; k <= reach; ++k) {
+      const double w = std::exp(-0.5 * k * k / (kSmoothing * kSmoothing));
+      result[i] += w * line[std::clamp(i + k, 0, last)];
+      sum += w;
+    }
+    result[i] /= sum;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Vector3d> even_steps(const std::vector<Vector3d>& line, double step, double length) {
+  std::vector<Vector3d> even{line.front()};
+  double left = step;  // to go to the next point
+  for (std::size_t i = 1; i < line.size() && static_cast<double>(even.size()) * step < length; ++i) {
+    const Vector3d way = line[i] - line[i - 1];
+    const double whole = way.norm();
+    double gone = 0;
+    while (whole - gone >= left) {
+      gone += left;
+      even.push_back(line[i - 1] + gone / whole * way);
+      left = step;
+    }
+    left -= whole - gone;
+  }
+  return even;
+}
+
+std::vector<SectionLoop> cut(const Surface& surface, const Vector3d& origin, const Vector3d& normal, const Selected& selected) {
+  std::vector<double> height(surface.mesh.vertices.size());
+  for (std::size_t v = 0; v < height.size(); ++v) height[v] = normal.dot(surface.mesh.vertices[v] - origin);
+  std::vector<int> through;
+  for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i) {
+    const Eigen::Vector3i& t = surface.mesh.triangles[i];
+    const bool above = height[t[0]] >= 0;
+    if (((height[t[1]] >= 0) != above || (height[t[2]] >= 0) != above) && selected(t)) through.push_back(static_cast<int>(i));
+  }
+  return without_slivers(geometry::plane_section(piece_of(surface, through), origin, normal));
+}
+
+Trunk::Trunk(const Surface& surface) : surface_(surface) {
+  const auto box = geometry::bounding_box(surface.mesh.vertices);
+  bottom_ = box[0].z();
+  slab_ = kSlab;
+  triangles_in_.resize(static_cast<std::size_t>((box[1].z() - bottom_) / slab_) + 1);
+  for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i) {
+    const Eigen::Vector3i& t = surface.mesh.triangles[i];
+    if (!(*this)(t)) continue;
+    double low = box[1].z(), high = bottom_;
+    for (int k = 0; k < 3; ++k) {
+      low = std::min(low, surface.mesh.vertices[t[k]].z());
+      high = std::max(high, surface.mesh.vertices[t[k]].z());
+    }
+    for (auto s = static_cast<std::size_t>((low - bottom_) / slab_); s <= static_cast<std::size_t>((high - bottom_) / slab_); ++s)
+      triangles_in_[s].push_back(static_cast<int>(i));
+  }
+}
+
+bool Trunk::operator()(const Eigen::Vector3i& t) const {
+  return surface_.arm[t[0]] + surface_.arm[t[1]] + surface_.arm[t[2]] <= 3 * 0.5;
+}
+
+std::vector<SectionLoop> Trunk::level(double height) const {
+  const double slab = (height - bottom_) / slab_;
+  if (!(slab >= 0 && slab < static_cast<double>(triangles_in_.size()))) return {};
+  return without_slivers(geometry::plane_section(piece_of(surface_, triangles_in_[static_cast<std::size_t>(slab)]), {0, 0, height},
+                                                 Vector3d::UnitZ()));
+}
+
+std::vector<Vector3d> Trunk::tape(double height) const {
+  std::vector<Vector3d> points;
+  for (const SectionLoop& loop : level(height)) points.insert(points.end(), loop.points.begin(), loop.points.end());
+  return points.size() < 3 ? std::vector<Vector3d>() : geometry::tape(points, Vector3d::UnitZ());
+}
+
+std::vector<Vector3d> Trunk::tape_of_torso(double height) const {
+  const std::vector<SectionLoop> loops = level(height);
+  if (loops.empty()) return {};
+  const auto widest = std::max_element(loops.begin(), loops.end(), [](const auto& a, const auto& b) { return width_of(a) < width_of(b); });
+  return geometry::tape(widest->points, Vector3d::UnitZ());
+}
+
+Profile profile_down(const Trunk& trunk, const Vector3d& start, double length) {
+  std::vector<Vector3d> line;
+  double nearest = 0.05;  // m; farther from the start there is no profile of it
+  for (const SectionLoop& loop : cut(trunk.surface(), start, Vector3d::UnitY(), trunk)) {
+    const auto place = std::min_element(loop.points.begin(), loop.points.end(), [&](const Vector3d& a, const Vector3d& b) {
+      return (a - start).squaredNorm() < (b - start).squaredNorm();
+    });
+    if ((*place - start).norm() >= nearest) continue;
+    nearest = (*place - start).norm();
+    // Both ways from there; down is the one that is lower after some centimetres.
+    std::vector<Vector3d> ahead(place, loop.points.end()), back(std::make_reverse_iterator(place + 1), loop.points.rend());
+    if (loop.closed) {
+      ahead.insert(ahead.end(), loop.points.begin(), place);
+      back.insert(back.end(), loop.points.rbegin(), std::make_reverse_iterator(place + 1));
+    }
+    const auto low = [](const std::vector<Vector3d>& way) {
+      double gone = 0, sum = 0, weight = 0;
+      for (std::size_t i = 1; i < way.size() && gone < 0.12; ++i) {
+        const double step = (way[i] - way[i - 1]).norm();
+        gone += step;
+        sum += step * way[i].z();
+        weight += step;
+      }
+      return weight > 0 ? sum / weight : 1e9;
+    };
+    line = low(ahead) < low(back) ? ahead : back;
+  }
+  Profile profile;
+  if (line.size() < 3) return profile;
+  profile.points = smoothed(even_steps(line, Profile::kStep, length));
+  const int last = static_cast<int>(profile.points.size()) - 1;
+  profile.curvature.assign(profile.points.size(), 0);
+  for (int i = 1; i < last; ++i) {
+    const Vector3d a = profile.points[i] - profile.points[i - 1], b = profile.points[i + 1] - profile.points[i];
+    // Down the front of a body, seen from her left: skin that turns outwards turns about +y.
+    const double turn = std::atan2(a.cross(b).y(), a.dot(b));
+    profile.curvature[i] = -turn / ((a.norm() + b.norm()) / 2);
+  }
+  return profile;
+}
+
+double unseen_share(const Surface& surface, const Vector3d& point, double radius) {
+  if (surface.unseen.empty()) return 0;
+  double all = 0, unseen = 0;
+  for (std::size_t v = 0; v < surface.mesh.vertices.size(); ++v) {
+    if ((surface.mesh.vertices[v] - point).squaredNorm() > radius * radius) continue;
+    ++all;
+    unseen += surface.unseen[v];
+  }
+  return all > 0 ? unseen / all : 1;
+}
+
+std::vector<int> vertices_near(const Surface& surface, const Vector3d& point, double radius, const std::function<bool(int)>& wanted) {
+  std::vector<int> near;
+  for (std::size_t v = 0; v < surface.mesh.vertices.size(); ++v)
+    if ((surface.mesh.vertices[v] - point).squaredNorm() < radius * radius && wanted(static_cast<int>(v))) near.push_back(static_cast<int>(v));
+  return near;
+}
+
+}  // namespace tensegric_fit::landmarks

@@ -1,0 +1,162 @@
+#!/usr/bin/python3
+"""fit_precision.py --mesh READINGS TRUTHS --scan READINGS TRUTHS --out precision.yaml
+
+How far off each figure's readings on mesh and body model are, fitted to training bodies: READINGS as read_figures writes them (a line of
+JSON per body), TRUTHS a folder with NAME_truth.json. Figures that a truth calls vague take no part. Needs python3-numpy, python3-scipy.
+
+A reading's error has a Student-t distribution (4 degrees of freedom, so that a few gross errors do not rule) with the scale
+sqrt(base^2 + (slope * support)^2); of a model the base is a multiple of the registration's residual. What is printed and written as
+`error` and `covered` is of bodies left out of the fit, in five parts.
+"""
+import argparse
+import datetime
+import json
+import os
+import sys
+
+import numpy as np
+from scipy.optimize import minimize
+
+KINDS = ('point', 'height', 'girth')
+FREEDOM = 4
+COVERAGE = .95
+LEAST = 1e-4                                      # m: no reading is taken to be better
+
+
+def truth_of(truth, frame, kind, name):
+    """True value in the body's frame of the reading (4x4 `frame`), the direction that it is loose along, or None."""
+    if kind == 'point':
+        p = truth['landmarks'].get(name)
+        if p is None:
+            return None
+        loose = truth.get('loose', {}).get(name)
+        return frame[:3, :3] @ np.array(p) + frame[:3, 3], None if loose is None else frame[:3, :3] @ np.array(loose)
+    if kind == 'girth' and name == 'neck':
+        return np.array([truth['girths']['neck_min'], 0, 0]), None
+    v = truth[kind + 's'].get(name)
+    return None if v is None else (np.array([v, 0, 0]), None)
+
+
+def samples(readings, truths):
+    """figure -> list of (error on mesh or None, error on model or None, support, residual): vectors in metres."""
+    out = {}
+    for line in open(readings):
+        r = json.loads(line)
+        path = os.path.join(truths, r['name'] + '_truth.json')
+        if not os.path.exists(path):
+            continue
+        truth = json.load(open(path))
+        vague = set(truth.get('vague', []))
+        frame = np.array(r['body_from_scan']).reshape(4, 4)
+        for f in r['figures']:
+            kind, name = KINDS[f['kind']], f['name']
+            if '%s %s' % (kind, name) in vague - {'girth neck', 'point neck_back'}:
+                continue
+            found = truth_of(truth, frame, kind, name)
+            if found is None:
+                continue
+            value, loose = found
+
+            def error(key):
+                if key not in f:
+                    return None
+                e = np.array(f[key]) - value
+                if loose is not None:
+                    e = e - loose * (e @ loose) / (loose @ loose)
+                return e
+            key = '%s %s' % (kind, name[:-2] if name[-2:] in ('_L', '_R') else name)
+            out.setdefault(key, []).append((error('mesh'), error('model'), f['support'], r['residual'], r['name']))
+    return out
+
+
+def scale(errors, base_of, support):
+    """base and slope of the scale of |errors|, by likelihood."""
+    size = np.array([np.linalg.norm(e) for e in errors])
+    start = np.median(size / base_of)
+
+    def loss(q):
+        s = np.hypot(np.exp(q[0]) * base_of, np.exp(q[1]) * support)
+        return np.mean(np.log(s) + (FREEDOM + 1) / 2 * np.log1p((size / s) ** 2 / FREEDOM)) + 1e-3 * (q[1] + 1) ** 2
+    best = min((minimize(loss, (np.log(start), b), method='Nelder-Mead', options=dict(xatol=1e-3, fatol=1e-6, maxiter=2000)) for b in (-3., -1., 0.)), key=lambda m: m.fun)
+    return np.array([max(np.exp(best.x[0]), LEAST / np.median(base_of)), np.exp(best.x[1])])
+
+
+def spread(coefficients, base_of, support):
+    return np.hypot(coefficients[0] * base_of, coefficients[1] * support)
+
+
+def settle(row, fit):
+    """Settled error and its spread without and with disagreement: as landmarks/figures.cpp has it."""
+    mesh, model, support, residual = row[:4]
+    m, b = (spread(fit[k], base, support) if k in fit else None for k, base in (('mesh', 1.), ('model', residual)))
+    if mesh is None or m is None:
+        return model, b, 0.
+    if model is None or b is None:
+        return mesh, m, 0.
+    share = b * b / (m * m + b * b)
+    return model + share * (mesh - model), m * np.sqrt(share), np.linalg.norm(mesh - model)
+
+
+def fitted(rows):
+    fit = {}
+    for i, key, base in ((0, 'mesh', lambda r: 1.), (1, 'model', lambda r: r[3])):
+        use = [r for r in rows if r[i] is not None]
+        if len(use) >= 20:
+            fit[key] = scale([r[i] for r in use], np.array([base(r) for r in use]), np.array([r[2] for r in use]))
+    e, s, apart = (np.array(v) for v in zip(*[(np.linalg.norm(a), b, c) for a, b, c in (settle(r, fit) for r in rows)]))
+
+    def loss(q):
+        t = np.exp(q[1]) * np.hypot(s, np.exp(q[0]) * apart)
+        return np.mean(np.log(t) + (FREEDOM + 1) / 2 * np.log1p((e / t) ** 2 / FREEDOM)) + 1e-3 * (q[0] + 2) ** 2
+    fit['disagreement'] = float(np.exp(min((minimize(loss, (a, 0.), method='Nelder-Mead') for a in (-3., -1.)), key=lambda m: m.fun).x[0]))
+    ratio = np.sort(e / np.hypot(s, fit['disagreement'] * apart))
+    fit['half_width'] = float(np.interp(COVERAGE * (len(ratio) + 1) / len(ratio), (np.arange(len(ratio)) + 1) / len(ratio), ratio))
+    return fit
+
+
+def left_out(rows, parts=5):
+    """Errors (m) and whether the interval holds them, of bodies left out of the fit."""
+    names = sorted({r[4] for r in rows})
+    error, held, width = [], [], []
+    for k in range(parts):
+        out = set(names[k::parts])
+        train, test = [r for r in rows if r[4] not in out], [r for r in rows if r[4] in out]
+        if len(train) < 20:
+            continue
+        fit = fitted(train)
+        for r in test:
+            e, s, apart = settle(r, fit)
+            error.append(np.linalg.norm(e))
+            width.append(fit['half_width'] * np.hypot(s, fit['disagreement'] * apart))
+            held.append(error[-1] <= width[-1])
+    return np.array(error), np.array(held), np.array(width)
+
+
+def main():
+    a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    a.add_argument('--mesh', nargs=2, required=True)
+    a.add_argument('--scan', nargs=2, required=True)
+    a.add_argument('--out', required=True)
+    o = a.parse_args()
+    text, names = '', set()
+    for source in ('mesh', 'scan'):
+        text += '%s:\n' % source
+        print('%-20s %4s %9s %9s %9s  mesh: base mm, slope; model: base per residual, slope; disagreement' % (source, 'n', 'median mm', '95 % mm', 'covered'))
+        for key, rows in sorted(samples(*getattr(o, source)).items()):
+            names |= {r[4] for r in rows}
+            fit = fitted(rows)
+            error, held, width = left_out(rows)
+            m, b = fit.get('mesh'), fit.get('model')
+            c = lambda v, digits: '{base: %.*g, support: %.3g}' % (digits, v[0], v[1]) if v is not None else '{base: 0.1, support: 0}'
+            text += '  %s: {mesh: %s, model: %s, disagreement: %.3g, half_width: %.3g, error: %.2g, covered: %.3f, n: %d}\n' % (
+                key, c(m, 3), c(b, 3), fit['disagreement'], fit['half_width'], np.median(error), held.mean(), len(rows))
+            print('%-20s %4d %9.2f %9.2f %8.1f%%  %s  %s  %.2f   median half width %.2f mm' % (
+                key, len(rows), 1e3 * np.median(error), 1e3 * np.quantile(error, .95), 100 * held.mean(),
+                '-' if m is None else '%.2f %.2f' % (1e3 * m[0], m[1]), '-' if b is None else '%.2f %.2f' % tuple(b), fit['disagreement'], 1e3 * np.median(width)))
+    with open(o.out, 'w') as out:
+        out.write('# How far off each figure may be: tests/body_model/fit_precision.py wrote this; error (m, median) and covered are of bodies left out.\n')
+        out.write('made: %s\nbodies: %d training women (%s to %s)\n%s' % (datetime.date.today(), len(names), min(names), max(names), text))
+
+
+if __name__ == '__main__':
+    sys.exit(main())
