@@ -12,24 +12,39 @@ using Eigen::Vector3d;
 constexpr double kDegree = M_PI / 180;
 constexpr double kFarthest = 0.15;  // m; an arm that is farther is elsewhere, however far
 // Degrees from the arm at rest, which is lifted by some 45: raised, taken forwards, and bent at the elbow.
+constexpr int kEvery = 4;           // n-th fit point is enough to say where an arm is
 constexpr double kRaised[] = {-60, -40, -20, 0, 20, 40, 60};
 constexpr double kForwards[] = {-20, 0, 20, 40};
 constexpr double kBent[] = {-50, 0, 50};
 
-/// Vertices of a pose group's bones and those beyond.
-std::vector<int> arm_points(const Model& model, const std::string& side) {
-  std::vector<int> points;
-  for (const int v : model.fit_points)
-    for (const char* part : {"upper_arm", "forearm", "hand"})
-      if (model.parts[model.part[v]] == std::string(part) + side) points.push_back(v);
-  return points;
+/// Some fit points of an arm, with their normals at rest.
+struct Arm {
+  std::vector<int> vertices;
+  std::vector<Vector3d> normals;
+};
+
+Arm arm_of(const Model& model, const Parameters& p, const std::string& side) {
+  const PosedModel posed(model, p);
+  const std::vector<Vector3d> normals = geometry::vertex_normals(posed.vertices(), model.triangles);
+  Arm arm;
+  int met = 0;
+  for (const int v : model.fit_points) {
+    const std::string& part = model.parts[model.part[v]];
+    if ((part == "upper_arm" + side || part == "forearm" + side || part == "hand" + side) && met++ % kEvery == 0) {
+      arm.vertices.push_back(v);
+      arm.normals.push_back(posed.blend(v).transpose() * normals[v]);
+    }
+  }
+  return arm;
 }
 
-double distance(const Model& model, const Matcher& matcher, const Parameters& p, const std::vector<int>& points) {
+double distance(const Model& model, const Matcher& matcher, const Parameters& p, const Arm& arm) {
   const PosedModel posed(model, p);
   double sum = 0;
-  const std::vector<Vector3d> normals = geometry::vertex_normals(posed.vertices(), model.triangles);
-  for (const int v : points) sum += std::min(matcher.distance(posed.vertex(v), normals[v]), kFarthest);
+  for (std::size_t i = 0; i < arm.vertices.size(); ++i) {
+    const int v = arm.vertices[i];
+    sum += std::min(matcher.distance(posed.vertex(v), (posed.blend(v) * arm.normals[i]).normalized()), kFarthest);
+  }
   return sum;
 }
 
@@ -40,8 +55,8 @@ Parameters with_arms_placed(const Model& model, const Matcher& matcher, const Pa
   for (const double sign : {1.0, -1.0}) {
     const std::string side = sign > 0 ? "_L" : "_R";
     const int arm = model.group_named("arm" + side), forearm = model.group_named("forearm" + side);
-    const std::vector<int> points = arm_points(model, side);
-    if (arm < 0 || forearm < 0 || points.empty()) continue;
+    const Arm points = arm_of(model, best, side);
+    if (arm < 0 || forearm < 0 || points.vertices.empty()) continue;
     double least = distance(model, matcher, best, points);
     Parameters chosen = best;
     for (const double raised : kRaised)

@@ -3,8 +3,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "geometry/halves.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::body_model {
@@ -18,7 +20,8 @@ using Eigen::VectorXd;
 constexpr double kDegree = M_PI / 180;
 constexpr double kTilt = 10 * kDegree;       // of the pelvis: 15 degrees of the scan, 25 of a stoop are within 2.5 deviations
 constexpr double kStature = 0.15;            // of its logarithm: 1.45 to 1.95 m
-constexpr double kNoisePerScale = 0.15, kLeastNoise = 0.002;  // what a match may be off, and m that the model always is
+constexpr double kNoisePerScale = .06, kLeastNoise = 0.002;  // what a match may be off, and m that the model always is
+constexpr int kWorthThreads = 800;            // points; fewer are done before a second thread has begun
 constexpr double kLargestTurn = 20 * kDegree;  // in a step; beyond that derivatives mean little
 
 /// What the prior takes the parameters to be, and how firmly.
@@ -89,24 +92,31 @@ double residual_of(const Matching& matching, const std::vector<double>& weights)
 void normal_equations(const PosedModel& posed, const std::vector<int>& vertices, const std::vector<Pull>& pulls, int count, int active, bool planes,
                       MatrixXd& matrix, VectorXd& gradient) {
   const int rows_each = planes ? 1 : 3, points = static_cast<int>(vertices.size());
-  MatrixXd rows(active, rows_each * points);
-  VectorXd off(rows_each * points);
-  Eigen::Matrix3Xd derivative(3, count);
-  for (int i = 0; i < points; ++i) {
+  std::array<MatrixXd, 2> matrices{MatrixXd::Zero(active, active), MatrixXd::Zero(active, active)};
+  std::array<VectorXd, 2> gradients{VectorXd::Zero(active), VectorXd::Zero(active)};
+  const auto accumulate = [&](std::size_t begin, std::size_t end, int half) {
+    MatrixXd rows(active, rows_each * static_cast<int>(end - begin));
+    VectorXd off(rows.cols());
+    Eigen::Matrix3Xd derivative(3, count);
     Eigen::SelfAdjointEigenSolver<Matrix3d> axes;
-    axes.computeDirect(pulls[i].information);
-    posed.derivative(vertices[i], derivative);
-    for (int r = 0; r < rows_each; ++r) {
-      const double root = std::sqrt(std::max(axes.eigenvalues()[2 - r], 0.0));
-      const Vector3d axis = axes.eigenvectors().col(2 - r);
-      const int at = rows_each * i + r;
-      rows.col(at) = root * (derivative.leftCols(active).transpose() * axis);
-      off[at] = root > 0 ? axis.dot(pulls[i].pull) / root : 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      axes.computeDirect(pulls[i].information);
+      posed.derivative(vertices[i], derivative);
+      for (int r = 0; r < rows_each; ++r) {
+        const double root = std::sqrt(std::max(axes.eigenvalues()[2 - r], 0.0));
+        const Vector3d axis = axes.eigenvectors().col(2 - r);
+        const auto at = static_cast<Eigen::Index>(rows_each * (i - begin) + r);
+        rows.col(at).noalias() = root * (derivative.leftCols(active).transpose() * axis);
+        off[at] = root > 0 ? axis.dot(pulls[i].pull) / root : 0;
+      }
     }
-  }
-  matrix = MatrixXd::Zero(active, active);
-  matrix.selfadjointView<Eigen::Lower>().rankUpdate(rows);
-  gradient = rows * off;
+    matrices[half].selfadjointView<Eigen::Lower>().rankUpdate(rows);
+    gradients[half] = rows * off;
+  };
+  if (points < kWorthThreads) accumulate(0, points, 0);
+  else geometry::in_halves(points, accumulate);
+  matrix = matrices[0] + matrices[1];
+  gradient = gradients[0] + gradients[1];
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/halves.hpp"
+
 namespace tensegric_fit::body_model {
 namespace {
 
@@ -27,6 +29,14 @@ Pair weigh(const Vector3d& off, const Vector3d& model_normal, const Vector3d& sa
   return {robust * robust, std::min(std::abs(off.dot(sample_normal)), Matching::kUnmatched)};
 }
 
+constexpr std::size_t kWorthThreads = 800;  // points; fewer are done before a second thread has begun
+
+template <typename Work>
+void in_parallel(std::size_t count, const Work& work) {
+  if (count < kWorthThreads) return work(0, count);
+  geometry::in_halves(count, [&](std::size_t begin, std::size_t end, int) { work(begin, end); });
+}
+
 }  // namespace
 
 Matcher::Matcher(const Samples& samples) : samples_(samples), tree_(samples.points, samples.normals, kReach) {}
@@ -36,22 +46,24 @@ Matching Matcher::match(const ModelSkin& skin, double scale, int samples) const 
   const std::size_t count = skin.points.size();
   Matching result{std::vector<Pull>(count), std::vector<double>(count), {}};
   const double sideways = kSideways * scale * scale;
-  for (std::size_t i = 0; i < count; ++i) {
-    const int s = tree_.nearest(skin.points[i], skin.normals[i]);
-    const Vector3d off = skin.points[i] - samples_.points[s], &n = samples_.normals[s];
-    const Pair pair = weigh(off, skin.normals[i], n, scale);
-    result.distances[i] = pair.distance;
-    const double w = skin.weights[i] * pair.weight;
-    result.pulls[i].information = w * (n * n.transpose() + sideways * Matrix3d::Identity());
-    result.pulls[i].pull = w * (n * n.dot(off) + sideways * off);
-  }
+  in_parallel(count, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const int s = tree_.nearest(skin.points[i], skin.normals[i]);
+      const Vector3d off = skin.points[i] - samples_.points[s], &n = samples_.normals[s];
+      const Pair pair = weigh(off, skin.normals[i], n, scale);
+      result.distances[i] = pair.distance;
+      const double w = skin.weights[i] * pair.weight;
+      result.pulls[i].information = w * (n * n.transpose() + sideways * Matrix3d::Identity());
+      result.pulls[i].pull = w * (n * n.dot(off) + sideways * off);
+    }
+  });
   const std::size_t looking = std::min<std::size_t>(samples, samples_.points.size());
   const OrientedTree model(skin.points, skin.normals, kReach);
   std::vector<int> near(looking), finders(count, 0);
-  for (std::size_t s = 0; s < looking; ++s) {
-    near[s] = model.nearest(samples_.points[s], samples_.normals[s]);
-    ++finders[near[s]];
-  }
+  in_parallel(looking, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) near[s] = model.nearest(samples_.points[s], samples_.normals[s]);
+  });
+  for (const int i : near) ++finders[i];
   for (std::size_t s = 0; s < looking; ++s) {
     const int i = near[s];
     // The nearest model point may lie half their spacing aside: only what is along the normal counts.

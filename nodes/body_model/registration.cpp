@@ -16,9 +16,9 @@ namespace {
 using Eigen::Vector3d;
 
 const Stage kRough{.15, .08, 7, 8, 500, 6};
-const Stage kSecond{.08, .04, 8, 4, 1500, 20};
-const Stage kThird{.04, .02, 8, 1, 4000, 40};
-const Stage kFine{.02, .012, 14, 1, 6000, 1000};
+const Stage kSecond{.10, .06, 16, 4, 2000, 60};
+const Stage kThird{.06, .05, 12, 2, 3000, 60};
+const Stage kFine{.05, .02, 8, 1, 4000, 1000};
 
 constexpr std::size_t kFewest = 500;  // samples
 constexpr int kSamplesOfMesh = 40000;  // 7 mm apart on a woman

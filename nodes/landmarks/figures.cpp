@@ -12,6 +12,8 @@ namespace {
 
 constexpr const char* kCode = geometry::refusal::kBrokenFile;
 constexpr double kLargest = 100;  // of any coefficient
+constexpr double kGrossLimits = 3;  // of ISO 20685: less is no gross error, however sure both are
+constexpr double kGross = 4;      // spreads between two readings of one thing: with Gaussian errors 1 in 16,000
 
 Spread spread_in(const YAML::Node& node, const std::string& where) {
   geometry::check_keys(node, {"base", "support"}, where, kCode);
@@ -62,8 +64,11 @@ Settled settle(const Figure& figure, const Precision& precision, bool scanned) {
   const double mesh = deviation(p.mesh, 1, figure.support), model = deviation(p.model, figure.misfit, figure.support);
   if (!figure.on_mesh) return {*figure.on_model, p.half_width * model};
   if (!figure.on_model) return {*figure.on_mesh, p.half_width * mesh};
-  const double share = mesh * mesh + model * model > 0 ? model * model / (mesh * mesh + model * model) : 1;
   const Eigen::Vector3d apart = *figure.on_mesh - *figure.on_model;
+  // A web, a fold of the belly, an arm that was cut off elsewhere: the mesh then shows something else.
+  if (apart.norm() > std::max(kGross * std::hypot(mesh, model), kGrossLimits * limit_of(figure)))
+    return {*figure.on_model, p.half_width * std::hypot(model, p.disagreement * kGross * model)};
+  const double share = model * model / (mesh * mesh + model * model);
   return {*figure.on_model + share * apart, p.half_width * std::hypot(mesh * std::sqrt(share), p.disagreement * apart.norm())};
 }
 

@@ -18,8 +18,10 @@ using Eigen::Vector3d;
 using Tape = std::vector<Vector3d>;
 
 constexpr double kUnderbustBelowFold = 0.003;                      // m: the tape lies just under the fold (definition)
-constexpr double kWaistAboveHip = 0.10, kWaistBelowUnderbust = 0.015;  // m (definition)
+constexpr double kWaistAboveHip = 0.10, kWaistBelowUnderbust = 0.005;  // m: the least girth is in between
 constexpr double kBreast = 0.045;     // m round the bust point: skin that says where the breast points
+constexpr double kMisfits = 2.5;      // of the model: deviation of a nipple from where the model has it
+constexpr double kFoldOfModel = 0.040, kFoldOfMesh = 0.025;  // m from where folds usually are on the model, and from where hers is
 constexpr double kSeat = 0.02, kBelowWaist = 0.04;  // m: buttocks from below the crotch to below the navel
 constexpr double kAboveShoulder = 0.05, kBelowFold = 0.02;  // m: the axilla is in between (definition)
 constexpr double kLevelArm = M_PI / 3;  // rad; an arm held out more has its axilla on a plane that rises with it (definition)
@@ -60,7 +62,7 @@ class Reader {
     level("hip", {"buttock_L", "buttock_R"}, false);
     waist();
     girth("bust", [&](const Trunk& t) { return t.tape(height("bust")); });
-    girth("underbust", [&](const Trunk& t) { return t.tape_of_torso(height("underbust") - kUnderbustBelowFold); });
+    girth_under_breasts();
     girth("waist", [&](const Trunk& t) { return t.tape_of_torso(height("waist")); });
     girth("hip", [&](const Trunk& t) { return t.tape(height("hip")); });
     for (const Side side : kSides) {
@@ -100,14 +102,13 @@ class Reader {
     Vector3d outward = Vector3d::Zero();
     for (std::size_t v = 0; v < normals_.size(); ++v)
       if ((skin_.surface.mesh.vertices[v] - there).norm() < kBreast && skin_.surface.arm[v] < 0.5) outward += normals_[v];
-    const BustPoint found = find_bust_point(mesh_.surface, there, outward.normalized());
-    add(Kind::point, name, found.nipple, there, support_at(there));
+    add(Kind::point, name, find_nipple(mesh_.surface, there, kMisfits * body_.residual, outward.normalized()), there, support_at(there));
   }
 
   void fold(Side side) {
     const Vector3d tip = point(std::string("bust_point") + kSuffix[side]);
-    const Fold on_model = find_fold(skin_.trunk, tip, side, {});
-    const Fold on_mesh = find_fold(mesh_.trunk, tip, side, on_model.places);
+    const Fold on_model = find_fold(skin_.trunk, tip, side, {expected(std::string("underbust") + kSuffix[side])}, kFoldOfModel);
+    const Fold on_mesh = find_fold(mesh_.trunk, tip, side, on_model.places, kFoldOfMesh);
     lowest_[0][side] = on_mesh.places.empty() ? std::nullopt : std::optional<Vector3d>(on_mesh.lowest);
     lowest_[1][side] = on_model.places.empty() ? std::nullopt : std::optional<Vector3d>(on_model.lowest);
     const auto first = [](const Fold& f) { return f.places.empty() ? std::nullopt : std::optional<Vector3d>(f.places.front()); };
@@ -172,6 +173,19 @@ class Reader {
       no_waist_ = true;
       add(Kind::height, "waist", std::nullopt, Vector3d(expected("navel").z(), 0, 0), kWorst);
     }
+  }
+
+  /// Under each surface's own fold, where that is lower: a breast that joins the trunk below the level is none of the tape.
+  void girth_under_breasts() {
+    if (find(Kind::height, "underbust") == nullptr) return;
+    Tape tapes[2];
+    for (int s = 0; s < 2; ++s) {
+      double level = height("underbust");
+      for (const Side side : kSides)
+        if (lowest_[s][side]) level = std::min(level, lowest_[s][side]->z());
+      tapes[s] = (s == 0 ? mesh_ : skin_).trunk.tape_of_torso(level - kUnderbustBelowFold);
+    }
+    girth_of("underbust", tapes[0], tapes[1]);
   }
 
   template <typename TapeOf>

@@ -9,13 +9,9 @@
 
 namespace tensegric_fit::landmarks {
 
-/// The most prominent place of a breast near `expected`, along `outward` (unit): the apex of the bulge and, where one stands out, the nipple.
-struct BustPoint {
-  Eigen::Vector3d apex;
-  std::optional<Eigen::Vector3d> nipple;
-  double clearness = 0;  ///< of the nipple: its height by the noise
-};
-BustPoint find_bust_point(const Surface& surface, const Eigen::Vector3d& expected, const Eigen::Vector3d& outward);
+/// The nipple: where a bump of its size stands out most clearly from a smooth breast, some deviations (m) round `expected`, seen along
+/// `outward` (unit). Nothing where none stands out of the noise, as under clothes.
+std::optional<Eigen::Vector3d> find_nipple(const Surface& surface, const Eigen::Vector3d& expected, double deviation, const Eigen::Vector3d& outward);
 
 /// The inframammary fold from below the bust point 55 mm inwards: most hollow places of sagittal profiles 5 mm apart.
 struct Fold {
@@ -23,8 +19,8 @@ struct Fold {
   double curvature = 0;                 ///< 1/m, of the first
   Eigen::Vector3d lowest = Eigen::Vector3d::Zero();
 };
-/// `expected`: places of the fold on another surface of the body, in the same order, or empty: looked for within some centimetres.
-Fold find_fold(const Trunk& trunk, const Eigen::Vector3d& bust_point, Side side, const std::vector<Eigen::Vector3d>& expected);
+/// `expected`: places of the fold on another surface of the body, in the same order, or the first alone: looked for within `reach` (m).
+Fold find_fold(const Trunk& trunk, const Eigen::Vector3d& bust_point, Side side, const std::vector<Eigen::Vector3d>& expected, double reach);
 
 /// Where the back of a buttock is rearmost, by a parabola through its profiles near `expected`; nothing where it has no apex there.
 std::optional<Eigen::Vector3d> find_buttock(const Trunk& trunk, const Eigen::Vector3d& expected);

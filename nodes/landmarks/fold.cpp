@@ -13,8 +13,7 @@ constexpr double kMedial = 0.055;   // m inwards of the bust point (definition)
 constexpr double kApart = 0.0025;   // m between two profiles
 constexpr double kRim = 0.020;      // m along the skin: the areola's own rim is hollow too
 constexpr double kReach = 0.17;     // m along the skin, from a bust point to its fold
-constexpr double kNear = 0.025;     // m from where it is expected
-constexpr double kPull = 15;        // 1/m of curvature that a place loses at that distance
+constexpr double kPull = 15;        // 1/m of curvature that a place loses at the search's end
 constexpr double kStep = 0.012;     // m that a fold rises or falls from one profile to the next, at most
 constexpr double kContinued = 0.3;  // of its curvature below the bust point: less is no fold any more
 constexpr double kBottom = 0.6;     // of the curvature: skin that is as hollow takes part in the place
@@ -25,18 +24,15 @@ struct Hollow {
   Vector3d place;
   double curvature;
 };
-std::optional<Hollow> most_hollow(const Profile& profile, const Vector3d* expected) {
+std::optional<Hollow> most_hollow(const Profile& profile, const Vector3d& expected, double reach) {
   const int first = static_cast<int>(kRim / Profile::kStep),
             last = std::min(static_cast<int>(profile.points.size()) - 2, static_cast<int>(kReach / Profile::kStep));
   std::vector<double> value(profile.points.size(), -1e9);
   int best = -1;
   for (int i = first; i < last; ++i) {
-    value[i] = profile.curvature[i];
-    if (expected != nullptr) {
-      const Vector3d off = profile.points[i] - *expected;
-      const double far = std::hypot(off.x(), off.z()) / kNear;
-      value[i] = far > 1 ? -1e9 : value[i] - kPull * far * far;
-    }
+    const Vector3d off = profile.points[i] - expected;
+    const double far = std::hypot(off.x(), off.z()) / reach;
+    if (far < 1) value[i] = profile.curvature[i] - kPull * far * far;
     if (value[i] > -1e8 && (best < 0 || value[i] > value[best])) best = i;
   }
   if (best < 0 || profile.curvature[best] <= 0) return std::nullopt;
@@ -77,12 +73,13 @@ Vector3d lowest_of_arc(const std::vector<Vector3d>& places, Side side) {
 
 }  // namespace
 
-Fold find_fold(const Trunk& trunk, const Vector3d& bust_point, Side side, const std::vector<Vector3d>& expected) {
+Fold find_fold(const Trunk& trunk, const Vector3d& bust_point, Side side, const std::vector<Vector3d>& expected, double reach) {
   Fold fold;
   for (double medial = 0; medial < kMedial + kApart / 2; medial += kApart) {
-    if (!expected.empty() && fold.places.size() >= expected.size()) break;
+    const std::size_t i = fold.places.size();
+    if (i >= expected.size() && expected.size() != 1) break;
     const Profile profile = profile_down(trunk, bust_point - kSign[side] * medial * Vector3d::UnitY(), kReach + 0.08);
-    const auto found = most_hollow(profile, expected.empty() ? nullptr : &expected[fold.places.size()]);
+    const auto found = most_hollow(profile, i < expected.size() ? expected[i] : fold.places.back(), reach);
     if (!found) break;
     if (fold.places.empty()) {
       fold.curvature = found->curvature;

@@ -20,6 +20,8 @@ from scipy.optimize import minimize
 KINDS = ('point', 'height', 'girth')
 FREEDOM = 4
 COVERAGE = .95
+GROSS_LIMITS = 3
+GROSS = 4                                         # as in landmarks/figures.cpp
 LEAST = 1e-4                                      # m: no reading is taken to be better
 
 
@@ -85,6 +87,14 @@ def spread(coefficients, base_of, support):
     return np.hypot(coefficients[0] * base_of, coefficients[1] * support)
 
 
+def limit(figure):
+    """What ISO 20685 allows, m."""
+    kind, name = figure.split(' ', 1)
+    if kind == 'point':
+        return .005 if name == 'bust_point' else .010
+    return .004 if kind == 'height' or name == 'neck' else .009
+
+
 def settle(row, fit):
     """Settled error and its spread without and with disagreement: as landmarks/figures.cpp has it."""
     mesh, model, support, residual = row[:4]
@@ -93,12 +103,15 @@ def settle(row, fit):
         return model, b, 0.
     if model is None or b is None:
         return mesh, m, 0.
+    apart = np.linalg.norm(mesh - model)
+    if apart > max(GROSS * np.hypot(m, b), GROSS_LIMITS * fit['limit']):
+        return model, b, GROSS * b
     share = b * b / (m * m + b * b)
-    return model + share * (mesh - model), m * np.sqrt(share), np.linalg.norm(mesh - model)
+    return model + share * (mesh - model), m * np.sqrt(share), apart
 
 
-def fitted(rows):
-    fit = {}
+def fitted(figure, rows):
+    fit = dict(limit=limit(figure))
     for i, key, base in ((0, 'mesh', lambda r: 1.), (1, 'model', lambda r: r[3])):
         use = [r for r in rows if r[i] is not None]
         if len(use) >= 20:
@@ -114,7 +127,7 @@ def fitted(rows):
     return fit
 
 
-def left_out(rows, parts=5):
+def left_out(figure, rows, parts=5):
     """Errors (m) and whether the interval holds them, of bodies left out of the fit."""
     names = sorted({r[4] for r in rows})
     error, held, width = [], [], []
@@ -123,7 +136,7 @@ def left_out(rows, parts=5):
         train, test = [r for r in rows if r[4] not in out], [r for r in rows if r[4] in out]
         if len(train) < 20:
             continue
-        fit = fitted(train)
+        fit = fitted(figure, train)
         for r in test:
             e, s, apart = settle(r, fit)
             error.append(np.linalg.norm(e))
@@ -144,8 +157,8 @@ def main():
         print('%-20s %4s %9s %9s %9s  mesh: base mm, slope; model: base per residual, slope; disagreement' % (source, 'n', 'median mm', '95 % mm', 'covered'))
         for key, rows in sorted(samples(*getattr(o, source)).items()):
             names |= {r[4] for r in rows}
-            fit = fitted(rows)
-            error, held, width = left_out(rows)
+            fit = fitted(key, rows)
+            error, held, width = left_out(key, rows)
             m, b = fit.get('mesh'), fit.get('model')
             c = lambda v, digits: '{base: %.*g, support: %.3g}' % (digits, v[0], v[1]) if v is not None else '{base: 0.1, support: 0}'
             text += '  %s: {mesh: %s, model: %s, disagreement: %.3g, half_width: %.3g, error: %.2g, covered: %.3f, n: %d}\n' % (

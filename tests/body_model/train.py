@@ -172,10 +172,10 @@ def neck_ring(truth, points, neck):
     return dict(neck_ring_front=at((0, -1), (1, 0)), neck_ring_back=at((0, 1), (1, 0)), neck_ring_L=at((1, 0), (0, 1)), neck_ring_R=at((-1, 0), (0, 1)))
 
 
-SKIN_POINTS = ['bust_point_L', 'bust_point_R', 'crotch', 'neck_front', 'neck_back', 'neck_side_L', 'neck_side_R', 'navel']
+SKIN_POINTS = ['bust_point_L', 'bust_point_R', 'crotch', 'neck_front', 'neck_back', 'neck_side_L', 'neck_side_R', 'navel', 'underbust_L', 'underbust_R']
 
 
-def skin_points(body, files, truths, part, most=8):
+def skin_points(body, files, truths, part, most=16):
     """Named points of the skin as weighted vertices: the mean of their places on the training bodies."""
     triangles = np.vstack([body.quads[:, [0, 1, 2]], body.quads[:, [0, 2, 3]]])
     neck = np.isin(part, [PARTS.index(p) for p in ('neck', 'trunk', 'head')])
