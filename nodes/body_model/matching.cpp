@@ -46,19 +46,22 @@ Matching Matcher::match(const ModelSkin& skin, double scale, int samples) const 
   const std::size_t count = skin.points.size();
   Matching result{std::vector<Pull>(count), std::vector<double>(count), {}};
   const double sideways = kSideways * scale * scale;
+  const OrientedTree model(skin.points, skin.normals, kReach);
   in_parallel(count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const int s = tree_.nearest(skin.points[i], skin.normals[i]);
       const Vector3d off = skin.points[i] - samples_.points[s], &n = samples_.normals[s];
       const Pair pair = weigh(off, skin.normals[i], n, scale);
       result.distances[i] = pair.distance;
-      const double w = skin.weights[i] * pair.weight;
+      // A part that the samples lack finds those of another part, which belong to that.
+      const int owner = pair.weight > 0 ? model.nearest(samples_.points[s], n) : static_cast<int>(i);
+      const double astray = (skin.points[owner] - skin.points[i]).squaredNorm() / (scale * scale);
+      const double w = skin.weights[i] * pair.weight / (1 + astray);
       result.pulls[i].information = w * (n * n.transpose() + sideways * Matrix3d::Identity());
       result.pulls[i].pull = w * (n * n.dot(off) + sideways * off);
     }
   });
   const std::size_t looking = std::min<std::size_t>(samples, samples_.points.size());
-  const OrientedTree model(skin.points, skin.normals, kReach);
   std::vector<int> near(looking), finders(count, 0);
   in_parallel(looking, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) near[s] = model.nearest(samples_.points[s], samples_.normals[s]);

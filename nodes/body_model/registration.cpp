@@ -1,7 +1,10 @@
 #include "body_model/registration.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "body_model/arms.hpp"
 #include "body_model/gauss_newton.hpp"
@@ -24,45 +27,69 @@ constexpr std::size_t kFewest = 500;  // samples
 constexpr int kSamplesOfMesh = 40000;  // 7 mm apart on a woman
 constexpr int kAround = 12;           // samples: two rings of neighbours
 
+/// What of a person a scan may show: from where to where, in statures.
+struct Span {
+  double bottom, top;
+};
+constexpr Span kWhole{0, 1};
+constexpr Span kParts[] = {{0.46, 1}, {0, 0.5}, {0.44, 0.87}, {0.1, 0.87}};  // without legs, without all above the waist, the trunk alone
+constexpr double kShortest = 1.30, kTallest = 2.15;                          // m, of women who stand or stoop
+constexpr int kYaws = 8;
+constexpr double kRestingArm = M_PI / 4;             // rad, how far the arms are raised at rest
+constexpr double kShoulder = 0.11, kArm = 0.40;      // statures: half the shoulders' breadth, an arm's length
+
 double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
   return values[values.size() / 2];
 }
 
-std::vector<Parameters> starts(const Model& model, const Samples& samples) {
-  double low = 1e9, high = -1e9;
-  for (const Vector3d& p : samples.points) {
-    low = std::min(low, p.z());
-    high = std::max(high, p.z());
-  }
-  const double height = high - low;
+/// The mean woman in the place of the samples, facing one way, her arms as far out as the samples reach.
+Parameters start_at(const Model& model, const Samples& samples, const Span& span, double yaw) {
+  const auto box = geometry::bounding_box(samples.points);
+  const double low = box[0].z(), height = box[1].z() - low, stature = height / (span.top - span.bottom);
   std::vector<double> xs, ys;
   for (const Vector3d& p : samples.points)
-    if (p.z() > low + .4 * height && p.z() < low + .8 * height) {
+    if (p.z() > low + 0.4 * height && p.z() < low + 0.8 * height) {
       xs.push_back(p.x());
       ys.push_back(p.y());
     }
-  const Eigen::Vector2d c(median(xs), median(ys));
-  std::vector<Parameters> all;
-  for (int k = 0; k < 8; ++k) {
-    const double yaw = k * M_PI / 4;
-    Parameters p(model);
-    p.rotation = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
-    p.log_scale = std::log(height / model.stature);
-    const Eigen::Vector2d side(std::cos(yaw), std::sin(yaw));
-    std::vector<double> u;
-    for (const Vector3d& q : samples.points) u.push_back((q.head<2>() - c).dot(side));
-    std::sort(u.begin(), u.end());
-    const double span = u[u.size() * 999 / 1000] - u[u.size() / 1000];
-    const double s = std::clamp((span / 2 / height - .11) / .40, .1, 1.0), lift = std::asin(s) - 45 * M_PI / 180;
-    p.turns[model.group_named("arm_L")].y() = -.9 * lift;
-    p.turns[model.group_named("arm_R")].y() = .9 * lift;
-    const PosedModel posed(model, p);
-    double lowest = 1e9;
-    for (const int v : model.fit_points) lowest = std::min(lowest, posed.vertex(v).z());
-    p.position = Vector3d(c.x(), c.y(), low - lowest);
-    all.push_back(p);
+  if (xs.empty()) throw geometry::Refusal(geometry::refusal::kNotABody, "nothing in the middle of its height");
+  Parameters p(model);
+  p.rotation = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
+  p.log_scale = std::log(stature / model.stature);
+  const Vector3d left = p.rotation.col(0), middle(median(xs), median(ys), 0);
+  std::vector<double> aside;
+  for (const Vector3d& q : samples.points) aside.push_back(std::abs((q - middle).dot(left)));
+  const auto far = aside.begin() + static_cast<std::ptrdiff_t>(aside.size() * 499 / 500);  // but for stray ones
+  std::nth_element(aside.begin(), far, aside.end());
+  const double raised = std::asin(std::clamp((*far / stature - kShoulder) / kArm, 0.1, 1.0)) - kRestingArm;
+  p.turns[model.group_named("arm_L")].y() = -raised;
+  p.turns[model.group_named("arm_R")].y() = raised;
+  const PosedModel posed(model, p);
+  double lowest = 1e9;
+  for (const int v : model.fit_points) lowest = std::min(lowest, posed.vertex(v).z());
+  p.position = Vector3d(middle.x(), middle.y(), low - span.bottom * stature - lowest);
+  return p;
+}
+
+std::vector<Parameters> starts(const Model& model, const Samples& samples) {
+  const auto box = geometry::bounding_box(samples.points);
+  const double height = box[1].z() - box[0].z();
+  const auto fits = [&](const Span& span) {
+    const double stature = height / (span.top - span.bottom);
+    return stature > kShortest && stature < kTallest;
+  };
+  std::vector<Span> spans;
+  if (fits(kWhole)) {
+    spans.push_back(kWhole);
+  } else {
+    std::copy_if(std::begin(kParts), std::end(kParts), std::back_inserter(spans), fits);
   }
+  if (spans.empty())
+    throw geometry::Refusal(geometry::refusal::kNotABody, fmt::format("what was scanned is {:.2f} m high; a person, or her trunk, is 0.5 to 2.15 m", height));
+  std::vector<Parameters> all;
+  for (const Span& span : spans)
+    for (int k = 0; k < kYaws; ++k) all.push_back(start_at(model, samples, span, 2 * M_PI * k / kYaws));
   return all;
 }
 
