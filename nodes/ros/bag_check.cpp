@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
 #include <tensegric_fit/Garment.h>
@@ -30,6 +31,7 @@ std::pair<std::string, std::string> version_of() {
 const std::map<std::string, std::string>& known_versions() {
   static const std::map<std::string, std::string> versions = {version_of<sensor_msgs::PointCloud2>(),
                                                               version_of<Garment>(),
+                                                              version_of<BodyModel>(),
                                                               version_of<TriangleMesh>(),
                                                               version_of<Landmarks>(),
                                                               version_of<ControlMesh>(),
