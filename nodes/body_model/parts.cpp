@@ -19,7 +19,8 @@ std::vector<unsigned char> parts_of(const geometry::TriangleMesh& mesh, const Re
   geometry::in_halves(parts.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t v = begin; v < end; ++v) {
       const int nearest = tree.nearest(mesh.vertices[v], normals[v]);
-      if ((body.skin[nearest] - mesh.vertices[v]).norm() <= Matching::kUnmatched) parts[v] = model.part[nearest];
+      if ((body.skin[nearest] - mesh.vertices[v]).norm() <= Matching::kUnmatched)
+        parts[v] = model.part[nearest];
     }
   });
   return parts;

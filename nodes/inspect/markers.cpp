@@ -9,7 +9,8 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kDot = 0.012, kNode = 0.005, kEdge = 0.0015, kModelEdge = 0.0006, kTape = 0.003, kBand = 0.006,
+constexpr double kDot = 0.012, kNode = 0.005, kEdge = 0.0015, kModelEdge = 0.0006, kTape = 0.003,
+                 kBand = 0.006,
                  kLetter = 0.02;  // metres
 constexpr Colour kFixed{30, 30, 30}, kFree{250, 200, 40};
 

@@ -48,7 +48,8 @@ std::vector<Polyline> facing_quads(const ModelSkin& skin, const Eigen::Vector3d&
   for (const std::array<int, 4>& q : skin.quads) {
     const auto at = [&](int corner) -> const Eigen::Vector3d& { return skin.vertices[q[corner]]; };
     const Eigen::Vector3d outwards = (at(2) - at(0)).cross(at(3) - at(1));
-    if (outwards.dot(forward) < 0) quads.push_back({{at(0), at(1), at(2), at(3)}, true, colours[skin.part[q[0]]], 0});
+    if (outwards.dot(forward) < 0)
+      quads.push_back({{at(0), at(1), at(2), at(3)}, true, colours[skin.part[q[0]]], 0});
   }
   return quads;
 }
@@ -90,8 +91,8 @@ cv::Mat measured_picture(const geometry::TriangleMesh& body, const geometry::Bod
 
 }  // namespace
 
-cv::Mat front_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,
-                      int height, const ModelOverlay* model) {
+cv::Mat front_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures, int height,
+                      const ModelOverlay* model) {
   return measured_picture(body, measures, front_view, height, model);
 }
 cv::Mat side_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures, int height,

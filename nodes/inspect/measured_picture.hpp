@@ -17,7 +17,8 @@ struct ModelOverlay {
 
 /// The whole body with its landmarks and the tapes of its girths, each with its name in a margin: BGR,
 /// `height` pixels high. A ring is a landmark close behind other skin; what is farther behind is not drawn.
-/// With `model` the skin is tinted by parts, and the model's edges lie over it as fine lines. \throw Refusal as draw()
+/// With `model` the skin is tinted by parts, and the model's edges lie over it as fine lines. \throw Refusal
+/// as draw()
 cv::Mat front_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,
                       int height = 900, const ModelOverlay* model = nullptr);
 cv::Mat side_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,

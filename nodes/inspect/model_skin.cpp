@@ -59,11 +59,13 @@ std::vector<Colour> part_colours(const std::vector<std::string>& parts) {
   return colours;
 }
 
-std::vector<Colour> tinted_skin(const std::vector<unsigned char>& parts_of_skin, const std::vector<std::string>& parts) {
+std::vector<Colour> tinted_skin(const std::vector<unsigned char>& parts_of_skin,
+                                const std::vector<std::string>& parts) {
   std::vector<Colour> tints = part_colours(parts);
   for (Colour& tint : tints) tint = mixed(kNeutral, tint, kTint);
   std::vector<Colour> colours;
-  for (const unsigned char part : parts_of_skin) colours.push_back(part < tints.size() ? tints[part] : kNeutral);
+  for (const unsigned char part : parts_of_skin)
+    colours.push_back(part < tints.size() ? tints[part] : kNeutral);
   return colours;
 }
 

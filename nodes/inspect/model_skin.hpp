@@ -28,8 +28,10 @@ void check_model_skin(const ModelSkin& skin);
 /// One a part; left and right of a pair are shades of one colour, the left one (hers) darker.
 std::vector<Colour> part_colours(const std::vector<std::string>& parts);
 
-/// Neutral skin with a tint of its part's colour. `parts_of_skin`: one a vertex, index into parts; any other number: neutral.
-std::vector<Colour> tinted_skin(const std::vector<unsigned char>& parts_of_skin, const std::vector<std::string>& parts);
+/// Neutral skin with a tint of its part's colour. `parts_of_skin`: one a vertex, index into parts; any other
+/// number: neutral.
+std::vector<Colour> tinted_skin(const std::vector<unsigned char>& parts_of_skin,
+                                const std::vector<std::string>& parts);
 
 /// Triangles of the skin, two a quad.
 std::vector<Eigen::Vector3i> triangles_of(const ModelSkin& skin);

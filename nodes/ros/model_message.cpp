@@ -74,7 +74,8 @@ body_model::Parameters parameters_in(const BodyModel& message, const body_model:
   check(message.scale > 0, "its scale is not above 0");
   parameters.log_scale = std::log(message.scale);
   parameters.turns = points_in(message.turns);
-  parameters.shape = Eigen::VectorXd::Map(message.shape.data(), static_cast<Eigen::Index>(message.shape.size()));
+  parameters.shape =
+      Eigen::VectorXd::Map(message.shape.data(), static_cast<Eigen::Index>(message.shape.size()));
   return parameters;
 }
 
@@ -152,7 +153,8 @@ inspect::ModelSkin skin_in(const BodyModel& message) {
 void check_mesh_parts(const BodyModel& message, std::size_t vertices) {
   check(message.mesh_parts.size() == vertices, "it has not one part a vertex of the body mesh");
   for (const std::uint8_t part : message.mesh_parts)
-    check(part < message.parts.size() || part == body_model::kUnknownPart, "a part of the body mesh has no name");
+    check(part < message.parts.size() || part == body_model::kUnknownPart,
+          "a part of the body mesh has no name");
 }
 
 }  // namespace tensegric_fit::node
