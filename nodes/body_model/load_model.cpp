@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
+#include <iomanip>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -98,6 +100,18 @@ void take_header(const Json& header, const Check& check, Model& model) {
   }
 }
 
+/// Of all bytes of the file, which is read to its end.
+std::string checksum_of(std::istream& file) {
+  std::uint64_t value = 14695981039346656037u;
+  std::vector<char> bytes(1 << 16);
+  while (file.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || file.gcount() > 0)
+    for (std::streamsize i = 0; i < file.gcount(); ++i)
+      value = (value ^ static_cast<unsigned char>(bytes[i])) * 1099511628211u;
+  std::ostringstream text;
+  text << std::hex << std::setw(16) << std::setfill('0') << value;
+  return text.str();
+}
+
 void take_arrays(const std::map<std::string, Array>& arrays, const Check& check, Model& model) {
   const auto array = [&](const std::string& name, std::vector<std::size_t> shape) {
     check(arrays.count(name) > 0, "no array '" + name + "'");
@@ -188,6 +202,9 @@ Model load_model(const std::string& path) {
   const Check check{path};
   std::ifstream file(path, std::ios::binary);
   check(file.good(), "cannot be read");
+  const std::string checksum = checksum_of(file);
+  file.clear();
+  file.seekg(0);
   std::string magic, length;
   std::getline(file, magic);
   check(magic == kMagic, "not a body model of this format");
@@ -198,6 +215,7 @@ Model load_model(const std::string& path) {
   std::string text(std::stoul(length), '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   Model model{};
+  model.checksum = checksum;
   try {
     const Json header = Json::parse(text);
     take_header(header, check, model);

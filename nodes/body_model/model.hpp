@@ -37,6 +37,7 @@ struct SkinPoint {
 struct Model {
   static constexpr int kWeights = 4;  ///< bones that carry a vertex, at most
 
+  std::string checksum;                                 ///< of the file's bytes, FNV-1a of 64 bits in hexadecimal: which model it is
   double stature;                                       ///< m, of every shape at rest
   std::vector<Bone> bones;
   std::vector<PoseGroup> groups;

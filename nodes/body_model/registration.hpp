@@ -15,6 +15,7 @@ class Registrar {
   /// \param surface of one person, or of parts of her, within 15 degrees of upright (z up) \throw Refusal not_a_body
   RegisteredBody operator()(const Samples& surface) const;
   const Model& model() const { return *model_; }
+  const std::shared_ptr<const Model>& shared_model() const { return model_; }
   const Standing& standing() const { return standing_; }
 
  private:

@@ -120,10 +120,13 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
         std::tuple("--lean", &lean, std::round(geometry::kLargestLean * 180 / M_PI),
                    "Degrees that the chest leans to her left")})
     app.add_option(name, *angle, what)->needs(garment)->check(CLI::Range(-limit, limit));
+  auto* overlay = app.add_flag("--overlay", line.overlay,
+                               "front.png and side.png show the registered body model over the body");
   app.add_flag("--quiet", line.quiet, "No progress");
   scan->excludes(mesh);
   control->needs(fixed);
   fixed->excludes(garment);
+  overlay->excludes(fixed);
 
   try {
     app.parse(argc, argv);

@@ -23,6 +23,7 @@ struct CommandLine {
   std::optional<tensegric::TensionLaw> band;
   geometry::Posture posture;
   bool quiet = false;
+  bool overlay = false;  ///< the registered body model in front.png and side.png
   Settings settings;
 
   /// A shape bent by gravity instead of a body with a garment (P1 Fig. 3).

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "fit/effects.hpp"
 #include "geometry/csv.hpp"
@@ -37,10 +38,26 @@ Json stages_of(const StageTimes& times) {
           {"tffd", ms(times.tffd)}};
 }
 
+Json model_of(const body_model::RegisteredBody& body) {
+  constexpr double kDegrees = 180 / M_PI;
+  const auto& [groups, turns] = std::tie(body.model->groups, body.parameters.turns);
+  Json pose = Json::object();
+  for (std::size_t g = 0; g < groups.size(); ++g) pose[groups[g].name] = json_of(kDegrees * turns[g]);
+  const double up = std::atan2(body.vertical.head<2>().norm(), body.vertical.z());
+  return {{"residual", body.residual},
+          {"stature", body.stature()},
+          {"shape", std::vector<double>(body.parameters.shape.begin(), body.parameters.shape.end())},
+          {"pose", std::move(pose)},
+          {"up_deviation_deg", kDegrees * up},
+          {"parts", body.model->parts},
+          {"model", body.model->checksum}};
+}
+
 void add_measures(const geometry::BodyMeasures& measures, Json& report) {
   report["landmarks"] = report["heights"] = report["girths"] = report["confidence"] = Json::object();
   for (const auto& l : measures.landmarks) {
     Json entry{{"position", json_of(l.position)}, {"confidence", l.confidence}};
+    if (l.half_width > 0) entry["half_width"] = l.half_width;
     if (!l.reason.empty()) entry["reason"] = l.reason;
     report["landmarks"][l.name] = std::move(entry);
   }
@@ -130,6 +147,7 @@ Json report_of(const Source& source, const Body& body, const Fitting* fitting, c
                                            {"radius", fracture.radius},
                                            {"area", fracture.area},
                                            {"offset", fracture.offset}});
+  if (body.model) report["body_model"] = model_of(*body.model);
   add_measures(body.measures, report);
   if (fit != nullptr) add_fit(body, *fitting, *fit, settings, times, report);
   return report;

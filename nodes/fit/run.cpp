@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
+#include "body_model/parts.hpp"
 #include "booth/scan_file.hpp"
 #include "control_mesh/shape_control.hpp"
 #include "fit/report.hpp"
@@ -39,8 +40,9 @@ class Run {
     load_body();
     write_mesh("body.ply", body_.mesh.mesh);
     if (measured_only) {
-      save_picture("front.png", inspect::front_picture(body_.mesh.mesh, body_.measures));
-      save_picture("side.png", inspect::side_picture(body_.mesh.mesh, body_.measures));
+      constexpr int kWhole = 900;
+      save_picture("front.png", measured(inspect::front_picture, kWhole));
+      save_picture("side.png", measured(inspect::side_picture, kWhole));
       write_report(nullptr, nullptr);
       return;
     }
@@ -134,18 +136,28 @@ class Run {
       scene.lines_before.push_back(line.course_at_rest);
       scene.lines_after.push_back(line.course);
     }
-    save_picture("front.png", beside_measured(inspect::front_picture(body_.mesh.mesh, body_.measures, kPanel),
-                                              inspect::front_picture(scene)));
-    save_picture("side.png", beside_measured(inspect::side_picture(body_.mesh.mesh, body_.measures, kPanel),
-                                             inspect::side_picture(scene)));
+    save_picture("front.png", beside_measured(inspect::front_picture, inspect::front_picture(scene)));
+    save_picture("side.png", beside_measured(inspect::side_picture, inspect::side_picture(scene)));
     if (std::any_of(scene.parts.begin(), scene.parts.end(), [](const auto& part) { return part.behind; }))
       save_picture("back.png", inspect::back_picture(scene));
     save_picture("distortion.png", inspect::distortion_picture(scene));
   }
 
-  cv::Mat beside_measured(const cv::Mat& measured, const cv::Mat& pictures) const {
+  using MeasuredPicture = cv::Mat (*)(const geometry::TriangleMesh&, const geometry::BodyMeasures&, int,
+                                      const inspect::ModelOverlay*);
+
+  cv::Mat measured(MeasuredPicture picture, int height) const {
+    const geometry::TriangleMesh& mesh = body_.mesh.mesh;
+    if (!line_.overlay) return picture(mesh, body_.measures, height, nullptr);
+    const inspect::ModelSkin skin = inspect::skin_of(*body_.model);
+    const std::vector<unsigned char> parts = body_model::parts_of(mesh, *body_.model);
+    const inspect::ModelOverlay overlay{skin, parts};
+    return picture(mesh, body_.measures, height, &overlay);
+  }
+
+  cv::Mat beside_measured(MeasuredPicture picture, const cv::Mat& pictures) const {
     if (line_.is_shape()) return pictures;
-    return inspect::side_by_side(inspect::with_caption(measured, "measured"), pictures);
+    return inspect::side_by_side(inspect::with_caption(measured(picture, kPanel), "measured"), pictures);
   }
 
   void write_fit(const Fitting& fitting, const Fit& fit) {

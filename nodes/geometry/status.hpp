@@ -35,6 +35,10 @@ inline constexpr char kAtBound[] = "at_bound";          ///< a calibration that 
 inline constexpr char kOtherPerson[] = "other_person";  ///< a second scan of somebody else
 inline constexpr char kOtherPose[] = "other_pose";      ///< a second scan in which she stands otherwise
 inline constexpr char kCoatOn[] = "coat_on";            ///< a second scan with thick clothes on
+inline constexpr char kBadModel[] =
+    "bad_model";  ///< a registered body model whose arrays do not fit each other
+inline constexpr char kOtherModel[] =
+    "other_model";  ///< registered with another body model file than this build's
 inline constexpr char kTriggerFailed[] = "trigger_failed";  ///< the booth could not be told to scan
 inline constexpr char kTimedOut[] = "timed_out";      ///< a capture that did not come to its end in time
 inline constexpr char kSuperseded[] = "superseded";   ///< a newer scan came before this one was through

@@ -9,7 +9,8 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kDot = 0.012, kNode = 0.005, kEdge = 0.0015, kTape = 0.003, kBand = 0.006,
+constexpr double kDot = 0.012, kNode = 0.005, kEdge = 0.0015, kModelEdge = 0.0006, kTape = 0.003,
+                 kBand = 0.006,
                  kLetter = 0.02;  // metres
 constexpr Colour kFixed{30, 30, 30}, kFree{250, 200, 40};
 
@@ -61,6 +62,17 @@ Markers& Markers::body(const geometry::TriangleMesh& mesh, const std::vector<Col
     for (int corner = 0; corner < 3; ++corner) {
       marker.points.push_back(point_of(mesh.vertices[triangle[corner]]));
       marker.colors.push_back(rgba(colours[triangle[corner]]));
+    }
+  }
+  return *this;
+}
+
+Markers& Markers::model(const ModelSkin& skin) {
+  Marker& edges = add("body_model", Marker::LINE_LIST, kModelEdge);
+  for (const Stroke& edge : model_strokes(skin, lifted(skin.vertices, triangles_of(skin)))) {
+    for (const Eigen::Vector3d& end : edge.points) {
+      edges.points.push_back(point_of(end));
+      edges.colors.push_back(rgba(edge.colour));
     }
   }
   return *this;

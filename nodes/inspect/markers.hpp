@@ -14,6 +14,7 @@
 #include "geometry/control_mesh.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "inspect/colours.hpp"
+#include "inspect/model_skin.hpp"
 #include "inspect/strokes.hpp"
 
 namespace tensegric_fit::inspect {
@@ -25,6 +26,9 @@ class Markers {
 
   /// `colours`: one a vertex, with a light baked in (`lit`), since rviz draws coloured triangles unlit.
   Markers& body(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours);
+
+  /// Edges of the registered model in the colours of its parts.
+  Markers& model(const ModelSkin& skin);
 
   /// Dots with their names, and the tapes of the girths; orange where the confidence is below 0.5.
   Markers& landmarks(const geometry::BodyMeasures& measures);

@@ -41,8 +41,21 @@ const SeenPoint* end_of_tape(const std::vector<SeenPoint>& tape, double middle) 
   return end;
 }
 
+/// The model's quads that face a viewer who looks along `forward`.
+std::vector<Polyline> facing_quads(const ModelSkin& skin, const Eigen::Vector3d& forward) {
+  const std::vector<Colour> colours = part_colours(skin.parts);
+  std::vector<Polyline> quads;
+  for (const std::array<int, 4>& q : skin.quads) {
+    const auto at = [&](int corner) -> const Eigen::Vector3d& { return skin.vertices[q[corner]]; };
+    const Eigen::Vector3d outwards = (at(2) - at(0)).cross(at(3) - at(1));
+    if (outwards.dot(forward) < 0)
+      quads.push_back({{at(0), at(1), at(2), at(3)}, true, colours[skin.part[q[0]]], 0});
+  }
+  return quads;
+}
+
 cv::Mat measured_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,
-                         MakeView make, int height) {
+                         MakeView make, int height, const ModelOverlay* model) {
   View view = framed(make, measures.body_from_scan, body.vertices, kAround);
   const Eigen::Vector3d right = view.forward.cross(view.up);
   double half_width = 0, half_height = 0;
@@ -53,7 +66,12 @@ cv::Mat measured_picture(const geometry::TriangleMesh& body, const geometry::Bod
   view.height = std::max(1e-3, 2 * kAround * half_height);
   const int width = std::max(1, static_cast<int>(2 * kAround * half_width / view.height * height));
 
+  std::vector<Colour> colours;
   std::vector<Polyline> tapes;
+  if (model != nullptr) {
+    colours = tinted_skin(model->mesh_parts, model->skin.parts);
+    tapes = facing_quads(model->skin, view.forward);
+  }
   std::vector<Label> labels;
   for (const geometry::GirthLoop& loop : measures.loops) {
     tapes.push_back({loop.points, true, kTape});
@@ -68,17 +86,18 @@ cv::Mat measured_picture(const geometry::TriangleMesh& body, const geometry::Bod
     if (seen[i].behind < kCloseBehind)
       labels.push_back({words(measures.landmarks[i].name), seen[i].pixel, kLandmark,
                         seen[i].behind < kOnTheSkin ? Label::Mark::dot : Label::Mark::ring});
-  return with_labels(draw(body, {}, tapes, view, width, height), labels);
+  return with_labels(draw(body, colours, tapes, view, width, height), labels);
 }
 
 }  // namespace
 
-cv::Mat front_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,
-                      int height) {
-  return measured_picture(body, measures, front_view, height);
+cv::Mat front_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures, int height,
+                      const ModelOverlay* model) {
+  return measured_picture(body, measures, front_view, height, model);
 }
-cv::Mat side_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures, int height) {
-  return measured_picture(body, measures, side_view, height);
+cv::Mat side_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures, int height,
+                     const ModelOverlay* model) {
+  return measured_picture(body, measures, side_view, height, model);
 }
 
 }  // namespace tensegric_fit::inspect

@@ -5,15 +5,23 @@
 
 #include "geometry/body_measures.hpp"
 #include "geometry/triangle_mesh.hpp"
+#include "inspect/model_skin.hpp"
 
 namespace tensegric_fit::inspect {
 
+/// The registered model over its body. Only borrowed.
+struct ModelOverlay {
+  const ModelSkin& skin;
+  const std::vector<unsigned char>& mesh_parts;  ///< one a vertex of the body: index into skin.parts
+};
+
 /// The whole body with its landmarks and the tapes of its girths, each with its name in a margin: BGR,
 /// `height` pixels high. A ring is a landmark close behind other skin; what is farther behind is not drawn.
-/// \throw Refusal as draw()
+/// With `model` the skin is tinted by parts, and the model's edges lie over it as fine lines. \throw Refusal
+/// as draw()
 cv::Mat front_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,
-                      int height = 900);
+                      int height = 900, const ModelOverlay* model = nullptr);
 cv::Mat side_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,
-                     int height = 900);
+                     int height = 900, const ModelOverlay* model = nullptr);
 
 }  // namespace tensegric_fit::inspect

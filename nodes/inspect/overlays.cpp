@@ -8,8 +8,9 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr double kSure = 0.5;       // confidence
-constexpr double kDotLift = 0.005;  // metres: most of a dot is seen
+constexpr double kSure = 0.5;         // confidence
+constexpr double kDotLift = 0.005;    // metres: most of a dot is seen
+constexpr double kModelLift = 0.002;  // metres: over the chords of the body's triangles
 
 template <typename Held>
 bool is_of(const Held& held, const BodyView& body) {
@@ -28,6 +29,12 @@ std::vector<Eigen::Vector3d> between(const std::vector<Eigen::Vector3d>& rest,
 void Overlays::take_measures(const std::string& scan_id, geometry::BodyMeasures measures) {
   measures_ = {scan_id, std::move(measures)};
   carried_.reset();
+}
+
+void Overlays::take_model(const std::string& scan_id, ModelSkin skin) {
+  check_model_skin(skin);
+  model_ = {scan_id, std::move(skin)};
+  carried_model_.reset();
 }
 
 void Overlays::take_control(const std::string& scan_id, geometry::ControlMesh control) {
@@ -89,6 +96,14 @@ std::vector<Stroke> Overlays::tapes(const BodyView& body, double blend) {
     tapes.push_back(std::move(tape));
   }
   return tapes;
+}
+
+std::vector<Stroke> Overlays::model(const BodyView& body, double blend) {
+  if (!is_of(model_, body) || body.empty()) return {};
+  if (!is_of(carried_model_, body))
+    carried_model_ = {body.scan_id(),
+                      CarriedPoints(body.mesh(), geometry::SurfaceTree(body.mesh()), model_->value.vertices)};
+  return model_strokes(model_->value, carried_model_->skin.at(body.vertices(blend), kModelLift));
 }
 
 std::optional<std::vector<Eigen::Vector3d>> Overlays::outer(const BodyView& body, double blend) const {

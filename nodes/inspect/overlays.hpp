@@ -1,4 +1,4 @@
-/// What is drawn over a body: landmarks, tapes, control mesh, members, garment lines.
+/// What is drawn over a body: landmarks, tapes, body model, control mesh, members, garment lines.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,6 +10,7 @@
 #include "geometry/control_mesh.hpp"
 #include "inspect/body_view.hpp"
 #include "inspect/carried_points.hpp"
+#include "inspect/model_skin.hpp"
 #include "inspect/strokes.hpp"
 
 namespace tensegric_fit::inspect {
@@ -28,11 +29,13 @@ struct MemberPulls {
   std::vector<double> forces;  ///< one a member, over the mean pull at rest
 };
 
-/// Everything is kept with the scan that it is of, and drawn over a body of that scan only. Landmarks and
-/// tapes go where the skin goes. Metres, scan frame. For one thread.
+/// Everything is kept with the scan that it is of, and drawn over a body of that scan only. Landmarks,
+/// tapes and the body model go where the skin goes. Metres, scan frame. For one thread.
 class Overlays {
  public:
   void take_measures(const std::string& scan_id, geometry::BodyMeasures measures);
+  /// \throw Refusal as check_model_skin
+  void take_model(const std::string& scan_id, ModelSkin skin);
   void take_control(const std::string& scan_id, geometry::ControlMesh control);
   /// While a fit is on its way, `lines` is empty and those before stay.
   void take_fit(const std::string& scan_id, std::vector<Eigen::Vector3d> outer, std::vector<TenseLine> lines);
@@ -42,6 +45,7 @@ class Overlays {
   // `blend`: from rest (0) to worn (1). Empty where there is nothing of the body's scan.
   std::vector<NamedDot> dots(const BodyView& body, double blend);
   std::vector<Stroke> tapes(const BodyView& body, double blend);
+  std::vector<Stroke> model(const BodyView& body, double blend);
   std::vector<Stroke> edges(const BodyView& body, double blend) const;
   std::vector<Stroke> lines(const BodyView& body, double blend) const;
   std::vector<Stroke> members(const BodyView& body, double blend) const;
@@ -65,14 +69,21 @@ class Overlays {
     std::vector<CarriedPoints> loops;
   };
 
+  struct CarriedModel {
+    std::string scan_id;
+    CarriedPoints skin;
+  };
+
   bool carry(const BodyView& body);
   std::optional<std::vector<Eigen::Vector3d>> outer(const BodyView& body, double blend) const;
 
   std::optional<Of<geometry::BodyMeasures>> measures_;
+  std::optional<Of<ModelSkin>> model_;
   std::optional<Of<geometry::ControlMesh>> control_;
   std::optional<Of<Fit>> fit_;
   std::optional<Of<MemberPulls>> members_;
   std::optional<Carried> carried_;
+  std::optional<CarriedModel> carried_model_;  // made when it is first drawn: no one may ask for it
 };
 
 }  // namespace tensegric_fit::inspect

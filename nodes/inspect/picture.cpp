@@ -14,7 +14,6 @@ namespace {
 constexpr int kOversampling = 2;  // along each axis
 constexpr double kLineLift =
     0.012;  // metres; between control nodes a line runs under the skin, but less than this
-constexpr double kLineWidth = 0.003;
 const cv::Scalar kBackground(255, 255, 255);
 
 View view_along(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d& forward_in_body,
@@ -88,7 +87,8 @@ cv::Mat3b shade(const geometry::TriangleMesh& mesh, const std::vector<Colour>& c
 // Dots along the line, each where it is not behind the skin.
 void draw_line(const Polyline& line, const Camera& camera, const Raster& raster, cv::Mat3b& picture) {
   const cv::Scalar colour(line.colour[2], line.colour[1], line.colour[0]);
-  const int radius = std::max(1, static_cast<int>(std::lround(kLineWidth / 2 * camera.scale)));
+  const int radius =
+      line.width > 0 ? std::max(1, static_cast<int>(std::lround(line.width / 2 * camera.scale))) : 0;
   const std::size_t count = line.points.size(), segments = line.closed ? count : count - 1;
   for (std::size_t i = 0; i < segments; ++i) {
     const Eigen::Vector3d a = camera(line.points[i]), b = camera(line.points[(i + 1) % count]);

@@ -42,6 +42,7 @@ struct Polyline {
   std::vector<Eigen::Vector3d> points;
   bool closed;
   Colour colour;
+  double width = 0.003;  ///< m; 0: as fine as a picture can show
 };
 
 /// BGR picture on white: z-buffered, smoothly shaded by a light above the camera. Lines lie over the skin;

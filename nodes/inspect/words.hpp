@@ -27,6 +27,9 @@ inline constexpr char
     kLinesHelp[] = "The garment's lines, from slack (green) to tight (red).",
     kLandmarksHelp[] = "Blue; orange where they are unsure.", kNamesHelp[] = "The landmarks' names.",
     kGirthsHelp[] = "The tapes of the girths, as they were measured, carried along with the skin.",
+    kModelHelp[] =
+        "The body model that was registered to the scan, in the colours of its parts, carried along with the "
+        "skin.",
     kControlHelp[] = "The control mesh that the fit is made with.",
     kMembersHelp[] = "Forces in the model: red where it pulls, blue where it is pressed.",
     kTopicsHelp[] = "Where the body comes from.", kBodyHelp[] = "The body as scanned.",

@@ -1,4 +1,4 @@
-/// body/mesh -> body/landmarks
+/// body/mesh + body/model -> body/landmarks
 #include "inspect/markers.hpp"
 #include "ros/display.hpp"
 #include "ros/landmarks_handler.hpp"
@@ -15,17 +15,32 @@ class LandmarksNode {
         landmarks_(node.advertise<Landmarks>("body/landmarks", 1, true)),
         body_frame_(node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true)),
         display_(private_node),
-        mesh_(node.subscribe("body/mesh", 2, &LandmarksNode::on_mesh, this,
-                             ros::TransportHints().tcpNoDelay())),
-        stage_("landmarks", node) {}
+        stage_("landmarks", node) {
+    const ros::TransportHints prompt = ros::TransportHints().tcpNoDelay();
+    constexpr bool kOnce = true, kStarted = false;
+    patience_ = node.createWallTimer(
+        ros::WallDuration(LandmarksHandler::kPatience),
+        [this](const ros::WallTimerEvent&) { find(handler_.alone()); }, kOnce, kStarted);
+    model_ = node.subscribe("body/model", 2, &LandmarksNode::on_model, this, prompt);
+    mesh_ = node.subscribe("body/mesh", 2, &LandmarksNode::on_mesh, this, prompt);
+  }
 
  private:
   using Output = LandmarksHandler::Output;
 
   void on_mesh(const TriangleMesh::ConstPtr& mesh) {
     stage_.begin(mesh->scan_id);
-    stage_.post(mesh->scan_id, [this, mesh]() -> Stage::Result {
-      const auto output = std::make_shared<const Output>(handler_.handle(*mesh));
+    patience_.stop();
+    patience_.start();  // in vain where the model is there
+    find(handler_.add(mesh));
+  }
+
+  void on_model(const BodyModel::ConstPtr& model) { find(handler_.add(model)); }
+
+  void find(const std::optional<LandmarksHandler::Input>& input) {
+    if (!input) return;
+    stage_.post(std::get<0>(*input)->scan_id, [this, input = *input]() -> Stage::Result {
+      const auto output = std::make_shared<const Output>(handler_.handle(input));
       return {[this, output] { publish(output); }, output->facts};
     });
   }
@@ -49,10 +64,11 @@ class LandmarksNode {
     });
   }
 
-  const LandmarksHandler handler_;
+  LandmarksHandler handler_;
   ros::Publisher landmarks_, body_frame_;
   Display display_;
-  ros::Subscriber mesh_;
+  ros::WallTimer patience_;
+  ros::Subscriber model_, mesh_;
   Stage stage_;  // last: its worker uses all of the above
 };
 

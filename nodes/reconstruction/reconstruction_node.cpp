@@ -1,4 +1,4 @@
-/// scan/points -> body/mesh
+/// scan/points -> body/model, body/mesh
 #include "inspect/markers.hpp"
 #include "ros/display.hpp"
 #include "ros/reconstruction_handler.hpp"
@@ -12,6 +12,7 @@ class ReconstructionNode {
  public:
   ReconstructionNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
       : handler_(Parameters(private_node)),
+        model_(node.advertise<BodyModel>("body/model", 1, true)),
         mesh_(node.advertise<TriangleMesh>("body/mesh", 1, true)),
         display_(private_node),
         scan_(node.subscribe("scan/points", 2, &ReconstructionNode::on_scan, this)),
@@ -24,22 +25,27 @@ class ReconstructionNode {
     stage_.post(tag.scan_id, [this, scan, tag]() -> Stage::Result {
       const auto output = handler_.handle(*scan, tag);
       return {[this, output] {
+                model_.publish(output.model);
                 mesh_.publish(output.mesh);
-                show(output.body, output.mesh->header);
+                show(output.result, output.mesh->header);
               },
               output.facts};
     });
   }
 
-  void show(const std::shared_ptr<const reconstruction::BodyMesh>& body, const std_msgs::Header& header) {
-    const auto colours = [body] { return skin_colours(body->mesh, {}, facing(body->mesh)); };
-    display_.markers.offer([=] { return inspect::Markers(header).body(body->mesh, colours()).share(); });
-    display_.polygon_mesh.offer([=] { return inspect::polygon_mesh(header, body->mesh, {}); });
-    display_.image.offer([=] { return front_image(header, body->mesh, {}, {}, facing(body->mesh)); });
+  void show(const std::shared_ptr<const reconstruction::Reconstruction>& result,
+            const std_msgs::Header& header) {
+    const std::shared_ptr<const geometry::TriangleMesh> body(result, &result->body.mesh);
+    const auto colours = [body] { return skin_colours(*body, {}, facing(*body)); };
+    display_.markers.offer([=] {
+      return inspect::Markers(header).body(*body, colours()).model(inspect::skin_of(result->model)).share();
+    });
+    display_.polygon_mesh.offer([=] { return inspect::polygon_mesh(header, *body, {}); });
+    display_.image.offer([=] { return front_image(header, *body, {}, {}, facing(*body)); });
   }
 
   const ReconstructionHandler handler_;
-  ros::Publisher mesh_;
+  ros::Publisher model_, mesh_;
   Display display_;
   ros::Subscriber scan_;
   Stage stage_;  // last: its worker uses all of the above

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
 #include <tensegric_fit/Garment.h>
@@ -30,6 +31,7 @@ std::pair<std::string, std::string> version_of() {
 const std::map<std::string, std::string>& known_versions() {
   static const std::map<std::string, std::string> versions = {version_of<sensor_msgs::PointCloud2>(),
                                                               version_of<Garment>(),
+                                                              version_of<BodyModel>(),
                                                               version_of<TriangleMesh>(),
                                                               version_of<Landmarks>(),
                                                               version_of<ControlMesh>(),
@@ -95,6 +97,7 @@ class BagReader {
   // What a chain has written belongs together: a latched topic that was published before a split is missing.
   void look_for_outputs(const rosbag::MessageInstance& message) {
     if (const auto body = message.instantiate<TriangleMesh>()) bodies_.insert(body->scan_id);
+    if (const auto model = message.instantiate<BodyModel>()) modelled_.insert(model->scan_id);
     if (const auto fit = message.instantiate<FitState>()) dressed_[fit->scan_id] = message.getTopic();
     if (const auto deformed = message.instantiate<DeformedMesh>())
       dressed_[deformed->scan_id] = message.getTopic();
@@ -107,6 +110,12 @@ class BagReader {
             true, "lost_latched", fmt::format("{}: no body/mesh of scan {} is in the bag", topic, scan_id),
             "the latched body/mesh went into an earlier part of a split recording: join the parts, or record "
             "with --repeat-latched");
+    for (const std::string& scan_id : bodies_)
+      if (modelled_.count(scan_id) == 0)
+        find(false, "no_model",
+             fmt::format("no body/model of scan {} is in the bag, its body/mesh is", scan_id),
+             "played to the landmarks, the mesh waits 3 s and has the model registered anew: record "
+             "body/model, too");
     for (auto& [name, topic] : topics_) {
       std::vector<double>& gaps = gaps_[name];
       if (!gaps.empty()) topic.largest_gap = *std::max_element(gaps.begin(), gaps.end());
@@ -131,8 +140,8 @@ class BagReader {
   BagCheck check_;
   std::map<std::string, BagTopic> topics_;
   std::map<std::string, std::vector<double>> gaps_;
-  std::set<std::string> outdated_;  // topics whose messages cannot be read
-  std::set<std::string> bodies_;    // scan_ids
+  std::set<std::string> outdated_;           // topics whose messages cannot be read
+  std::set<std::string> bodies_, modelled_;  // scan_ids
   std::map<std::string, std::string> dressed_;
 };
 

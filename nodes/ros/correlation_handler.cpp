@@ -49,9 +49,10 @@ Correlation::ConstPtr to_message(const DeformedMesh& deformed, const std::string
 }  // namespace
 
 CorrelationHandler::CorrelationHandler(Parameters parameters)
-    : reconstruction_(reconstruction_options(parameters)) {
+    : reconstruction_(reconstruction_options(parameters)), anatomy_(shipped_anatomy()) {
   options_.thickness = parameters.number("thickness", options_.thickness, 0, correlation::kThickest);
   parameters.check_all_known();
+  landmarks::shipped_precision();  // a broken file is refused now, not with the first scan
 }
 
 std::optional<CorrelationHandler::Input> CorrelationHandler::add(const TriangleMesh::ConstPtr& body) {
@@ -93,11 +94,11 @@ CorrelationHandler::Output CorrelationHandler::handle(const Input& input) {
   const auto& [deformed, body, landmarks, control] = input.fit;
   if (!body_ || body_->scan_id != input.worn.tag.scan_id) {
     body_.reset();
-    WornBody worn{input.worn.tag.scan_id,
-                  reconstruction::reconstruct(cloud_in(*input.worn.points), reconstruction_),
-                  {}};
-    worn.measures = landmarks::find_landmarks(worn.mesh.mesh, worn.mesh.filled, {});
-    body_ = std::move(worn);
+    reconstruction::Reconstruction worn =
+        reconstruction::reconstruct(cloud_in(*input.worn.points), reconstruction_, anatomy_);
+    geometry::BodyMeasures measures = landmarks::find_landmarks(worn.body.mesh, worn.body.filled, worn.model,
+                                                                landmarks::shipped_precision());
+    body_ = {input.worn.tag.scan_id, std::move(worn.body), std::move(measures)};
   }
   const geometry::TriangleMesh rest = mesh_in(*body);
   const geometry::ControlMesh outer = control_in(*control);

@@ -68,6 +68,7 @@ class CorrelationHandler {
   std::optional<Input> input() const;
 
   reconstruction::Options reconstruction_;
+  reconstruction::Anatomy anatomy_;
   correlation::Options options_;
   Join join_;
   std::string scan_id_;

@@ -1,10 +1,12 @@
-/// body/mesh -> body/landmarks, and where the body's frame lies in the scan's for tf
+/// body/mesh + body/model -> body/landmarks, and where the body's frame lies in the scan's for tf
 #pragma once
 
+#include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/Landmarks.h>
 #include <tensegric_fit/TriangleMesh.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <optional>
 #include <string>
 
 #include "geometry/body_measures.hpp"
@@ -12,13 +14,25 @@
 #include "landmarks/find_landmarks.hpp"
 #include "ros/facts.hpp"
 #include "ros/parameters.hpp"
+#include "ros/scan_join.hpp"
 
 namespace tensegric_fit::node {
 
+/// A mesh of a reconstruction comes with its registered model. One that comes alone, from elsewhere or from
+/// an old bag, has the model registered to it here, once it has waited for kPatience.
 class LandmarksHandler {
  public:
-  /// \throw Refusal bad_option
+  static constexpr double kPatience = 3;  ///< seconds; the two leave the reconstruction within milliseconds
+
+  /// \throw Refusal bad_option, broken_file: body model or precision
   explicit LandmarksHandler(Parameters parameters);
+
+  /// Mesh and model of one scan; the model is null where none came.
+  using Input = ScanJoin<TriangleMesh, BodyModel>::Joined;
+  std::optional<Input> add(const TriangleMesh::ConstPtr& mesh) { return join_.add(mesh); }
+  std::optional<Input> add(const BodyModel::ConstPtr& model) { return join_.add(model); }
+  /// The mesh that waits for its model, if any, without one: a model that comes after all is not waited for.
+  std::optional<Input> alone();
 
   struct Output {
     Landmarks::ConstPtr landmarks;
@@ -27,13 +41,14 @@ class LandmarksHandler {
     geometry::BodyMeasures measures;
     Facts facts;
   };
-  /// \throw Refusal as find_landmarks
-  Output handle(const TriangleMesh& mesh) const;
+  /// \throw Refusal as mesh_in, registered_in, register_mesh, find_landmarks
+  Output handle(const Input& input) const;
 
   const std::string& body_frame() const { return body_frame_; }
 
  private:
   std::string body_frame_;
+  ScanJoin<TriangleMesh, BodyModel> join_;
 };
 
 }  // namespace tensegric_fit::node

@@ -1,11 +1,15 @@
 #include "ros/reconstruction_handler.hpp"
 
+#include <fmt/format.h>
 #include <pcl_conversions/pcl_conversions.h>
 
 #include <boost/make_shared.hpp>
 
+#include "body_model/parts.hpp"
+#include "body_model/registration.hpp"
 #include "geometry/point_cloud.hpp"
 #include "ros/body_messages.hpp"
+#include "ros/model_message.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -31,8 +35,14 @@ reconstruction::Options reconstruction_options(Parameters& parameters) {
   return options;
 }
 
+reconstruction::Anatomy shipped_anatomy() {
+  const body_model::Registrar& registrar = body_model::shipped_registrar();
+  return {[&registrar](const body_model::Samples& samples) { return registrar(samples); },
+          registrar.standing()};
+}
+
 ReconstructionHandler::ReconstructionHandler(Parameters parameters)
-    : options_(reconstruction_options(parameters)) {
+    : options_(reconstruction_options(parameters)), anatomy_(shipped_anatomy()) {
   parameters.check_all_known();
 }
 
@@ -40,19 +50,24 @@ ReconstructionHandler::Output ReconstructionHandler::handle(const sensor_msgs::P
                                                             const ScanTag& tag) const {
   pcl::PCLPointCloud2 cloud;
   pcl_conversions::toPCL(scan, cloud);
-  const auto body = std::make_shared<const reconstruction::BodyMesh>(
-      reconstruction::reconstruct(geometry::points_of(cloud), options_));
-  const auto message = boost::make_shared<TriangleMesh>(node::to_message(tag, body->mesh, body->filled));
-  for (const reconstruction::Hole& hole : body->holes) message->holes.push_back(to_message(hole));
-  for (const geometry::Fracture& fracture : body->fractures)
-    message->fractures.push_back(node::to_message(fracture));
-  return {message,
-          body,
-          {{"points_used", std::to_string(body->points_used)},
-           {"vertices", std::to_string(body->mesh.vertices.size())},
-           {"triangles", std::to_string(body->mesh.triangles.size())},
-           {"holes_closed", std::to_string(body->holes.size())},
-           {"fractures", std::to_string(body->fractures.size())}}};
+  const auto result = std::make_shared<const reconstruction::Reconstruction>(
+      reconstruction::reconstruct(geometry::points_of(cloud), options_, anatomy_));
+  const reconstruction::BodyMesh& body = result->body;
+  const auto mesh = boost::make_shared<TriangleMesh>(node::to_message(tag, body.mesh, body.filled));
+  for (const reconstruction::Hole& hole : body.holes) mesh->holes.push_back(to_message(hole));
+  for (const geometry::Fracture& fracture : body.fractures)
+    mesh->fractures.push_back(node::to_message(fracture));
+  const auto model = boost::make_shared<BodyModel>(
+      to_message(tag, result->model, body_model::parts_of(body.mesh, result->model)));
+  return {mesh,
+          model,
+          result,
+          {{"points_used", std::to_string(body.points_used)},
+           {"vertices", std::to_string(body.mesh.vertices.size())},
+           {"triangles", std::to_string(body.mesh.triangles.size())},
+           {"holes_closed", std::to_string(body.holes.size())},
+           {"fractures", std::to_string(body.fractures.size())},
+           {"model_residual_mm", fmt::format("{:.2f}", 1e3 * result->model.residual)}}};
 }
 
 }  // namespace tensegric_fit::node

@@ -1,7 +1,8 @@
-/// scan/points -> body/mesh
+/// scan/points -> body/model, body/mesh
 #pragma once
 
 #include <sensor_msgs/PointCloud2.h>
+#include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/TriangleMesh.h>
 
 #include <memory>
@@ -16,14 +17,18 @@ namespace tensegric_fit::node {
 /// Options of the reconstruction by their names. \throw Refusal bad_option
 reconstruction::Options reconstruction_options(Parameters& parameters);
 
+/// The shipped body model, loaded now. \throw Refusal broken_file
+reconstruction::Anatomy shipped_anatomy();
+
 class ReconstructionHandler {
  public:
-  /// \throw Refusal bad_option
+  /// \throw Refusal bad_option, broken_file: the body model
   explicit ReconstructionHandler(Parameters parameters);
 
   struct Output {
     TriangleMesh::ConstPtr mesh;
-    std::shared_ptr<const reconstruction::BodyMesh> body;
+    BodyModel::ConstPtr model;  ///< to be published before the mesh, which says that there is a new body
+    std::shared_ptr<const reconstruction::Reconstruction> result;
     Facts facts;
   };
   /// `tag` is the scan's. \throw Refusal as reconstruct
@@ -31,6 +36,7 @@ class ReconstructionHandler {
 
  private:
   reconstruction::Options options_;
+  reconstruction::Anatomy anatomy_;
 };
 
 }  // namespace tensegric_fit::node

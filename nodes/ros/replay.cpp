@@ -31,18 +31,19 @@ Replay::Replay(ros::NodeHandle node, const Options& options)
       set_garment_(node.serviceClient<SetGarment>("set_garment")),
       diagnostics_in_(node.subscribe("/diagnostics", 100, &Replay::on_diagnostics, this)),
       body_frame_in_(node.subscribe("/tf_static", 100, &Replay::on_tf, this)) {
-  keep("body/mesh", &FittedScan::body);
-  keep("body/landmarks", &FittedScan::landmarks);
+  keep<BodyModel>("body/model", &Answer::model);
+  keep<TriangleMesh>("body/mesh", &Answer::body);
+  keep<Landmarks>("body/landmarks", &Answer::landmarks);
   last_stage_ = "landmarks";
   if (options.measure_only) return;
-  keep("control/mesh", &FittedScan::control);
-  keep("control/deformed", &FittedScan::fit);
-  keep("body/deformed", &FittedScan::deformed);
+  keep<ControlMesh>("control/mesh", &Answer::control);
+  keep<FitState>("control/deformed", &Answer::fit);
+  keep<DeformedMesh>("body/deformed", &Answer::deformed);
   last_stage_ = "tffd";
 }
 
 template <typename Message>
-void Replay::keep(const std::string& topic, boost::shared_ptr<const Message> FittedScan::*slot) {
+void Replay::keep(const std::string& topic, boost::shared_ptr<const Message> Answer::*slot) {
   const boost::function<void(const boost::shared_ptr<const Message>&)> take =
       [this, slot](const boost::shared_ptr<const Message>& message) {
         if constexpr (std::is_same_v<Message, FitState> || std::is_same_v<Message, DeformedMesh>)
@@ -91,7 +92,7 @@ std::vector<std::string> Replay::wait_for_chain() {
 bool Replay::answered() const {
   if (refused_) return true;
   const bool fitted = got_.control && got_.fit && got_.deformed;
-  if (!got_.body || !got_.landmarks || (!options_.measure_only && !fitted)) return false;
+  if (!got_.model || !got_.body || !got_.landmarks || (!options_.measure_only && !fitted)) return false;
   const auto last = diagnostics_.find(last_stage_);
   return last != diagnostics_.end() && fact(last->second->status.front(), "state") == "done" &&
          fact(last->second->status.front(), "scan_id") == scan_id_;
@@ -99,6 +100,7 @@ bool Replay::answered() const {
 
 void Replay::write_answer(const ros::Time& time, rosbag::Bag& out, bool whole) {
   if (whole) {
+    write(out, "body/model", time, got_.model);
     write(out, "body/mesh", time, got_.body);
     write(out, "body/landmarks", time, got_.landmarks);
     write(out, "/tf_static", time, body_frame_);
@@ -113,7 +115,7 @@ bool Replay::send(const sensor_msgs::PointCloud2& scan, const ros::Time& time, r
   scan_id_ = tag_of(scan).scan_id;
   scan_stamp_ = scan.header.stamp;
   body_frame_ = nullptr;
-  got_ = FittedScan();
+  got_ = Answer();
   refused_ = false;
   scans_.publish(scan);
   const bool ended = wait([this] { return answered(); });

@@ -5,6 +5,7 @@
 #include <ros/ros.h>
 #include <rosbag/bag.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/Garment.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -36,8 +37,11 @@ class Replay {
   bool send(const Garment& garment, const ros::Time& time, rosbag::Bag& out);
 
  private:
+  struct Answer : FittedScan {
+    BodyModel::ConstPtr model;
+  };
   template <typename Message>
-  void keep(const std::string& topic, boost::shared_ptr<const Message> FittedScan::*slot);
+  void keep(const std::string& topic, boost::shared_ptr<const Message> Answer::*slot);
   void on_tf(const tf2_msgs::TFMessage::ConstPtr& message);
   void on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message);
   bool wait(const std::function<bool()>& condition) const { return wait(condition, options_.timeout); }
@@ -54,7 +58,7 @@ class Replay {
 
   std::string scan_id_, last_stage_;
   ros::Time scan_stamp_;
-  FittedScan got_;
+  Answer got_;
   tf2_msgs::TFMessage::ConstPtr body_frame_;
   bool refused_ = false;
   std::map<std::string, diagnostic_msgs::DiagnosticArray::ConstPtr> diagnostics_;  // newest of each stage

@@ -29,6 +29,9 @@ class ScanJoin {
     return std::tuple_cat(std::make_tuple(std::exchange(trigger_, nullptr)), context_);
   }
 
+  /// The trigger that waits, if any: it will complete the join no more.
+  boost::shared_ptr<const Trigger> give_up() { return std::exchange(trigger_, nullptr); }
+
  private:
   template <typename Message>
   bool holds() const {

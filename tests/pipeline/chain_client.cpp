@@ -46,7 +46,8 @@ sensor_msgs::PointCloud2 booth_scan(const std::string& body) {
 }
 
 ChainClient::ChainClient() : scans_(node_.advertise<sensor_msgs::PointCloud2>("scan/points", 4)) {
-  subscribers_ = {collect(node_, "body/mesh", bodies),
+  subscribers_ = {collect(node_, "body/model", models),
+                  collect(node_, "body/mesh", bodies),
                   collect(node_, "body/landmarks", landmarks),
                   collect(node_, "control/mesh", controls),
                   collect(node_, "control/deformed", fits),
@@ -80,6 +81,7 @@ std::string ChainClient::refusal_of(const std::string& scan_id) const {
 }
 
 void ChainClient::forget() {
+  models.clear();
   bodies.clear();
   landmarks.clear();
   controls.clear();

@@ -4,6 +4,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/ControlMesh.h>
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
@@ -43,6 +44,7 @@ class ChainClient {
   std::string fit(const sensor_msgs::PointCloud2& scan);
 
   /// What came, in order. Of the states of a fit only the last ones, not those on the way.
+  std::vector<BodyModel::ConstPtr> models;
   std::vector<TriangleMesh::ConstPtr> bodies;
   std::vector<Landmarks::ConstPtr> landmarks;
   std::vector<ControlMesh::ConstPtr> controls;

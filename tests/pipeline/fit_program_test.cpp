@@ -97,7 +97,7 @@ TEST_F(FitProgram, WritesEveryFieldAndFile) {
   EXPECT_TRUE(r["reason"].is_null());
   EXPECT_EQ(r["scan"]["body_from_scan"].size(), 4u);
   EXPECT_LE(r["scan"]["points_used"], r["scan"]["points"]);
-  for (const char* stage : {"reconstruction", "landmarks", "control_mesh", "tensegric", "tffd"})
+  for (const char* stage : {"reconstruction", "body_model", "landmarks", "control_mesh", "tensegric", "tffd"})
     EXPECT_GT(r["stages"][stage]["ms"], 0) << stage;
   EXPECT_TRUE(r["body"]["closed"]);
   for (const char* name :
@@ -146,8 +146,28 @@ TEST_F(FitProgram, MeasuresOnlyWithoutAGarmentAndTakesAMeshAsItIs) {
   const auto given = tensegric_fit::geometry::read_ply_mesh(kScans + "/a/body.ply");
   EXPECT_EQ(r["body"]["vertices"], given.vertices.size());
   const json truth = json::parse(read_file(kScans + "/a/truth.json"));
+  EXPECT_GT(r["body_model"]["residual"], 0);
+  EXPECT_LT(r["body_model"]["residual"], 0.01);
+  EXPECT_NEAR(r["body_model"]["stature"].get<double>(), r["heights"]["stature"].get<double>(), 0.1);
+  EXPECT_GT(r["body_model"]["shape"].size(), 10u);
+  EXPECT_EQ(r["body_model"]["pose"]["arm_L"].size(), 3u);
+  EXPECT_LT(r["body_model"]["up_deviation_deg"], 5);
+  EXPECT_GT(r["landmarks"]["crotch"]["half_width"], 0);
+  EXPECT_GT(r["confidence"]["heights"]["bust"]["half_width"], 0);
   for (const char* girth : {"bust", "underbust", "waist", "hip"})  // ISO 20685 allows 9 mm on large girths
     EXPECT_NEAR(r["girths"][girth].get<double>(), truth["girths"][girth].get<double>(), 0.009) << girth;
+}
+
+TEST_F(FitProgram, ShowsTheBodyModelOverTheBodyWhereAskedTo) {
+  const std::string measured = "--mesh " + kScans + "/a/body.ply";
+  ASSERT_EQ(fit(measured, "plain"), 0) << read_file(file("log"));
+  ASSERT_EQ(fit(measured + " --overlay", "overlay"), 0) << read_file(file("log"));
+  for (const char* name : {"front.png", "side.png"}) {
+    // colours and lines make a larger file than plain skin does
+    EXPECT_GT(fs::file_size(folder_ / "overlay" / name), 1.5 * fs::file_size(folder_ / "plain" / name))
+        << name;
+  }
+  EXPECT_EQ(read_file(folder_ / "overlay" / "body.ply"), read_file(folder_ / "plain" / "body.ply"));
 }
 
 TEST_F(FitProgram, AnInfeasibleRequestIsDoneAndSaysSo) {
@@ -258,7 +278,8 @@ TEST_F(FitProgram, UsageErrorsAreTwo) {
   EXPECT_EQ(fit("--scan a.ply --body-triangles 3"), 2);
   EXPECT_EQ(fit("--scan a.ply --garment ''"), 2);  // an unset variable of a script is not "measure only"
   EXPECT_EQ(fit("--mesh a.ply --gravity 0,0,-1"), 2);
-  EXPECT_EQ(fit("--scan a.ply --twist 15"), 2);  // nothing to show it with
+  EXPECT_EQ(fit("--mesh a.ply --fixed b.yaml --overlay"), 2);  // a shape has no body model
+  EXPECT_EQ(fit("--scan a.ply --twist 15"), 2);                // nothing to show it with
   EXPECT_EQ(fit("--scan a.ply --garment B1 --twist 61"), 2);
   EXPECT_EQ(fit("--help"), 0);
 }

@@ -82,13 +82,17 @@ std::string PipelineTest::scan_id_;
 
 TEST_F(PipelineTest, EveryTopicOnceWithOneScanId) {
   listen(1);  // for any that come twice
+  EXPECT_EQ(client_->models.size(), 1u);
   EXPECT_EQ(client_->bodies.size(), 1u);
   EXPECT_EQ(client_->landmarks.size(), 1u);
   EXPECT_EQ(client_->controls.size(), 1u);
   EXPECT_EQ(client_->fits.size(), 1u);
   EXPECT_EQ(client_->deformed.size(), 1u);
+  EXPECT_EQ(count_of(client_->models, scan_id_), 1);
   EXPECT_EQ(count_of(client_->bodies, scan_id_), 1);
   EXPECT_EQ(count_of(client_->landmarks, scan_id_), 1);
+  EXPECT_EQ(client_->models.front()->header.stamp, client_->bodies.front()->header.stamp);
+  EXPECT_EQ(client_->models.front()->mesh_parts.size() * 3, client_->bodies.front()->vertices.size());
   EXPECT_EQ(count_of(client_->controls, scan_id_), 1);
   EXPECT_EQ(count_of(client_->fits, scan_id_), 1);
   EXPECT_EQ(client_->deformed.front()->header.stamp, client_->bodies.front()->header.stamp);
@@ -116,6 +120,7 @@ TEST_F(PipelineTest, WhoJoinsLateGetsEverything) {
   client_ = std::make_unique<ChainClient>();
   EXPECT_TRUE(fit_and_body_came());
   ASSERT_TRUE(client_->ready());
+  EXPECT_EQ(count_of(client_->models, scan_id_), 1);
   EXPECT_EQ(count_of(client_->bodies, scan_id_), 1);
   EXPECT_EQ(count_of(client_->landmarks, scan_id_), 1);
   EXPECT_EQ(count_of(client_->controls, scan_id_), 1);
@@ -339,6 +344,24 @@ TEST_F(PipelineTest, TwoScansInARowNeverMix) {
     }
   }
   EXPECT_LE(count_of(client_->deformed, a), 1);
+}
+
+TEST_F(PipelineTest, AMeshThatComesAloneIsMeasuredToo) {
+  ASSERT_NE(client_->fit(booth_scan("a")), "");
+  ASSERT_TRUE(wait_for([] { return !client_->landmarks.empty() && !client_->bodies.empty(); }));
+  const Landmarks with_model = *client_->landmarks.back();
+  TriangleMesh mesh = *client_->bodies.back();
+  mesh.scan_id = "from elsewhere";
+  ros::NodeHandle node;
+  ros::Publisher publisher = node.advertise<TriangleMesh>("body/mesh", 1);
+  ASSERT_TRUE(wait_for([&] { return publisher.getNumSubscribers() >= 5; }));
+  client_->forget();
+  publisher.publish(mesh);
+  ASSERT_TRUE(wait_for([&] { return count_of(client_->deformed, mesh.scan_id) == 1; }));
+  EXPECT_EQ(count_of(client_->landmarks, mesh.scan_id), 1);
+  EXPECT_TRUE(client_->models.empty());
+  EXPECT_NEAR(height_of(*client_->landmarks.back(), "bust"), height_of(with_model, "bust"), 0.01);
+  EXPECT_EQ(client_->diagnostics.at("landmarks: landmarks").at("body_model"), "registered to the mesh");
 }
 
 TEST_F(PipelineTest, TheSameScanTwiceIsFittedTwice) {

@@ -49,10 +49,14 @@ class Chain {
   void feed(const sensor_msgs::PointCloud2& scan) {
     const node::ScanTag tag = node::tag_of(scan);
     recording.scan_id = tag.scan_id;
-    run("reconstruction", [&] { recording.body = reconstruction_.handle(scan, tag).mesh; });
+    run("reconstruction", [&] {
+      const auto output = reconstruction_.handle(scan, tag);
+      recording.model = output.model;
+      recording.body = output.mesh;
+    });
     if (!recording.body) return;
     run("landmarks", [&] {
-      const auto output = landmarks_.handle(*recording.body);
+      const auto output = landmarks_.handle({recording.body, recording.model});
       recording.landmarks = output.landmarks;
       recording.body_frame = output.body_frame;
     });

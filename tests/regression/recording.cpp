@@ -80,6 +80,7 @@ std::map<std::string, std::string> hashes_of(const Recording& recording) {
   std::map<std::string, std::string> hashes;
   if (recording.scan) hashes["scan/points"] = hash_of<sensor_msgs::PointCloud2>({recording.scan});
   if (recording.body_frame) hashes["/tf_static"] = hash_of<tf2_msgs::TFMessage>({recording.body_frame});
+  if (recording.model) hashes["body/model"] = hash_of<BodyModel>({recording.model});
   if (recording.body) hashes["body/mesh"] = hash_of<TriangleMesh>({recording.body});
   if (recording.landmarks) hashes["body/landmarks"] = hash_of<Landmarks>({recording.landmarks});
   if (recording.control) hashes["control/mesh"] = hash_of<ControlMesh>({recording.control});
@@ -95,6 +96,7 @@ Recording recording_in(const std::string& path, const std::string& scan_id) {
   rosbag::View view(bag);
   for (const rosbag::MessageInstance& message : view) {
     const std::string& topic = message.getTopic();
+    if (topic == "body/model") keep(message, scan_id, recording.model);
     if (topic == "body/mesh") keep(message, scan_id, recording.body);
     if (topic == "body/landmarks") keep(message, scan_id, recording.landmarks);
     if (topic == "control/mesh") keep(message, scan_id, recording.control);

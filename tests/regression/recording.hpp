@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sensor_msgs/PointCloud2.h>
+#include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/ControlMesh.h>
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
@@ -20,6 +21,7 @@ namespace tensegric_fit::regression {
 struct Recording {
   std::string scan_id;
   sensor_msgs::PointCloud2::ConstPtr scan;  ///< of several sensors; else null
+  BodyModel::ConstPtr model;
   TriangleMesh::ConstPtr body;
   Landmarks::ConstPtr landmarks;
   tf2_msgs::TFMessage::ConstPtr body_frame;

@@ -51,6 +51,30 @@ TEST(MeasuredPicture, ATapeIsNamedWithItsLength) {
   EXPECT_GT(coloured(front_picture(plate(), measures, 300)), name_alone + 40);
 }
 
+TEST(MeasuredPicture, TheBodyModelIsDrawnInTheColoursOfItsPartsWhereItFacesTheViewer) {
+  const ModelSkin skin{plate().vertices, {{0, 1, 2, 3}}, {0, 0, 0, 0}, {"trunk"}};
+  const std::vector<unsigned char> known(4, 0), unknown(4, 255);
+  const ModelOverlay tinted{skin, known}, lines_alone{skin, unknown};
+  const int none = coloured(front_picture(plate(), {}, 300)),
+            lines = coloured(front_picture(plate(), {}, 300, &lines_alone)),
+            both = coloured(front_picture(plate(), {}, 300, &tinted));
+  EXPECT_EQ(none, 0);
+  EXPECT_GT(lines, 200);
+  EXPECT_GT(both, 20 * lines);
+  const ModelSkin turned{plate().vertices, {{3, 2, 1, 0}}, {0, 0, 0, 0}, {"trunk"}};
+  const ModelOverlay from_behind{turned, unknown};
+  EXPECT_EQ(coloured(front_picture(plate(), {}, 300, &from_behind)), 0);
+}
+
+TEST(PartColours, PairsAreShadesOfOneColourAndNeighboursDiffer) {
+  const std::vector<Colour> colours = part_colours({"trunk", "breast_L", "breast_R", "thigh_L", "thigh_R"});
+  ASSERT_EQ(colours.size(), 5u);
+  for (const int pair : {1, 3})
+    for (int c = 0; c < 3; ++c) EXPECT_GT(colours[pair + 1][c], colours[pair][c]);
+  EXPECT_NE(colours[0], colours[1]);
+  EXPECT_NE(colours[1], colours[3]);
+}
+
 TEST(MeasuredPicture, ItIsAsHighAsAskedForAndShowsABodyWithoutMeasures) {
   const cv::Mat picture = side_picture({{{0, 0, 0}, {0.3, 0, 0}, {0.3, 0, 1.7}}, {{0, 1, 2}}}, {}, 400);
   EXPECT_EQ(picture.rows, 400);

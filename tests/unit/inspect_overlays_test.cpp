@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::inspect {
@@ -25,9 +27,12 @@ class OverlaysTest : public testing::Test {
     control.inner = kCorners;
     control.triangles = kTriangles;
     overlays_.take_control("one", control);
+    overlays_.take_model("one", model());
     overlays_.take_fit("one", raised, {{{0, 1, 2}, 0.5}});
     overlays_.take_members("one", {std::vector<Eigen::Vector3d>(8, {0, 0, 2}), {0, 1, 2, 7}, {1, -1}});
   }
+
+  static ModelSkin model() { return {kCorners, {{0, 1, 2, 3}}, {0, 0, 1, 1}, {"breast_L", "breast_R"}}; }
 
   static inline const std::vector<Eigen::Vector3d> kCorners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   static inline const std::vector<Eigen::Vector3i> kTriangles{{0, 1, 2}, {0, 2, 3}};
@@ -46,6 +51,9 @@ TEST_F(OverlaysTest, EverythingGoesWithTheSkin) {
     ASSERT_EQ(tapes.size(), 1u);
     EXPECT_EQ(tapes[0].points.size(), 4u);  // closed
     EXPECT_NEAR(tapes[0].points[1].z(), height, 1e-12);
+    const std::vector<Stroke> edges = overlays_.model(body_, blend);
+    ASSERT_EQ(edges.size(), 4u);  // each once
+    EXPECT_NEAR(edges[2].points[1].z(), height, 0.01);
     EXPECT_EQ(overlays_.edges(body_, blend).size(), 5u);
     ASSERT_EQ(overlays_.lines(body_, blend).size(), 1u);
     EXPECT_NEAR(overlays_.lines(body_, blend)[0].points[2].z(), height, 0.01);
@@ -66,10 +74,35 @@ TEST_F(OverlaysTest, NothingOfAnotherScanIsDrawn) {
   body_.take_body("two", {kCorners, kTriangles});
   EXPECT_TRUE(overlays_.dots(body_, 1).empty());
   EXPECT_TRUE(overlays_.tapes(body_, 1).empty());
+  EXPECT_TRUE(overlays_.model(body_, 1).empty());
   EXPECT_TRUE(overlays_.edges(body_, 1).empty());
   EXPECT_TRUE(overlays_.lines(body_, 1).empty());
   EXPECT_TRUE(overlays_.members(body_, 1).empty());
   EXPECT_EQ(overlays_.measures(body_), nullptr);
+}
+
+TEST_F(OverlaysTest, ABodyModelThatDoesNotFitItselfIsRefused) {
+  const auto code_of = [this](ModelSkin skin) -> std::string {
+    try {
+      overlays_.take_model("one", std::move(skin));
+    } catch (const geometry::Refusal& refusal) {
+      return refusal.code();
+    }
+    return "accepted";
+  };
+  ModelSkin bad = model();
+  bad.quads[0][2] = 4;
+  EXPECT_EQ(code_of(bad), "bad_model");
+  bad = model();
+  bad.part[3] = 2;
+  EXPECT_EQ(code_of(bad), "bad_model");
+  bad = model();
+  bad.part.pop_back();
+  EXPECT_EQ(code_of(bad), "bad_model");
+  bad = model();
+  bad.vertices[0].x() = std::nan("");
+  EXPECT_EQ(code_of(bad), "non_finite");
+  EXPECT_EQ(overlays_.model(body_, 0).size(), 4u);  // what was there before stays
 }
 
 TEST_F(OverlaysTest, LinesStayWhileAFitIsOnItsWay) {

@@ -3,6 +3,7 @@
 #include <rosbag/bag.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <std_msgs/String.h>
+#include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/Garment.h>
 #include <unistd.h>
 
@@ -185,7 +186,23 @@ TEST_F(CheckBagTest, LatchedMessagesThatWentIntoAnotherPart) {
               body.scan_id = "B";
               bag.write("/body/mesh", ros::Time(12), body);
             }),
-            Names{"lost_latched"});
+            (Names{"lost_latched", "note no_model"}));
+}
+
+TEST_F(CheckBagTest, ABodyOfABagFromBeforeTheBodyModel) {
+  const auto with_model = [](const std::string& scan_id) {
+    return [scan_id](rosbag::Bag& bag) {
+      write_scan(bag, 10, scan_at(10));
+      TriangleMesh body;
+      body.scan_id = "A";
+      bag.write("/body/mesh", ros::Time(12), body);
+      BodyModel model;
+      model.scan_id = scan_id;
+      bag.write("/body/model", ros::Time(12), model);
+    };
+  };
+  EXPECT_EQ(found_in(with_model("A")), Names{});
+  EXPECT_EQ(found_in(with_model("B")), Names{"note no_model"});
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "inspect/words.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/flat.hpp"
+#include "ros/model_message.hpp"
 
 namespace tensegric_fit::inspect {
 namespace {
@@ -74,11 +75,17 @@ void BodyMeshDisplay::change_topics() {
     subscribe(properties_->members, &BodyMeshDisplay::take_members);
   else
     deleteStatus(properties_->members->getName());
+  if (properties_->look().model)  // large, and seldom looked at
+    subscribe(properties_->model, &BodyMeshDisplay::take_model);
+  else
+    deleteStatus(properties_->model->getName());
   listens_to_members_ = properties_->look().members;
+  listens_to_model_ = properties_->look().model;
 }
 
 void BodyMeshDisplay::change_look() {
-  if (properties_->look().members != listens_to_members_) change_topics();
+  const Look look = properties_->look();
+  if (look.members != listens_to_members_ || look.model != listens_to_model_) change_topics();
   changed_ = true;
 }
 
@@ -117,6 +124,10 @@ void BodyMeshDisplay::take_worn(const DeformedMesh& message) {
 
 void BodyMeshDisplay::take_landmarks(const Landmarks& message) {
   overlays_.take_measures(message.scan_id, node::measures_in(message));
+}
+
+void BodyMeshDisplay::take_model(const BodyModel& message) {
+  overlays_.take_model(message.scan_id, node::skin_in(message));
 }
 
 void BodyMeshDisplay::take_control(const ControlMesh& message) {

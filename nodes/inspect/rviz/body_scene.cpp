@@ -11,9 +11,10 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr double kTape = 0.003, kEdge = 0.0015, kMember = 0.001, kBand = 0.006;  // widths, metres
-constexpr double kGap = 0.1;                                                     // between two bodies, metres
-constexpr double kMarkLift = 0.006;                                              // metres, towards the eye
+constexpr double kTape = 0.003, kModel = 0.0006, kEdge = 0.0015, kMember = 0.001,
+                 kBand = 0.006;      // widths, metres
+constexpr double kGap = 0.1;         // between two bodies, metres
+constexpr double kMarkLift = 0.006;  // metres, towards the eye
 constexpr Colour kMarkColour{20, 20, 20};
 
 double blend_of(const Look& look) {
@@ -47,6 +48,7 @@ BodyScene::BodyScene(Ogre::SceneManager* scene, Ogre::SceneNode* parent)
       landmarks_(scene, node_),
       mark_(scene, node_),
       girths_(scene, node_, kTape),
+      model_(scene, node_, kModel),
       edges_(scene, node_, kEdge),
       members_(scene, node_, kMember),
       lines_(scene, node_, kBand) {}
@@ -79,6 +81,7 @@ void BodyScene::draw(const BodyView& body, Overlays& overlays, const Look& look)
   for (NamedDot& dot : dots) dot.name = spoken(dot.name);
   landmarks_.draw(dots, look.names);
   girths_.draw(look.girths ? overlays.tapes(body, blend) : std::vector<Stroke>{});
+  model_.draw(look.model ? overlays.model(body, blend) : std::vector<Stroke>{});
   edges_.draw(look.control_mesh ? overlays.edges(body, blend) : std::vector<Stroke>{});
   members_.draw(look.members ? overlays.members(body, blend) : std::vector<Stroke>{});
   lines_.draw(look.lines ? overlays.lines(body, blend) : std::vector<Stroke>{});

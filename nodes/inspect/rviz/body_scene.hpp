@@ -24,7 +24,8 @@ struct Look {
   ColourBy colour_by = ColourBy::distortion;
   bool automatic_scale = false, legend = true;
   double opacity = 1;
-  bool landmarks = true, names = false, girths = true, control_mesh = false, members = false, lines = true;
+  bool landmarks = true, names = false, girths = true, model = false, control_mesh = false, members = false,
+       lines = true;
 };
 
 /// What someone pointed at: a place for a mark, in the scan's frame, and the position on the skin of the body
@@ -57,7 +58,7 @@ class BodyScene {
   Ogre::SceneNode* node_;
   OgreBody before_, after_;
   DotsDrawing landmarks_, mark_;
-  StrokesDrawing girths_, edges_, members_, lines_;
+  StrokesDrawing girths_, model_, edges_, members_, lines_;
   Legend legend_;
   Look look_;
   ColourScale scale_ = fixed_scale(ColourBy::plain);

@@ -6,6 +6,7 @@
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/ros_topic_property.h>
 #include <rviz/properties/string_property.h>
+#include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/ControlMesh.h>
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
@@ -72,6 +73,7 @@ LookProperties::LookProperties(rviz::Property* parent, QObject* receiver, const 
   landmarks_ = flag("Landmarks", first.landmarks, words::kLandmarksHelp, parent);
   names_ = flag("Names", first.names, words::kNamesHelp, landmarks_);
   girths_ = flag("Girths", first.girths, words::kGirthsHelp, parent);
+  model_ = flag("Body model", first.model, words::kModelHelp, parent);
   control_mesh_ = flag("Control mesh", first.control_mesh, words::kControlHelp, parent);
   members_ = flag("Struts and tensile parts", first.members, words::kMembersHelp, parent);
 
@@ -80,6 +82,7 @@ LookProperties::LookProperties(rviz::Property* parent, QObject* receiver, const 
   worn = topic<DeformedMesh>("Deformed", "body/deformed", words::kWornHelp, topics, receiver, topics_changed);
   landmarks = topic<Landmarks>("Landmarks", "body/landmarks", words::kLandmarksHelp, topics, receiver,
                                topics_changed);
+  model = topic<BodyModel>("Body model", "body/model", words::kModelHelp, topics, receiver, topics_changed);
   control = topic<ControlMesh>("Control mesh", "control/mesh", words::kControlHelp, topics, receiver,
                                topics_changed);
   fit = topic<FitState>("Fit", "control/deformed", words::kLinesHelp, topics, receiver, topics_changed);
@@ -103,6 +106,7 @@ Look LookProperties::look() const {
   look.landmarks = landmarks_->getBool();
   look.names = names_->getBool();
   look.girths = girths_->getBool();
+  look.model = model_->getBool();
   look.control_mesh = control_mesh_->getBool();
   look.members = members_->getBool();
   look.lines = lines_->getBool();
