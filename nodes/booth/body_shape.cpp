@@ -85,7 +85,7 @@ BodyShape::BodyShape(const BodyParameters& parameters)
                           1 - parameters.firmness);
   // Arms hang from the shoulders and do not turn with the chest. Collarbones hardly grow with weight.
   Vector3d joint = thickened(kShoulderJoint);
-  joint.y() = (1 + 0.25 * (build_ - 1)) * kShoulderJoint.y();
+  joint.y() = kShoulderJoint.y() + arms_set_out() / scale_;
   // and go up with a raised arm
   const Eigen::AngleAxisd raised(kCollarboneShare * std::max(0.0, parameters.arm_angle - kSettingPhase),
                                  Vector3d::UnitX());
@@ -302,12 +302,18 @@ Ray BodyShape::upper_arm_axis(bool left) const {
   return left ? Ray{origin, down} : Ray{mirrored(origin), mirrored(down)};
 }
 
+double BodyShape::arms_set_out() const {
+  return scale_ * 0.25 * (build_ - 1) * kShoulderJoint.y();
+}
+
 Vector3d BodyShape::acromion(bool left) const {
   const double held_out = std::acos(std::clamp(-upper_arm_axis(true).direction.z(), -1.0, 1.0));
   const double raised = std::max(0.0, held_out - kSettingPhase);
   const Eigen::AngleAxisd collarbone(kCollarboneShare * raised, Vector3d::UnitX()),
       blade(raised / 3, Vector3d::UnitX());
-  const Vector3d joint = kCollarbone + collarbone * (kShoulderJoint - kCollarbone);
+  // A deeper chest carries it back, a broader one does not carry it outwards.
+  const Vector3d at_rest(thickened(kShoulderJoint).x(), kShoulderJoint.y(), kShoulderJoint.z());
+  const Vector3d joint = kCollarbone + collarbone * (at_rest - kCollarbone);
   const Vector3d p = scale_ * spine_.bent(joint + blade * (kAcromion - kShoulderJoint));
   return left ? p : mirrored(p);
 }

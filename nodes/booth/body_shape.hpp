@@ -36,6 +36,8 @@ class BodyShape : public Implicit {
   /// The outer edge of the shoulder blade, under the skin: it goes up with a raised arm, but not outwards
   /// with weight.
   Eigen::Vector3d acromion(bool left) const;
+  /// How far weight sets each shoulder joint outwards, so that the arm is clear of the trunk.
+  double arms_set_out() const;
   /// Where a point of the reference body is on this one, and the direction `direction` there.
   Eigen::Vector3d posed(const Eigen::Vector3d& reference) const;
   Eigen::Vector3d posed_bone(const Eigen::Vector3d& reference) const;  ///< bones do not thicken
