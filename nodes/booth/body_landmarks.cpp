@@ -114,7 +114,7 @@ struct Passage {
 };
 
 Passage passage(const BodyShape& shape, double side, double z) {
-  const BodyShape::Axis arm = shape.upper_arm_axis(side > 0);
+  const Ray arm = shape.upper_arm_axis(side > 0);
   const Vector3d bone = arm.origin + (z - arm.origin.z()) / arm.direction.z() * arm.direction;
   Passage result{Vector3d::Zero(), std::numeric_limits<double>::infinity()};
   for (double x = -0.058; x < 0.062; x += 0.002) {
@@ -139,15 +139,21 @@ Vector3d axilla(const BodyShape& shape, double side) {
   return shape.project(passage(shape, side, open).narrowest);
 }
 
-// Over the shoulder joint, outwards and back: 0.018 statures behind the middle of the shoulder's depth, as on
-// MakeHuman's bodies. The shoulder blade lies on the chest and stoops with it, and turns with an arm that is
-// raised further than half a radian, by a third of the rest (scapulohumeral rhythm).
-Vector3d acromion(const BodyShape& shape, double side) {
-  const BodyShape::Axis arm = shape.upper_arm_axis(side > 0);
-  const double raised = std::max(0.0, std::acos(-arm.direction.z()) - 0.5) / 3;
-  const Eigen::AngleAxisd blade(side * raised, Vector3d::UnitX());
-  const Vector3d over_joint = blade * Vector3d(-0.56, side * 0.46, 0.70).normalized();
-  return shape.exit_point(arm.origin, shape.posed_direction({0.008, 0.168 * side, 1.330}, over_joint));
+// Along the midline of the perineum, both ways from its middle.
+Vector3d lowest_of_midline(const BodyShape& shape) {
+  constexpr double kStep = 0.0005, kReach = 0.060;  // m
+  const Vector3d in_plane(1, 0, 1);
+  const Vector3d middle = shape.exit_point(shape.posed_bone({0.014, 0, 0.90}), -Vector3d::UnitZ());
+  Vector3d lowest = middle;
+  for (const double way : {kStep, -kStep}) {
+    Vector3d p = middle;
+    while ((p - middle).norm() < kReach) {
+      const Vector3d g = shape.gradient(p).cwiseProduct(in_plane).normalized();
+      p = shape.project(p + way * Vector3d(g.z(), 0, -g.x()), in_plane);
+      if (p.z() < lowest.z()) lowest = p;
+    }
+  }
+  return lowest;
 }
 
 }  // namespace
@@ -168,12 +174,12 @@ std::vector<geometry::Landmark> find_body_landmarks(const BodyShape& shape) {
   for (const bool left : {true, false}) {
     const double side = left ? 1 : -1;
     const std::string suffix = left ? "_L" : "_R";
-    const BodyShape::Axis breast = shape.breast_axis(left);
+    const Ray breast = shape.breast_axis(left);
     const Vector3d bust_point = shape.exit_point(breast.origin, breast.direction);
     add("bust_point" + suffix, bust_point);
     add("underbust" + suffix, fold_under(shape, bust_point).point);
     add("fold_lowest" + suffix, lowest_fold(shape, bust_point));
-    add("shoulder" + suffix, acromion(shape, side));
+    add("shoulder" + suffix, shape.exit_point(shape.acromion(left), Vector3d::UnitZ()));
     add("neck_side" + suffix, over_bone({0.0514, 0.007 * side, 1.422}, Vector3d(-0.39, 0.85 * side, 0.35)));
     add("axilla" + suffix, axilla(shape, side));
     add("buttock" + suffix, rearmost(shape, side));
@@ -181,7 +187,7 @@ std::vector<geometry::Landmark> find_body_landmarks(const BodyShape& shape) {
   add("neck_front", throat(shape));
   add("neck_back", over_bone({-0.015, 0, 1.4125}, Vector3d(-0.94, 0, 0.342)));
   add("navel", skin({0.05, 0, 1.050}, Vector3d::UnitX()));
-  add("crotch", shape.exit_point(shape.posed_bone({0.014, 0, 0.90}), -Vector3d::UnitZ()));
+  add("crotch", lowest_of_midline(shape));
   return landmarks;
 }
 

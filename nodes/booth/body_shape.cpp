@@ -19,8 +19,12 @@ constexpr double kLeg = 0.096;                     // y about which a leg is
 constexpr double kThighGap = 0.0008;               // half of what is left between thighs that touch
 const Vector3d kShoulderJoint(0.008, 0.168, 1.330);
 const Vector3d kCollarbone(0.008, 0.02, 1.340);  // its inner end, as far as the shoulder turns about it
-const Vector3d kChest(0.144, 0.088, 1.236);      // the chest wall under a breast
-constexpr double kCrease = 0.014;                // over which the skin under the breast is rounded
+const Vector3d kAcromion(-0.018, 0.189, 1.352);  // its outer edge, 10 mm under the skin
+// Up to this angle (rad) an arm is raised without its shoulder blade; beyond, the blade turns with it by a
+// third (scapulohumeral rhythm: Inman, Saunders and Abbott 1944), and the collarbone by this share.
+constexpr double kSettingPhase = 0.5, kCollarboneShare = 0.12;
+const Vector3d kChest(0.144, 0.088, 1.236);  // the chest wall under a breast
+constexpr double kCrease = 0.014;            // over which the skin under the breast is rounded
 const Vector3d kCrotch(0.014, 0, 0.7940);
 const Vector3d kBelly(0.060, 0, 1.010);
 
@@ -81,9 +85,10 @@ BodyShape::BodyShape(const BodyParameters& parameters)
                           1 - parameters.firmness);
   // Arms hang from the shoulders and do not turn with the chest. Collarbones hardly grow with weight.
   Vector3d joint = thickened(kShoulderJoint);
-  joint.y() = (1 + 0.25 * (build_ - 1)) * kShoulderJoint.y();
+  joint.y() = kShoulderJoint.y() + arms_set_out() / scale_;
   // and go up with a raised arm
-  const Eigen::AngleAxisd raised(0.12 * std::max(0.0, parameters.arm_angle - 0.5), Vector3d::UnitX());
+  const Eigen::AngleAxisd raised(kCollarboneShare * std::max(0.0, parameters.arm_angle - kSettingPhase),
+                                 Vector3d::UnitX());
   joint = kCollarbone + raised * (joint - kCollarbone);
   const Eigen::Isometry3d shoulder =
       Eigen::Translation3d(spine_.bent(joint)) *
@@ -284,20 +289,36 @@ Vector3d BodyShape::upright(const Vector3d& p) const {
   return scale_ * spine_.straightened(p / scale_);
 }
 
-BodyShape::Axis BodyShape::breast_axis(bool left) const {
+Ray BodyShape::breast_axis(bool left) const {
   const Breast& breast = breasts_[left ? 0 : 1];
   const Vector3d origin = left ? breast.inside() : mirrored(breast.inside()),
                  forward = left ? breast.forward() : mirrored(breast.forward());
   return {scale_ * spine_.bent(origin), spine_.bent_direction(origin, forward)};
 }
 
-BodyShape::Axis BodyShape::upper_arm_axis(bool left) const {
+Ray BodyShape::upper_arm_axis(bool left) const {
   const Eigen::Isometry3d body_from_arm = upper_arm_from_body_.inverse();
   const Vector3d origin = scale_ * body_from_arm.translation(), down = -(body_from_arm.linear().col(2));
-  return left ? Axis{origin, down} : Axis{mirrored(origin), mirrored(down)};
+  return left ? Ray{origin, down} : Ray{mirrored(origin), mirrored(down)};
 }
 
-BodyShape::Axis BodyShape::neck_axis() const {
+double BodyShape::arms_set_out() const {
+  return scale_ * 0.25 * (build_ - 1) * kShoulderJoint.y();
+}
+
+Vector3d BodyShape::acromion(bool left) const {
+  const double held_out = std::acos(std::clamp(-upper_arm_axis(true).direction.z(), -1.0, 1.0));
+  const double raised = std::max(0.0, held_out - kSettingPhase);
+  const Eigen::AngleAxisd collarbone(kCollarboneShare * raised, Vector3d::UnitX()),
+      blade(raised / 3, Vector3d::UnitX());
+  // A deeper chest carries it back, a broader one does not carry it outwards.
+  const Vector3d at_rest(thickened(kShoulderJoint).x(), kShoulderJoint.y(), kShoulderJoint.z());
+  const Vector3d joint = kCollarbone + collarbone * (at_rest - kCollarbone);
+  const Vector3d p = scale_ * spine_.bent(joint + blade * (kAcromion - kShoulderJoint));
+  return left ? p : mirrored(p);
+}
+
+Ray BodyShape::neck_axis() const {
   const Vector3d origin(0.030, 0, 1.4635);
   return {posed(origin), posed_direction(origin, Vector3d(0.390, 0, 0.921))};
 }

@@ -7,6 +7,7 @@
 
 #include "booth/breast.hpp"
 #include "booth/implicit.hpp"
+#include "booth/skin.hpp"
 #include "booth/spine.hpp"
 #include "booth/virtual_body.hpp"
 
@@ -29,13 +30,14 @@ class BodyShape : public Implicit {
   /// Whether a point is about as near to a breast as to the trunk without breasts.
   bool is_under_breast(const Eigen::Vector3d& p) const;
 
-  /// A ray in the body frame.
-  struct Axis {
-    Eigen::Vector3d origin, direction;
-  };
-  Axis breast_axis(bool left) const;     ///< from the middle of the breast to the nipple
-  Axis upper_arm_axis(bool left) const;  ///< from the shoulder joint down the upper arm
-  Axis neck_axis() const;  ///< from the middle of the neck's girth upwards, normal to the girth's plane
+  Ray breast_axis(bool left) const;     ///< from the middle of the breast to the nipple
+  Ray upper_arm_axis(bool left) const;  ///< from the shoulder joint down the upper arm
+  Ray neck_axis() const;  ///< from the middle of the neck's base upwards, normal to the base's plane
+  /// The outer edge of the shoulder blade, under the skin: it goes up with a raised arm, but not outwards
+  /// with weight.
+  Eigen::Vector3d acromion(bool left) const;
+  /// How far weight sets each shoulder joint outwards, so that the arm is clear of the trunk.
+  double arms_set_out() const;
   /// Where a point of the reference body is on this one, and the direction `direction` there.
   Eigen::Vector3d posed(const Eigen::Vector3d& reference) const;
   Eigen::Vector3d posed_bone(const Eigen::Vector3d& reference) const;  ///< bones do not thicken

@@ -1,4 +1,4 @@
-/// simulated_booth: customers drawn by lot, as a booth of twelve sensors sees them. For trying everything
+/// simulated_booth: customers drawn at random, as a booth of twelve sensors sees them. For trying everything
 /// without a booth.
 #include <fmt/format.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -16,6 +16,7 @@ namespace {
 constexpr int kSensors = 12;  // four columns of three, as launch/config/booth.yaml lists them
 
 struct Setup {
+  booth::Family family;
   int first, customers, points, silent;
   double interval;
   std::string frame_id, sensor_frames;
@@ -23,6 +24,8 @@ struct Setup {
 
 Setup setup_from(Parameters parameters) {
   Setup setup;
+  setup.family =
+      booth::family_named(parameters.choice("family", booth::families().front(), booth::families()));
   setup.first = parameters.integer("first_customer", 1, 0, 1000000);
   setup.customers = parameters.integer("customers", 3, 0, 1000000);
   setup.points = parameters.integer("points", 180000, 20000, 2000000);
@@ -68,7 +71,7 @@ class SimulatedBooth {
     booth::ScannerOptions scanner;
     scanner.seed = customer;
     scanner.points = setup_.points;
-    const booth::VirtualBody body = booth::make_body(booth::random_body(customer));
+    const booth::VirtualBody body = booth::random_customer(setup_.family, customer);
     const std::vector<booth::SensorScan> scans = booth::by_sensor(booth::scan_body(body.mesh, scanner));
     const ros::Time stamp = ros::Time::now();
     poses_.publish(booth::sensor_poses(scans, setup_.frame_id, setup_.sensor_frames, stamp));

@@ -36,41 +36,48 @@ Json definitions() {
        "in the scan's frame, heights along body z"},
       {"bust_point", "tip of the nipple"},
       {"underbust",
-       "most concave point of the sagittal profile under the bust point; height: lowest such point "
+       "most hollow place of the sagittal profile below the bust point; height: lowest such place "
        "from there to 55 mm towards the middle, over both sides"},
       {"waist",
-       "interior minimum of the hull girth between hip + 100 mm and underbust - 15 mm, 5 mm or more "
-       "below both ends; without one the navel's level, as waist_ruler"},
-      {"hip", "mean height of the rearmost points of the buttocks"},
+       "interior minimum of the hull girth of the torso's loop between hip + 100 mm and underbust - 15 mm; "
+       "without one "
+       "the navel's level, as waist_ruler"},
+      {"hip", "mean height of the apexes of parabolas through the buttocks' profiles"},
       {"girths",
-       "hull perimeter of the horizontal section without the arms; bust: all loops at the mean height of "
-       "the bust points; underbust: the trunk's loop 3 mm below its height; neck: in the plane across "
-       "the neck"},
-      {"crotch", "perineum, on the level bridge between the legs"},
-      {"axilla", "where trunk and arm part"},
-      {"shoulder", "over the outer end of the collarbone"}};
+       "hull perimeter of the horizontal section without the arms; bust and hip: all loops; underbust: the "
+       "torso's loop "
+       "3 mm below its height; neck: least girth in planes parallel to the neck's base, from there to 40 mm "
+       "up"},
+      {"crotch", "lowest place of the midline between the legs"},
+      {"axilla", "highest level at which a gap parts arm and trunk"},
+      {"shoulder", "outer edge of the acromion, which does not move out with fat, straight up to the skin"},
+      {"vague", "figures that their definition does not settle on this body"},
+      {"hidden", "figures at a place that no sensor sees"},
+      {"loose", "unit vectors, in the scan's frame, along which a landmark is open"}};
 }
 
 }  // namespace
 
-void write_truth(const std::string& path, const VirtualBody& body, const BodyParameters& parameters,
-                 const ScannerOptions& scanner) {
-  Json truth = {{"name", "virtual_booth"}, {"units", "m"}, {"up", "z"}, {"facing", "+x"}, {"left", "+y"}};
+void write_truth(const std::string& path, const VirtualBody& body, const ScannerOptions& scanner) {
+  Json truth = {{"name", "virtual_booth"}, {"family", body.family}, {"units", "m"}, {"up", "z"},
+                {"facing", "+x"},          {"left", "+y"}};
   for (const geometry::Landmark& landmark : body.truth.landmarks)
     truth["landmarks"][landmark.name] = triple(landmark.position);
   truth["heights"] = measures(body.truth.heights);
   truth["girths"] = measures(body.truth.girths);
+  truth["vague"] = body.doubts.vague;
+  truth["hidden"] = body.doubts.hidden;
+  truth["loose"] = Json::object();
+  for (const auto& [name, direction] : body.doubts.loose) truth["loose"][name] = triple(direction);
   truth["extra"] = {{"waist_method", body.waist_method}};
   truth["definitions"] = definitions();
   truth["mesh"] = {{"vertices", body.mesh.vertices.size()},
                    {"triangles", body.mesh.triangles.size()},
                    {"closed", true},
                    {"volume_m3", geometry::cone_volume(body.mesh.vertices, body.mesh.triangles)}};
-  truth["parameters"] = {
-      {"stature", parameters.stature},     {"build", parameters.build}, {"bust", parameters.bust},
-      {"firmness", parameters.firmness},   {"waist", parameters.waist}, {"asymmetry", parameters.asymmetry},
-      {"belly", parameters.belly},         {"hip", parameters.hip},     {"stoop", parameters.stoop},
-      {"arm_angle", parameters.arm_angle}, {"yaw", parameters.yaw},     {"tilt", parameters.tilt}};
+  truth["parameters"] = Json::object();
+  for (const auto& [name, value] : body.parameters) truth["parameters"][name] = value;
+  if (!body.shape.empty()) truth["parameters"]["shape"] = body.shape;
   truth["scan_from_body"] = matrix(body.truth.body_from_scan.inverse());
   truth["scan"] = {{"columns", scanner.columns},   {"sensors_per_column", scanner.sensors_per_column},
                    {"points", scanner.points},     {"noise", scanner.noise},

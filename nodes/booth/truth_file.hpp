@@ -10,7 +10,6 @@ namespace tensegric_fit::booth {
 
 /// Landmarks in the scan's frame; heights along body z; metres. \throw std::runtime_error where it cannot be
 /// written
-void write_truth(const std::string& path, const VirtualBody& body, const BodyParameters& parameters,
-                 const ScannerOptions& scanner);
+void write_truth(const std::string& path, const VirtualBody& body, const ScannerOptions& scanner);
 
 }  // namespace tensegric_fit::booth

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "booth/body_girths.hpp"
 #include "booth/body_landmarks.hpp"
 #include "booth/body_shape.hpp"
 #include "booth/polygonise.hpp"
+#include "booth/scan_pose.hpp"
+#include "booth/skin_measures.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::booth {
@@ -15,6 +17,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+// m that weight sets an arm out from its shoulder blade: some 10 mm down the shoulder's slope, and a reader
+// who goes by the arm is beyond what ISO 20685 allows.
+constexpr double kApart = 0.007;
 constexpr double kGridSpacing = 0.0065;  // on the reference body; scales with the stature
 
 void check(const char* name, double value, double low, double high) {
@@ -24,25 +29,25 @@ void check(const char* name, double value, double low, double high) {
       fmt::format("body parameter '{}' is {}; it must lie in [{}, {}]", name, value, low, high));
 }
 
-// She turns and leans about the origin and keeps her lowest point on the floor.
-Eigen::Isometry3d pose(const BodyParameters& parameters, const geometry::TriangleMesh& mesh) {
-  Eigen::Isometry3d scan_from_body = Eigen::Isometry3d::Identity();
-  scan_from_body.linear() = (Eigen::AngleAxisd(parameters.yaw, Vector3d::UnitZ()) *
-                             Eigen::AngleAxisd(parameters.tilt, Vector3d::UnitY()))
-                                .toRotationMatrix();
-  if (parameters.tilt != 0) {
-    double lowest = 0;
-    for (const Vector3d& p : mesh.vertices) lowest = std::min(lowest, (scan_from_body * p).z());
-    scan_from_body.translation().z() = -lowest;
-  }
-  return scan_from_body;
-}
-
 // Legs, trunk and arms apart: closed and of one piece, V - E + F is 2 for a sphere and E is 3/2 F.
 void check_apart(const geometry::TriangleMesh& mesh) {
   if (mesh.vertices.size() == mesh.triangles.size() / 2 + 2) return;
   throw geometry::Refusal(geometry::refusal::kBadOption,
                           "with these body parameters limbs grow into the trunk; raise 'arm_angle'");
+}
+
+BodyAxes axes_of(const BodyShape& shape, const geometry::BodyMeasures& truth) {
+  BodyAxes axes;
+  axes.neck = shape.neck_axis();
+  for (const Side side : kSides) {
+    axes.upper_arms[side] = shape.upper_arm_axis(side == kLeft);
+    // The thighbone runs forward as it goes down.
+    axes.thighs[side] = {Vector3d(shape.scaled(0.05), kSign[side] * shape.posed({0, 0.096, 0.73}).y(),
+                                  truth.landmark("crotch").z() - shape.scaled(0.066)),
+                         Vector3d(-0.12, 0, 1).normalized()};
+  }
+  axes.scale = shape.scaled(1);
+  return axes;
 }
 
 }  // namespace
@@ -66,18 +71,23 @@ VirtualBody make_body(const BodyParameters& parameters) {
   check_parameters(parameters);
   const BodyShape shape(parameters);
   VirtualBody body;
+  body.family = "implicit";
   body.mesh = polygonise(shape, shape.scaled(kGridSpacing));
   check_apart(body.mesh);
   body.truth.landmarks = find_body_landmarks(shape);
-  body.waist_method = measure_girths(shape, body.mesh, body.truth);
-
-  const Eigen::Isometry3d scan_from_body = pose(parameters, body.mesh);
-  body.truth.body_from_scan = scan_from_body.inverse();
-  for (Vector3d& p : body.mesh.vertices) p = scan_from_body * p;
-  for (geometry::Landmark& landmark : body.truth.landmarks)
-    landmark.position = scan_from_body * landmark.position;
-  for (geometry::GirthLoop& loop : body.truth.loops)
-    for (Vector3d& p : loop.points) p = scan_from_body * p;
+  std::vector<double> arm;
+  for (const Vector3d& p : body.mesh.vertices) arm.push_back(shape.is_arm(p));
+  measure_skin(Skin(body.mesh, arm), axes_of(shape, body.truth), body);
+  if (shape.arms_set_out() > kApart)
+    for (const char* name : {"point shoulder_L", "point shoulder_R"})
+      if (std::count(body.doubts.vague.begin(), body.doubts.vague.end(), name) == 0)
+        body.doubts.vague.push_back(name);
+  body.parameters = {
+      {"stature", parameters.stature},     {"build", parameters.build}, {"bust", parameters.bust},
+      {"firmness", parameters.firmness},   {"waist", parameters.waist}, {"asymmetry", parameters.asymmetry},
+      {"belly", parameters.belly},         {"hip", parameters.hip},     {"stoop", parameters.stoop},
+      {"arm_angle", parameters.arm_angle}, {"yaw", parameters.yaw},     {"tilt", parameters.tilt}};
+  place_in_scan(parameters.yaw, parameters.tilt, body);
   return body;
 }
 

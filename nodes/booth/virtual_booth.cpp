@@ -23,8 +23,8 @@ using namespace tensegric_fit;
 
 constexpr int kUsage = 2, kRefused = 3;
 
-void run(const booth::VirtualBody& subject, const booth::BodyParameters& body,
-         const booth::ScannerOptions& scanner, bool each_sensor, const std::filesystem::path& out) {
+void write_scan(const booth::VirtualBody& subject, const booth::ScannerOptions& scanner, bool each_sensor,
+                const std::filesystem::path& out) {
   const booth::VirtualScan scan = booth::scan_body(subject.mesh, scanner);
   std::filesystem::create_directories(out);
   geometry::write_ply_mesh(out / "body.ply", subject.mesh);
@@ -33,7 +33,7 @@ void run(const booth::VirtualBody& subject, const booth::BodyParameters& body,
   const ros::Time stamp(static_cast<std::uint32_t>(1000000000 + scanner.seed % 1000000000), 0);
   booth::write_bag_scan(out / "scan.bag", scan.cloud, "booth", stamp);
   if (each_sensor) booth::write_sensor_bag(out / "sensors.bag", booth::by_sensor(scan), "booth", stamp);
-  booth::write_truth(out / "truth.json", subject, body, scanner);
+  booth::write_truth(out / "truth.json", subject, scanner);
   std::cout << fmt::format("{}: {} points of a body of {} triangles\n", out.string(),
                            scan.cloud.points.size(), subject.mesh.triangles.size());
 }
@@ -52,37 +52,75 @@ void write_shape(const std::string& name, const std::filesystem::path& out) {
   std::cout << fmt::format("{}: {} of {} triangles\n", out.string(), name, shape.mesh.triangles.size());
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  booth::BodyParameters body;
-  booth::ScannerOptions scanner;
-  std::string out = "virtual_booth", shape;
+struct Request {
+  std::string family = "model", out = "virtual_booth", shape;
   std::uint64_t customer = 0;
-  bool each_sensor = false;
-  CLI::App app("Scans a parametric body with virtual depth sensors. Metres, radians.");
+  bool is_customer = false, each_sensor = false;
+  booth::BodyParameters body;  // of the implicit family; what was asked for of the model's, too
+  booth::ScannerOptions scanner;
+  std::vector<std::string> asked;  // options of the body that were given
+};
+
+/// A woman of the model drawn at random, with what was asked for in place of what was drawn.
+booth::VirtualBody model_body(const Request& request) {
+  booth::ModelBodyParameters body = booth::random_model_body(request.scanner.seed, booth::shipped_model());
+  for (const std::string& option : request.asked) {
+    if (option == "--stature") body.stature = request.body.stature;
+    if (option == "--arm-angle") body.arms = {request.body.arm_angle, request.body.arm_angle};
+  }
+  body.yaw = request.body.yaw;
+  body.tilt = request.body.tilt;
+  return booth::make_body(booth::shipped_model(), body);
+}
+
+void run(const Request& request) {
+  if (!request.shape.empty()) return write_shape(request.shape, request.out);
+  const booth::Family family = booth::family_named(request.family);
+  const booth::VirtualBody subject = request.is_customer ? booth::random_customer(family, request.customer)
+                                     : family == booth::Family::model ? model_body(request)
+                                                                      : booth::make_body(request.body);
+  write_scan(subject,
+             request.is_customer ? booth::random_scanner(request.customer, subject) : request.scanner,
+             request.each_sensor, request.out);
+}
+
+/// All options of the program. \throw CLI::ParseError
+void parse(int argc, char** argv, CLI::App& app, Request& request) {
+  booth::BodyParameters& body = request.body;
+  booth::ScannerOptions& scanner = request.scanner;
   app.option_defaults()->always_capture_default();
-  app.add_option("--out", out, "directory for the files");
-  app.add_option("--shape", shape, "write this shape and which part of it to hold, in place of a scan")
+  const CLI::Option* out = app.add_option("--out", request.out, "directory for the files");
+  const CLI::Option* family =
+      app.add_option("--family", request.family,
+                     "where the body comes from: the product's own body model, or implicit shapes")
+          ->check(CLI::IsMember(booth::families()));
+  app.add_option("--shape", request.shape,
+                 "write this shape and which part of it to hold, in place of a scan")
       ->check(CLI::IsMember(booth::example_shapes()));
-  CLI::Option* by_sensor =
-      app.add_flag("--sensors", each_sensor, "write sensors.bag, too: each sensor's cloud and tf");
-  CLI::Option* by_lot = app.add_option(
-      "--customer", customer, "draw body and booth by lot; all options but --out and --sensors are drawn");
-  app.add_option("--stature", body.stature, "height of the body");
-  app.add_option("--bust", body.bust, "size of the breasts, as a length relative to the default");
-  app.add_option("--firmness", body.firmness,
-                 "of the breasts, -0.8 to 1; below 0 they hang over their folds");
-  app.add_option("--asymmetry", body.asymmetry, "by how much the left breast is larger than the right");
-  app.add_option("--waist", body.waist, "thickness at the waist relative to the default");
-  app.add_option("--build", body.build, "thickness of trunk and limbs relative to the default");
-  app.add_option("--belly", body.belly, "how round the belly is, 0 to 1");
-  app.add_option("--stoop", body.stoop, "how far the spine bends forward");
-  app.add_option("--hip", body.hip, "thickness at the hips relative to the default");
-  app.add_option("--arm-angle", body.arm_angle, "between the upper arms and the vertical");
-  app.add_option("--yaw", body.yaw, "her facing in the scan's frame, from x towards y");
-  app.add_option("--tilt", body.tilt, "her lean forward");
-  app.add_option("--seed", scanner.seed, "of noise, outliers, misregistration and point order");
+  const CLI::Option* sensors =
+      app.add_flag("--sensors", request.each_sensor, "write sensors.bag, too: each sensor's cloud and tf");
+  CLI::Option* customer = app.add_option(
+      "--customer", request.customer,
+      "body and booth number N, drawn at random; only --family, --out and --sensors go with it");
+  // Of either family, and of the implicit one alone.
+  const std::vector<CLI::Option*> common = {
+      app.add_option("--stature", body.stature,
+                     "height of the body; of the model family drawn at random where not given"),
+      app.add_option("--arm-angle", body.arm_angle, "between the upper arms and the vertical; likewise"),
+      app.add_option("--yaw", body.yaw, "her facing in the scan's frame, from x towards y"),
+      app.add_option("--tilt", body.tilt, "her lean forward")};
+  const std::vector<CLI::Option*> implicit = {
+      app.add_option("--bust", body.bust, "size of the breasts, as a length relative to the default"),
+      app.add_option("--firmness", body.firmness,
+                     "of the breasts, -0.8 to 1; below 0 they hang over their folds"),
+      app.add_option("--asymmetry", body.asymmetry, "by how much the left breast is larger than the right"),
+      app.add_option("--waist", body.waist, "thickness at the waist relative to the default"),
+      app.add_option("--build", body.build, "thickness of trunk and limbs relative to the default"),
+      app.add_option("--belly", body.belly, "how round the belly is, 0 to 1"),
+      app.add_option("--stoop", body.stoop, "how far the spine bends forward"),
+      app.add_option("--hip", body.hip, "thickness at the hips relative to the default")};
+  app.add_option("--seed", scanner.seed,
+                 "of noise, outliers, misregistration and point order; of the model family's body, too");
   app.add_option("--points", scanner.points, "of the scan");
   app.add_option("--noise", scanner.noise, "standard deviation along the ray");
   app.add_option("--outliers", scanner.outliers, "share of points that lie off the surface");
@@ -90,24 +128,30 @@ int main(int argc, char** argv) {
   app.add_flag("--floor", scanner.floor, "let the sensors see the floor");
   app.add_flag("--frame", scanner.frame, "let the sensors see the booth's frame");
   for (CLI::Option* option : app.get_options())
-    if (option != by_lot && option != by_sensor && option->get_name() != "--help" &&
-        option->get_name() != "--out")
-      by_lot->excludes(option);
+    if (option != customer && option != sensors && option != out && option != family &&
+        option->get_name() != "--help")
+      customer->excludes(option);
+  app.parse(argc, argv);
+  request.is_customer = customer->count() > 0;
+  for (const CLI::Option* option : implicit)
+    if (option->count() > 0 && request.family != "implicit")
+      throw CLI::ValidationError(option->get_name(), "goes with --family implicit");
+  for (const CLI::Option* option : common)
+    if (option->count() > 0) request.asked.push_back(option->get_name());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Scans a virtual body with virtual depth sensors. Metres, radians.");
+  Request request;
   try {
-    app.parse(argc, argv);
+    parse(argc, argv, app, request);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsage;
   }
   try {
-    if (!shape.empty()) {
-      write_shape(shape, out);
-    } else if (by_lot->count() > 0) {
-      body = booth::random_body(customer);
-      const booth::VirtualBody subject = booth::make_body(body);
-      run(subject, body, booth::random_scanner(customer, subject), each_sensor, out);
-    } else {
-      run(booth::make_body(body), body, scanner, each_sensor, out);
-    }
+    run(request);
   } catch (const geometry::Refusal& refusal) {
     std::cerr << "virtual_booth: " << refusal.code() << ": " << refusal.what() << '\n';
     return kRefused;

@@ -51,10 +51,16 @@ double off_landmarks(const control_mesh::Template& pattern, const geometry::Cont
   return most;
 }
 
+Figure information(const std::string& name, double error, double limit) {
+  Figure figure{name, error, limit};
+  figure.counts = false;
+  return figure;
+}
+
 }  // namespace
 
-std::vector<Error> control_errors(const control_mesh::Template& pattern, const geometry::TriangleMesh& body,
-                                  const geometry::BodyMeasures& measures) {
+std::vector<Figure> control_figures(const control_mesh::Template& pattern, const geometry::TriangleMesh& body,
+                                    const geometry::BodyMeasures& measures) {
   const std::string name = "control " + pattern.name;
   try {
     const geometry::ControlMesh control = control_mesh::fit_template(pattern, body, measures, {});
@@ -64,13 +70,15 @@ std::vector<Error> control_errors(const control_mesh::Template& pattern, const g
     const Vector3d apex = geometry::region_apex(control, control.regions[0]);
     const double volume = geometry::cone_volume(control.outer, control.triangles, apex) /
                           geometry::cone_volume(fine.outer, fine.triangles, apex);
-    return {{name + " laid", 0, 0},
-            {name + " folded", static_cast<double>(folded_triangles(control, body)), 0},
-            {name + " off skin", 1e3 * off_skin(control, body), 3.001},
-            {name + " volume %", 100 * (volume - 1), 2},
-            {name + " tips", 1e3 * off_landmarks(pattern, control, measures), 2}};
+    return {information(name + " laid", 0, 0),
+            information(name + " folded", static_cast<double>(folded_triangles(control, body)), 0),
+            information(name + " off skin", 1e3 * off_skin(control, body), 3.001),
+            information(name + " volume %", 100 * (volume - 1), 2),
+            information(name + " tips", 1e3 * off_landmarks(pattern, control, measures), 2)};
   } catch (const geometry::Refusal& refusal) {
-    return {{name + " laid", std::numeric_limits<double>::infinity(), 0, refusal.code()}};
+    Figure none = information(name + " laid", std::numeric_limits<double>::infinity(), 0);
+    none.cause = refusal.code();
+    return {none};
   }
 }
 

@@ -226,7 +226,7 @@ TEST_F(LeftBoothTest, BesideAnotherEachMeasuresItsOwnCustomer) {
   EXPECT_EQ(of_left.landmarks.header.frame_id, "left/booth");
   EXPECT_TRUE(of_right.measured) << of_right.code << ": " << of_right.message;
   EXPECT_EQ(of_right.landmarks.header.frame_id, "right/booth");
-  EXPECT_NEAR(height_of(of_right.landmarks, "stature"), booth::random_body(1).stature, 0.03);
+  EXPECT_NEAR(height_of(of_right.landmarks, "stature"), booth::random_customer(booth::Family::model, 1).truth.height("stature"), 0.03);
   EXPECT_TRUE(wait_for([&] {
     return frames.count("left/booth > left/body") + frames.count("right/booth > right/body") +
                frames.count("right/booth > right/sensor_0") ==

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -162,8 +163,32 @@ TEST(VirtualBodyTest, MeasuresFollowTheParameters) {
   parameters = {};
   parameters.stature = 1.55;
   const VirtualBody small = booth::make_body(parameters);
-  for (const char* name : {"bust", "hip", "neck", "thigh_L"})  // the whole body scales; the grid with it
+  for (const char* name : {"bust", "hip", "thigh_L"})  // the whole body scales; the grid with it
     EXPECT_NEAR(girth(small, name), girth(body, name) * 1.55 / 1.70, 1e-5) << name;
+  EXPECT_NEAR(girth(small, "neck"), girth(body, "neck") * 1.55 / 1.70,
+              1e-4);  // the levels it is looked for on do not
+}
+
+TEST(VirtualBodyTest, NeckGirthIsTheLeastAndShouldersDoNotMoveOutWithFat) {
+  const auto bone_breadth = [](const VirtualBody& body) {
+    return body.truth.landmark("shoulder_L").y() - body.truth.landmark("shoulder_R").y();
+  };
+  BodyParameters parameters;
+  parameters.arm_angle = 0.5;
+  const VirtualBody slim = booth::make_body(parameters);
+  parameters.build = 1.4;
+  const VirtualBody heavy = booth::make_body(parameters);
+  EXPECT_NEAR(bone_breadth(heavy), bone_breadth(slim), 1e-9);
+  EXPECT_GT(heavy.truth.landmark("shoulder_L").z(),
+            slim.truth.landmark("shoulder_L").z());  // straight up, through more flesh
+  for (const VirtualBody* body : {&slim, &heavy}) {
+    double tape_height = 0;
+    for (const geometry::GirthLoop& loop : body->truth.loops)
+      if (loop.name == "neck")
+        for (const Vector3d& p : loop.points) tape_height += p.z() / static_cast<double>(loop.points.size());
+    EXPECT_GT(tape_height, body->truth.height("neck") - 0.002);  // on the base's plane or above it
+    EXPECT_LT(tape_height, body->truth.height("neck") + 0.042);
+  }
 }
 
 TEST(VirtualBodyTest, AFullWaistHasNoMinimumAndIsMeasuredAtTheNavel) {
@@ -172,6 +197,8 @@ TEST(VirtualBodyTest, AFullWaistHasNoMinimumAndIsMeasuredAtTheNavel) {
   const VirtualBody body = booth::make_body(parameters);
   EXPECT_NE(body.waist_method.find("ruler"), std::string::npos);
   EXPECT_EQ(body.truth.height("waist"), body.truth.height("waist_ruler"));
+  for (const char* name : {"girth waist", "height waist"})
+    EXPECT_EQ(std::count(body.doubts.vague.begin(), body.doubts.vague.end(), name), 1) << name;
 }
 
 TEST(VirtualBodyTest, PoseMovesTheBodyAndNotItsMeasures) {

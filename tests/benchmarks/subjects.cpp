@@ -1,0 +1,111 @@
+#include "subjects.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "booth/assembler.hpp"
+#include "booth/random_body.hpp"
+#include "booth/scan_file.hpp"
+#include "geometry/ply.hpp"
+#include "geometry/status.hpp"
+#include "truth_reader.hpp"
+
+namespace tensegric_fit::population {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As the assembler node has it: each sensor's cloud in its own frame.
+geometry::PointCloud assembled(const booth::VirtualScan& scan, int sensors_per_column) {
+  booth::Capture capture{0, 0, {}};
+  std::vector<Eigen::Isometry3d> booth_from_sensor;
+  for (booth::SensorScan& sensor : booth::by_sensor(scan)) {
+    booth_from_sensor.push_back(sensor.pose.booth_from_sensor);
+    for (Eigen::Vector3d& p : sensor.cloud.points) p = booth_from_sensor.back().inverse() * p;
+    const auto cloud = std::make_shared<booth::SensorCloud>();
+    cloud->cloud = std::move(sensor.cloud);
+    capture.clouds.push_back(cloud);
+  }
+  booth::AssemblerOptions options;
+  options.sensors_per_column = sensors_per_column;
+  return booth::assemble(capture, booth_from_sensor, options).cloud;
+}
+
+class Booth : public Family {
+ public:
+  explicit Booth(booth::Family family) : family_(family) {}
+  std::string name() const override { return booth::families()[static_cast<std::size_t>(family_)]; }
+
+  std::vector<std::string> bodies(int first, int count) const override {
+    std::vector<std::string> seeds;
+    for (int seed = first; seed < first + count; ++seed) seeds.push_back(std::to_string(seed));
+    return seeds;
+  }
+
+  Subject body(const std::string& name, Input input) const override {
+    const auto seed = static_cast<std::uint64_t>(std::stoul(name));
+    booth::VirtualBody body = booth::random_customer(family_, seed);
+    Subject subject{{body.truth, body.doubts}, {}, {}};
+    if (input == Input::surface) {
+      subject.surface = std::move(body.mesh);
+      return subject;
+    }
+    const booth::ScannerOptions scanner = booth::random_scanner(seed, body);
+    const booth::VirtualScan scan = booth::scan_body(body.mesh, scanner);
+    subject.scan = input == Input::merged_scan ? scan.cloud : assembled(scan, scanner.sensors_per_column);
+    return subject;
+  }
+
+ private:
+  booth::Family family_;
+};
+
+class Folder : public Family {
+ public:
+  explicit Folder(const std::string& path) : path_(path) {
+    const std::string ending = "_truth.json";
+    for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+      const std::string file = entry.path().filename().string();
+      if (file.size() > ending.size() &&
+          file.compare(file.size() - ending.size(), ending.size(), ending) == 0)
+        names_.push_back(file.substr(0, file.size() - ending.size()));
+    }
+    std::sort(names_.begin(), names_.end());
+    if (names_.empty())
+      throw geometry::Refusal(geometry::refusal::kBadOption, path + ": no NAME_truth.json in this folder");
+  }
+  std::string name() const override { return path_; }
+
+  std::vector<std::string> bodies(int first, int count) const override {
+    const std::size_t begin = std::min(names_.size(), static_cast<std::size_t>(std::max(first, 1) - 1));
+    const std::size_t end = std::min(names_.size(), begin + static_cast<std::size_t>(count));
+    return {names_.begin() + static_cast<long>(begin), names_.begin() + static_cast<long>(end)};
+  }
+
+  Subject body(const std::string& name, Input input) const override {
+    const std::string base = path_ + "/" + name;
+    Subject subject{read_truth(base + "_truth.json"), {}, {}};
+    if (input == Input::surface)
+      subject.surface = geometry::read_ply_mesh(base + "_body.ply");
+    else
+      subject.scan = geometry::points_of(booth::read_scan(base + "_scan.ply"));
+    return subject;
+  }
+
+ private:
+  std::string path_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+std::unique_ptr<Family> family_named(const std::string& name) {
+  const auto& known = booth::families();
+  if (std::find(known.begin(), known.end(), name) != known.end())
+    return std::make_unique<Booth>(booth::family_named(name));
+  if (fs::is_directory(name)) return std::make_unique<Folder>(name);
+  throw geometry::Refusal(geometry::refusal::kBadOption,
+                          "'" + name + "' is neither a body family (model, implicit) nor a folder");
+}
+
+}  // namespace tensegric_fit::population
