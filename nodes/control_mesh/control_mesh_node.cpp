@@ -1,4 +1,4 @@
-/// body/mesh + body/landmarks -> control/mesh
+/// body/mesh + body/landmarks, and body/model where templates lie on it -> control/mesh
 #include "inspect/markers.hpp"
 #include "ros/control_mesh_handler.hpp"
 #include "ros/display.hpp"
@@ -16,12 +16,16 @@ class ControlMeshNode {
         display_(private_node),
         stage_("control_mesh", node) {
     const ros::TransportHints prompt = ros::TransportHints().tcpNoDelay();
+    if (handler_.needs_model())
+      model_ = node.subscribe("body/model", 2, &ControlMeshNode::on_model, this, prompt);
     mesh_ = node.subscribe("body/mesh", 2, &ControlMeshNode::on_mesh, this, prompt);
     landmarks_ = node.subscribe("body/landmarks", 2, &ControlMeshNode::on_landmarks, this, prompt);
   }
 
  private:
   using Output = ControlMeshHandler::Output;
+
+  void on_model(const BodyModel::ConstPtr& model) { handler_.add(model); }
 
   void on_mesh(const TriangleMesh::ConstPtr& mesh) {
     stage_.begin(mesh->scan_id);
@@ -64,7 +68,7 @@ class ControlMeshNode {
   ControlMeshHandler handler_;
   ros::Publisher control_;
   Display display_;
-  ros::Subscriber mesh_, landmarks_;
+  ros::Subscriber model_, mesh_, landmarks_;
   Stage stage_;  // last: its worker uses all of the above
 };
 

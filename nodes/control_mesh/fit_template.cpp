@@ -1,6 +1,7 @@
 #include "control_mesh/fit_template.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "control_mesh/grid.hpp"
 #include "control_mesh/inner_nodes.hpp"
@@ -107,7 +108,8 @@ void add_lines(const Template& pattern, geometry::ControlMesh& control) {
 }  // namespace
 
 geometry::ControlMesh fit_template(const Template& pattern, const geometry::TriangleMesh& body,
-                                   const geometry::BodyMeasures& measures, const Options& options) {
+                                   const geometry::BodyMeasures& measures, const Options& options,
+                                   const body_model::RegisteredBody* model) {
   if (options.control_triangles < 1 || options.control_triangles > kMostTriangles)
     throw Refusal(refusal::kBadOption, "control_triangles is " + std::to_string(options.control_triangles) +
                                            ", outside [1, " + std::to_string(kMostTriangles) + "]");
@@ -118,11 +120,19 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
   geometry::check_mesh(body);
   if (body.triangles.empty()) throw Refusal(refusal::kNotABody, "the body mesh has no triangles");
 
+  if (pattern.needs_model() && !model)
+    throw Refusal(std::string(refusal::kMissingPart) + ":body_model",
+                  "the template " + pattern.name +
+                      " has nodes on the body model, and this body comes without one: register one to it, "
+                      "or use a template that places its nodes by level and angle");
+
   // 1. Outer nodes on the skin, evenly spread between those that the template places.
   const Skin skin(in_body_frame(body, measures.body_from_scan));
+  std::optional<ModelSurface> model_surface;
+  if (pattern.needs_model()) model_surface.emplace(*model, measures.body_from_scan);
   const auto lay = [&](bool over_folds) {
     geometry::ControlMesh laid = grid_of(pattern);
-    laid.outer = place_nodes(pattern, measures, skin, over_folds);
+    laid.outer = place_nodes(pattern, measures, skin, over_folds, model_surface ? &*model_surface : nullptr);
     face_outward(laid, trunk_axis(pattern, measures));
     const std::vector<char> may_move = spreadable(pattern, laid);
     const auto around = grid_neighbours(pattern);

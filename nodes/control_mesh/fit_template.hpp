@@ -1,6 +1,7 @@
 /// Template + body + landmarks -> control mesh (P1 §3.3, P2 §3).
 #pragma once
 
+#include "body_model/registered_body.hpp"
 #include "control_mesh/template.hpp"
 #include "geometry/body_measures.hpp"
 #include "geometry/control_mesh.hpp"
@@ -19,8 +20,11 @@ struct Options {
 /// Nodes at landmarks and on the rim lie on the skin, the others up to 3 mm off it: so the patch holds as
 /// much as the body below it, within 2 %.
 ///
-/// \throw Refusal missing_part:<landmark>, not_a_body, non_finite, bad_mesh, bad_option
+/// \param model registered to this body, in its frame; null: none, then no node may lie on it
+/// \throw Refusal missing_part:<landmark>, missing_part:body_model, not_a_body, non_finite, bad_mesh,
+/// bad_option, bad_template: a point that the model does not have
 geometry::ControlMesh fit_template(const Template& pattern, const geometry::TriangleMesh& body,
-                                   const geometry::BodyMeasures& measures, const Options& options);
+                                   const geometry::BodyMeasures& measures, const Options& options,
+                                   const body_model::RegisteredBody* model = nullptr);
 
 }  // namespace tensegric_fit::control_mesh

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "control_mesh/grid.hpp"
@@ -15,6 +16,8 @@ using geometry::Refusal;
 using geometry::required;
 constexpr const char* kCode = geometry::refusal::kBadTemplate;
 constexpr int kMostRows = 100;
+constexpr int kMostVertices = 1 << 16;  // of a model file: its quads are uint16
+constexpr double kRounded = 0.001;      // shares are written with a few digits
 
 bool ends_in(const std::string& word, const char* ending) {
   return word.size() > 2 && word.compare(word.size() - 2, 2, ending) == 0;
@@ -51,8 +54,40 @@ std::vector<std::string> axis_from(const YAML::Node& map, const std::string& whe
   return axis;
 }
 
+/// [[vertex or name, share], ...]; shares are brought to the sum 1 exactly.
+std::vector<ModelPoint> model_points_from(const YAML::Node& list, const std::string& where) {
+  const auto refuse = [&](const std::string& what) { throw Refusal(kCode, where + ": 'on_model' " + what); };
+  if (!list.IsSequence() || list.size() == 0)
+    refuse("must be a list of pairs, each a vertex number or the name of a skin point, and its share");
+  std::vector<ModelPoint> points;
+  double sum = 0;
+  for (const YAML::Node& pair : list) {
+    if (!pair.IsSequence() || pair.size() != 2 || !pair[0].IsScalar())
+      refuse("must be a list of pairs, each a vertex number or the name of a skin point, and its share");
+    ModelPoint point;
+    double number = 0;
+    if (!YAML::convert<double>::decode(pair[0], number))
+      point.name = pair[0].Scalar();
+    else if (!YAML::convert<int>::decode(pair[0], point.vertex) || point.vertex < 0 ||
+             point.vertex >= kMostVertices)
+      refuse("has '" + pair[0].Scalar() + "' for a vertex, no whole number in [0, " +
+             std::to_string(kMostVertices - 1) + "]");
+    if (!YAML::convert<double>::decode(pair[1], point.share) || !(point.share > 0 && point.share <= 1))
+      refuse("must give '" + pair[0].Scalar() + "' a share above 0, and 1 at most");
+    for (const ModelPoint& other : points)
+      if (other.name == point.name && other.vertex == point.vertex)
+        refuse("has '" + pair[0].Scalar() + "' twice");
+    sum += point.share;
+    points.push_back(point);
+  }
+  if (std::abs(sum - 1) > kRounded * static_cast<double>(points.size()))
+    refuse("has shares that sum to " + std::to_string(sum) + ", not to 1");
+  for (ModelPoint& point : points) point.share /= sum;
+  return points;
+}
+
 TemplateNode node_from(const YAML::Node& map, const Template& pattern, const std::string& where) {
-  check_keys(map, {"row", "column", "name", "landmark", "level", "angle", "axis"}, where, kCode);
+  check_keys(map, {"row", "column", "name", "landmark", "level", "angle", "axis", "on_model"}, where, kCode);
   TemplateNode node;
   node.row = whole_number(map, "row", 0, pattern.rows - 1, where);
   node.column = whole_number(map, "column", 0, pattern.middle(), where);
@@ -60,7 +95,12 @@ TemplateNode node_from(const YAML::Node& map, const Template& pattern, const std
   const bool on_middle = node.column == pattern.middle();
   if (!node.name.empty() && (ends_in(node.name, "_R") || ends_in(node.name, "_L") == on_middle))
     throw Refusal(kCode, where + ": 'name' must end in _L, and on the middle column must not");
-  if (map["landmark"]) {
+  if (map["on_model"]) {
+    node.placing = TemplateNode::Placing::on_model;
+    node.on_model = model_points_from(map["on_model"], where);
+    if (map["landmark"] || map["level"] || map["angle"])
+      throw Refusal(kCode, where + ": 'on_model' excludes 'landmark', 'level' and 'angle'");
+  } else if (map["landmark"]) {
     node.placing = TemplateNode::Placing::at_landmark;
     node.landmark = required<std::string>(map, "landmark", where, kCode);
     if (map["level"] || map["angle"])
@@ -193,6 +233,12 @@ void check_lines(const Template& pattern, const std::string& path) {
 }
 
 }  // namespace
+
+bool Template::needs_model() const {
+  return std::any_of(nodes.begin(), nodes.end(), [](const TemplateNode& node) {
+    return node.placing == TemplateNode::Placing::on_model;
+  });
+}
 
 Template load_template(const std::string& path) {
   const YAML::Node root = geometry::load_yaml_map(path, kCode);

@@ -19,6 +19,7 @@ constexpr double kTrunkReach = 0.4;  // m from the axis; no trunk is wider
 constexpr double kBeyondLandmark = 1.35;
 constexpr double kLevelStep = 0.002;  // m
 constexpr double kOverhang = 0.01;    // m in a step: no underside that shows from the front slopes so
+constexpr double kModelReach = 0.02;  // m; the model's skin lies nearer to the surface where there is one
 constexpr double kFoldSearch = 0.03;  // m; a fold rises or falls no more from its landmark to a node
 
 Vector3d in_body(const geometry::BodyMeasures& measures, const std::string& landmark) {
@@ -57,10 +58,12 @@ class LeaningAxis {
 
 class Placer {
  public:
-  Placer(const Template& pattern, const geometry::BodyMeasures& measures, const Skin& skin, bool over_folds)
+  Placer(const Template& pattern, const geometry::BodyMeasures& measures, const Skin& skin, bool over_folds,
+         const ModelSurface* model)
       : pattern_(pattern),
         measures_(measures),
         skin_(skin),
+        model_(model),
         over_folds_(over_folds),
         axis_(pattern, measures) {
     positions_.resize(grid_of(pattern).outer.size(), Vector3d::Zero());
@@ -88,6 +91,7 @@ class Placer {
     if (node.placing == TemplateNode::Placing::at_landmark)
       return skin_.nearest(0.5 * (in_body(measures_, name_on(node.landmark, first)) +
                                   in_body(measures_, name_on(node.landmark, second))));
+    if (node.placing == TemplateNode::Placing::on_model) return on_model(node, first, second);
     const double height = 0.5 * (level(node.level, first) + level(node.level, second));
     const auto axis = [&](double z) -> Vector3d {
       return node.axis.empty() ? axis_.at(z) : vertical_through(measures_, node.axis, side);
@@ -104,6 +108,17 @@ class Placer {
     const double reach = 0.5 * (distance(node.angle, axis, first) + distance(node.angle, axis, second));
     if ((*exit - centre).norm() <= kBeyondLandmark * reach) return *exit;
     return skin_.nearest(centre + reach * direction);
+  }
+
+  /// On the skin over or under the model's: along the model's normal, so that a fold's other side stays out.
+  Vector3d on_model(const TemplateNode& node, Side first, Side second) const {
+    const std::string where = "the template " + pattern_.name + ", row " + std::to_string(node.row) +
+                              ", column " + std::to_string(node.column);
+    const ModelSurface::Place a = model_->place(node.on_model, first, where),
+                              b = model_->place(node.on_model, second, where);
+    const Vector3d middle = 0.5 * (a.point + b.point);
+    const auto along = skin_.nearest_along(middle, (a.normal + b.normal).normalized(), kModelReach);
+    return along ? *along : skin_.nearest(middle);
   }
 
   /// Where the ray at `height` leaves the body. A level below a landmark means the chest under what hangs
@@ -203,6 +218,7 @@ class Placer {
   const Template& pattern_;
   const geometry::BodyMeasures& measures_;
   const Skin& skin_;
+  const ModelSurface* model_;
   const bool over_folds_;
   LeaningAxis axis_;
   std::vector<Vector3d> positions_;
@@ -216,8 +232,8 @@ Vector3d trunk_axis(const Template& pattern, const geometry::BodyMeasures& measu
 }
 
 std::vector<Vector3d> place_nodes(const Template& pattern, const geometry::BodyMeasures& measures,
-                                  const Skin& skin, bool over_folds) {
-  return Placer(pattern, measures, skin, over_folds).place();
+                                  const Skin& skin, bool over_folds, const ModelSurface* model) {
+  return Placer(pattern, measures, skin, over_folds, model).place();
 }
 
 }  // namespace tensegric_fit::control_mesh

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "control_mesh/model_surface.hpp"
 #include "control_mesh/skin.hpp"
 #include "control_mesh/template.hpp"
 #include "geometry/body_measures.hpp"
@@ -15,9 +16,11 @@ namespace tensegric_fit::control_mesh {
 Eigen::Vector3d trunk_axis(const Template& pattern, const geometry::BodyMeasures& measures);
 
 /// Positions of all nodes on the skin, body frame. With `over_folds`, nodes at a landmark's own level that
-/// would lie below a fold go above it: for breasts whose fold is at bust level. \throw Refusal
-/// missing_part:<landmark>, not_a_body
+/// would lie below a fold go above it: for breasts whose fold is at bust level. `model` is not null where the
+/// template needs one. \throw Refusal missing_part:<landmark>, not_a_body, bad_template: a point that the
+/// model does not have
 std::vector<Eigen::Vector3d> place_nodes(const Template& pattern, const geometry::BodyMeasures& measures,
-                                         const Skin& skin, bool over_folds = false);
+                                         const Skin& skin, bool over_folds = false,
+                                         const ModelSurface* model = nullptr);
 
 }  // namespace tensegric_fit::control_mesh

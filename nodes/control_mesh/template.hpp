@@ -1,4 +1,5 @@
-/// Control mesh templates (P1 §3.3): nodes placed by landmark level and angle round the trunk. YAML.
+/// Control mesh templates (P1 §3.3): nodes placed by landmark level and angle round the trunk, or on the body
+/// model's skin. YAML; format: README.md beside this file.
 #pragma once
 
 #include <string>
@@ -18,15 +19,24 @@ struct Reference {
   double by = 0;
 };
 
+/// A point of the body model's skin for her left, and its share of a place there; on her right its mirror
+/// image.
+struct ModelPoint {
+  std::string name;  ///< one of the model's skin points; empty: a vertex
+  int vertex = -1;
+  double share = 1;
+};
+
 /// A node of her left half or of the middle column: placed by the body, or with a name only.
 struct TemplateNode {
-  enum class Placing { between_others, at_landmark, level_and_angle };
+  enum class Placing { between_others, at_landmark, level_and_angle, on_model };
   int row = 0, column = 0;
   std::string name;  ///< empty, or ending in _L; on the middle column without a side
   Placing placing = Placing::between_others;
   std::string landmark;  ///< at_landmark
   Reference level, angle;
-  std::vector<std::string> axis;  ///< what angles are seen from, such as a leg's; empty: the template's
+  std::vector<std::string> axis;     ///< what angles are seen from, such as a leg's; empty: the template's
+  std::vector<ModelPoint> on_model;  ///< on_model: shares sum to 1
 };
 
 /// The block of grid cells between two rows and two columns (of the whole grid, both ends included).
@@ -63,6 +73,8 @@ struct Template {
   std::vector<int> numbers;
 
   int middle() const { return columns / 2; }
+  /// Does a node lie on the body model's skin? Then bodies need a registered model.
+  bool needs_model() const;
 };
 
 /// \throw Refusal bad_template naming file and key

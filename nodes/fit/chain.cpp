@@ -62,7 +62,8 @@ Body measure_scan(const geometry::PointCloud& scan, const Settings& settings, St
   }
   times.reconstruction -= times.body_model;
   const Stopwatch watch(times.landmarks);
-  body.measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, *body.model, landmarks::shipped_precision());
+  body.measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, *body.model,
+                                            landmarks::shipped_precision());
   geometry::doubt_fractured(body.mesh.fractures, body.measures);
   return body;
 }
@@ -74,7 +75,8 @@ Body measure_mesh(geometry::TriangleMesh mesh, const Settings&, StageTimes& time
     body.model = body_model::register_mesh(body_model::shipped_registrar(), body.mesh.mesh);
   }
   const Stopwatch watch(times.landmarks);
-  body.measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, *body.model, landmarks::shipped_precision());
+  body.measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, *body.model,
+                                            landmarks::shipped_precision());
   return body;
 }
 
@@ -93,8 +95,8 @@ Fitting prepare(const Body& body, const std::vector<control_mesh::Template>& pat
   {
     const Stopwatch watch(times.control_mesh);
     for (const control_mesh::Template& pattern : patterns)
-      parts.push_back(
-          control_mesh::fit_template(pattern, body.mesh.mesh, body.measures, settings.control_mesh));
+      parts.push_back(control_mesh::fit_template(pattern, body.mesh.mesh, body.measures,
+                                                 settings.control_mesh, body.model ? &*body.model : nullptr));
   }
   return prepare(body, geometry::joined(parts), settings, times);
 }

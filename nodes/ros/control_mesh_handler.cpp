@@ -2,11 +2,14 @@
 
 #include <boost/make_shared.hpp>
 
+#include <algorithm>
 #include <sstream>
 
+#include "body_model/registration.hpp"
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
 #include "ros/body_messages.hpp"
+#include "ros/model_message.hpp"
 
 namespace tensegric_fit::node {
 
@@ -23,18 +26,39 @@ ControlMeshHandler::ControlMeshHandler(Parameters parameters) {
   if (patterns_.empty()) throw geometry::Refusal(geometry::refusal::kBadOption, "template is empty");
 }
 
+bool ControlMeshHandler::needs_model() const {
+  return std::any_of(patterns_.begin(), patterns_.end(),
+                     [](const control_mesh::Template& pattern) { return pattern.needs_model(); });
+}
+
+std::optional<ControlMeshHandler::Input> ControlMeshHandler::with_model(
+    const std::optional<Join::Joined>& joined) const {
+  if (!joined) return std::nullopt;
+  const auto& [landmarks, mesh] = *joined;
+  const bool its = model_ && model_->scan_id == mesh->scan_id;
+  return Input{landmarks, mesh, its ? model_ : nullptr};
+}
+
 ControlMeshHandler::Output ControlMeshHandler::handle(const Input& input) const {
-  const auto& [landmarks, mesh] = input;
+  const auto& [landmarks, mesh, model_message] = input;
   Output output;
   output.body = mesh_in(*mesh);
   const geometry::BodyMeasures measures = measures_in(*landmarks);
   output.body_from_scan = measures.body_from_scan;
 
+  std::optional<body_model::RegisteredBody> model;
+  if (needs_model()) {
+    const body_model::Registrar& registrar = body_model::shipped_registrar();
+    model = model_message ? registered_in(*model_message, registrar.shared_model())
+                          : body_model::register_mesh(registrar, output.body);
+  }
+
   std::vector<geometry::ControlMesh> parts;
   std::optional<geometry::Refusal> first;
   for (const control_mesh::Template& pattern : patterns_) {
     try {
-      parts.push_back(control_mesh::fit_template(pattern, output.body, measures, options_));
+      parts.push_back(
+          control_mesh::fit_template(pattern, output.body, measures, options_, model ? &*model : nullptr));
     } catch (const geometry::Refusal& refusal) {
       if (!first) first = refusal;
       output.left_out += (output.left_out.empty() ? "" : "; ") + pattern.name + ": " + refusal.what();

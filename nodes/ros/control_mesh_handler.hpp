@@ -1,6 +1,7 @@
-/// body/mesh + body/landmarks -> control/mesh
+/// body/mesh + body/landmarks, and body/model where templates lie on it -> control/mesh
 #pragma once
 
+#include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/ControlMesh.h>
 #include <tensegric_fit/Landmarks.h>
 #include <tensegric_fit/TriangleMesh.h>
@@ -21,10 +22,19 @@ class ControlMeshHandler {
   /// \throw Refusal bad_option, bad_template
   explicit ControlMeshHandler(Parameters parameters);
 
-  /// Landmarks and body of one scan.
-  using Input = ScanJoin<Landmarks, TriangleMesh>::Joined;
-  std::optional<Input> add(const Landmarks::ConstPtr& landmarks) { return join_.add(landmarks); }
-  std::optional<Input> add(const TriangleMesh::ConstPtr& mesh) { return join_.add(mesh); }
+  /// Does a template lie on the body model? Then `add` wants it, before the landmarks of the same scan, which
+  /// are found by it.
+  bool needs_model() const;
+
+  /// Landmarks and body of one scan, and its model; null where none came.
+  struct Input {
+    Landmarks::ConstPtr landmarks;
+    TriangleMesh::ConstPtr mesh;
+    BodyModel::ConstPtr model;
+  };
+  std::optional<Input> add(const Landmarks::ConstPtr& landmarks) { return with_model(join_.add(landmarks)); }
+  std::optional<Input> add(const TriangleMesh::ConstPtr& mesh) { return with_model(join_.add(mesh)); }
+  void add(const BodyModel::ConstPtr& model) { model_ = model; }
 
   struct Output {
     ControlMesh::ConstPtr control;
@@ -34,13 +44,18 @@ class ControlMeshHandler {
     std::string left_out;  ///< regions that this body lacks, each with the reason; empty: none
     Facts facts;
   };
-  /// \throw Refusal as fit_template: no region is left
+  /// A mesh that came without its model has one registered to it, where a template needs it.
+  /// \throw Refusal as fit_template: no region is left; as registered_in and register_mesh
   Output handle(const Input& input) const;
 
  private:
+  using Join = ScanJoin<Landmarks, TriangleMesh>;
+  std::optional<Input> with_model(const std::optional<Join::Joined>& joined) const;
+
   control_mesh::Options options_;
   std::vector<control_mesh::Template> patterns_;
-  ScanJoin<Landmarks, TriangleMesh> join_;
+  Join join_;
+  BodyModel::ConstPtr model_;  // the newest
 };
 
 }  // namespace tensegric_fit::node

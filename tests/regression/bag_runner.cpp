@@ -61,6 +61,7 @@ class Chain {
       recording.body_frame = output.body_frame;
     });
     if (measure_only_) return;
+    if (recording.model) control_mesh_.add(recording.model);
     control_mesh_.add(recording.body);
     tffd_.add(recording.body);
     const auto early = tensegric_.add(recording.body);

@@ -90,6 +90,27 @@ TEST(BustTemplate, RefusesWhatDoesNotFit) {
             std::string::npos);
 }
 
+TEST(BustTemplate, MayLieOnTheBodyModel) {
+  EXPECT_FALSE(control_mesh::load_template(kBust).needs_model());
+  const std::string place = "landmark: underbust_L}";
+  const auto refusal = [&](const std::string& by) { return refusal_with(kBust, place, by + "}"); };
+  EXPECT_EQ(refusal("on_model: [[8461, 0.48], [8453, 0.45], [8454, 0.07]]"), "");
+  EXPECT_EQ(refusal("on_model: [[bust_point_L, 0.333], [8453, 0.333], [8454, 0.333]]"), "");  // rounded
+  EXPECT_NE(refusal("on_model: [[8461, 0.48], [8453, 0.45]]").find("'on_model' has shares that sum to"),
+            std::string::npos);
+  EXPECT_NE(refusal("on_model: [[8461, 1.2], [8453, -0.2]]").find("'8461' a share"), std::string::npos);
+  EXPECT_NE(refusal("on_model: [[8461, nan], [8453, 1]]").find("'8461' a share"), std::string::npos);
+  EXPECT_NE(refusal("on_model: [[-1, 1]]").find("'-1' for a vertex"), std::string::npos);
+  EXPECT_NE(refusal("on_model: [[1.5, 1]]").find("'1.5' for a vertex"), std::string::npos);
+  EXPECT_NE(refusal("on_model: [[8461, 0.5], [8461, 0.5]]").find("'8461' twice"), std::string::npos);
+  for (const char* list : {"8461", "[]", "[8461, 1]", "[[8461]]", "[[[8461], 1]]", "{vertex: 8461}"})
+    EXPECT_NE(refusal(std::string("on_model: ") + list).find("'on_model' must be a list of pairs"),
+              std::string::npos)
+        << list;
+  EXPECT_NE(refusal("landmark: underbust_L, on_model: [[8461, 1]]").find("'on_model' excludes"),
+            std::string::npos);
+}
+
 TEST(BustTemplate, RefusesAFileThatIsNotThere) {
   try {
     control_mesh::load_template("no_such_template.yaml");

@@ -1,0 +1,117 @@
+// Nodes on the body model's skin: where they lie, on either side, and what is refused.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "body_model/registration.hpp"
+#include "control_mesh/fit_template.hpp"
+#include "geometry/status.hpp"
+
+namespace {
+
+using namespace tensegric_fit;
+using Eigen::Vector3d;
+
+/// Two rows of three nodes over the left bust point and the middle.
+control_mesh::Template small_template(const std::string& point) {
+  const std::string path = testing::TempDir() + "on_model.yaml";
+  std::ofstream(path) << "name: small\naxis: [axilla_L, axilla_R]\nrows: 2\ncolumns: 3\nnodes:\n"
+                         "  - {row: 0, column: 0, name: tip_L, on_model: [["
+                      << point
+                      << ", 1]]}\n"
+                         "  - {row: 0, column: 1, on_model: [[bust_point_L, 0.5], [neck_front, 0.5]]}\n"
+                         "  - {row: 1, column: 0, name: below_L, on_model: [[underbust_L, 1]]}\n"
+                         "  - {row: 1, column: 1, name: middle, on_model: [[navel, 0.7], [crotch, 0.3]]}\n"
+                         "diagonals: ['\\']\nfixed: ['..', '..']\ninner_fixed: false\n"
+                         "thickness: [[0.01, 0.01], [0.01, 0.01]]\n"
+                         "regions: [{name: small, rows: [0, 1], columns: [0, 2]}]\n"
+                         "lines: [{name: down, through: [tip_L, below_L]}]\n";
+  return control_mesh::load_template(path);
+}
+
+/// The mean woman in a pose, and her own skin as the mesh.
+struct Posed {
+  explicit Posed(double yaw) {
+    body.model = body_model::shipped_registrar().shared_model();
+    body.parameters = body_model::Parameters(*body.model);
+    body.parameters.rotation = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
+    body.posed = body.skin = body_model::PosedModel(*body.model, body.parameters).vertices();
+    mesh = {body.skin, body.model->triangles};
+    Eigen::Matrix3d axes;  // the model faces -y, the body frame's x
+    axes << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+    measures.body_from_scan = Eigen::Isometry3d(axes * body.parameters.rotation.transpose());
+    for (const char side : {'L', 'R'})
+      measures.landmarks.push_back(
+          {std::string("axilla_") + side,
+           body.skin_point(std::string("bust_point_") + side) + 0.15 * body.parameters.rotation.col(1), 1, "",
+           0});
+  }
+
+  body_model::RegisteredBody body;
+  geometry::TriangleMesh mesh;
+  geometry::BodyMeasures measures;
+};
+
+std::string refusal_of(const control_mesh::Template& pattern, const Posed& posed, bool with_model) {
+  try {
+    control_mesh::fit_template(pattern, posed.mesh, posed.measures, {}, with_model ? &posed.body : nullptr);
+  } catch (const geometry::Refusal& refusal) {
+    return refusal.code() + ": " + refusal.what();
+  }
+  return "";
+}
+
+TEST(NodesOnTheModel, LieOnTheSkinAtTheirPlaceOnBothSides) {
+  const Posed posed(0.8);
+  control_mesh::Options coarse;
+  coarse.control_triangles = 4;
+  const auto control = control_mesh::fit_template(small_template("bust_point_L"), posed.mesh, posed.measures,
+                                                  coarse, &posed.body);
+  const double tessellation =
+      0.001;  // m; a mean of vertices lies that far inside the skin where it is curved
+  for (const char* side : {"L", "R"}) {
+    const auto at = [&](const std::string& name) { return control.outer[control.node(name + side)]; };
+    EXPECT_LT((at("tip_") - posed.body.skin_point(std::string("bust_point_") + side)).norm(),
+              3 * tessellation);
+    EXPECT_LT((at("below_") - posed.body.skin_point(std::string("underbust_") + side)).norm(),
+              3 * tessellation);
+  }
+  // The mean woman is her own mirror image, whatever way she faces.
+  const Vector3d left = posed.body.left();
+  const auto across = [&](const std::string& name) {
+    return left.dot(control.outer[control.node(name + "_L")] + control.outer[control.node(name + "_R")]);
+  };
+  EXPECT_NEAR(across("tip"), 0, tessellation);
+  EXPECT_NEAR(across("below"), 0, tessellation);
+  EXPECT_NEAR(left.dot(control.outer[control.node("middle")]), 0,
+              3 * tessellation);  // places of asymmetric women
+}
+
+TEST(NodesOnTheModel, VerticesAreThoseOfTheModelAndMirrored) {
+  const Posed posed(0);
+  const int tip = posed.body.model->skin_points.front().vertices.front().first;
+  control_mesh::Options coarse;
+  coarse.control_triangles = 4;
+  const auto control = control_mesh::fit_template(small_template(std::to_string(tip)), posed.mesh,
+                                                  posed.measures, coarse, &posed.body);
+  EXPECT_LT((control.outer[control.node("tip_L")] - posed.body.skin[tip]).norm(), 1e-6);
+  EXPECT_LT(
+      (control.outer[control.node("tip_R")] - posed.body.skin[tip].cwiseProduct(Vector3d(-1, 1, 1))).norm(),
+      1e-4);  // m; components are kept as bytes
+}
+
+TEST(NodesOnTheModel, NeedAModelThatHasThem) {
+  const Posed posed(0);
+  EXPECT_NE(refusal_of(small_template("bust_point_L"), posed, false)
+                .find("missing_part:body_model: the template small"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(small_template("65000"), posed, true)
+                .find("bad_template: the template small, row 0, column 0: "
+                      "the body model has no vertex 65000"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(small_template("elbow_L"), posed, true).find("no skin point 'elbow_L'"),
+            std::string::npos);
+  EXPECT_EQ(refusal_of(small_template("bust_point_L"), posed, true), "");
+}
+
+}  // namespace
