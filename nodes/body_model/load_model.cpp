@@ -18,6 +18,8 @@ using Json = nlohmann::json;
 constexpr char kMagic[] = "tensegric_fit body model 1";
 constexpr std::size_t kLongestHeader = 1 << 20;  // bytes
 constexpr std::size_t kLargestArray = 1 << 26;   // bytes
+constexpr double kRounding = 0.001;              // that shares of a skin point are written with
+constexpr double kShortest = 1, kTallest = 2.5;  // m
 
 /// Refuses the file with `what`.
 struct Check {
@@ -80,8 +82,10 @@ std::map<std::string, Array> read_arrays(std::istream& file, const Json& list, c
 /// Bones, groups, parts and bone points.
 void take_header(const Json& header, const Check& check, Model& model) {
   model.stature = header.at("stature");
+  check(model.stature > kShortest && model.stature < kTallest, "stature is not in metres");
   for (const Json& bone : header.at("bones")) model.bones.push_back({bone.at("name"), bone.at("parent")});
   const int count = static_cast<int>(model.bones.size());
+  check(count > 0, "no bones");
   for (int b = 0; b < count; ++b)
     check(model.bones[b].parent >= (b == 0 ? -1 : 0) && model.bones[b].parent < b, "a bone's parent must stand before it");
   for (const Json& group : header.at("groups")) {
@@ -140,13 +144,14 @@ void take_arrays(const std::map<std::string, Array>& arrays, const Check& check,
   model.inner_basis = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
       inner_basis.data(), static_cast<Eigen::Index>(components), static_cast<Eigen::Index>(3 * inner));
 
+  const auto is_index = [](double value, std::size_t size) { return value >= 0 && value < static_cast<double>(size); };
   const std::vector<double> bones = array("bones", {vertices, Model::kWeights}), weights = array("weights", {vertices, Model::kWeights});
   model.carriers.resize(vertices);
   model.weights.resize(vertices);
   for (std::size_t v = 0; v < vertices; ++v) {
     for (int j = 0; j < Model::kWeights; ++j) {
       const std::size_t at = v * Model::kWeights + j;
-      check(bones[at] < static_cast<double>(model.bones.size()), "a vertex' bone");
+      check(is_index(bones[at], model.bones.size()), "a vertex' bone");
       model.carriers[v][j] = static_cast<unsigned char>(bones[at]);
       model.weights[v][j] = static_cast<float>(weights[at] / 255);
     }
@@ -162,25 +167,31 @@ void take_arrays(const std::map<std::string, Array>& arrays, const Check& check,
     model.arm.push_back(arm);
   }
   for (const double p : array("parts", {vertices})) {
-    check(p < static_cast<double>(model.parts.size()), "a vertex' part");
+    check(is_index(p, model.parts.size()), "a vertex' part");
     model.part.push_back(static_cast<unsigned char>(p));
   }
   const std::vector<double> quads = array("quads", {0, 4});
   for (std::size_t q = 0; q < quads.size(); q += 4) {
     std::array<int, 4> quad;
     for (int c = 0; c < 4; ++c) {
-      check(quads[q + c] < static_cast<double>(vertices), "a quad's vertex");
+      check(is_index(quads[q + c], vertices), "a quad's vertex");
       quad[c] = static_cast<int>(quads[q + c]);
     }
     model.quads.push_back(quad);
     model.triangles.emplace_back(quad[0], quad[1], quad[2]);
     model.triangles.emplace_back(quad[0], quad[2], quad[3]);
   }
-  for (const SkinPoint& point : model.skin_points)
-    for (const auto& [vertex, share] : point.vertices)
+  for (SkinPoint& point : model.skin_points) {
+    double sum = 0;
+    for (const auto& [vertex, share] : point.vertices) {
       check(vertex >= 0 && vertex < static_cast<int>(vertices) && share > 0, "a skin point's vertex");
+      sum += share;
+    }
+    check(std::abs(sum - 1) < kRounding, "a skin point's shares");
+    for (auto& share : point.vertices) share.second /= sum;
+  }
   for (const double v : array("fit_points", {0})) {
-    check(v < static_cast<double>(vertices), "a fit point");
+    check(is_index(v, vertices), "a fit point");
     model.fit_points.push_back(static_cast<int>(v));
   }
   model.fit_weights = array("fit_weights", {model.fit_points.size()});

@@ -6,7 +6,7 @@
 
 #include "booth/virtual_body.hpp"
 #include "control_mesh/fit_template.hpp"
-#include "landmarks/find_landmarks.hpp"
+#include "measured_body.hpp"
 #include "tensegric/garment.hpp"
 #include "tensegric/solver.hpp"
 
@@ -84,7 +84,7 @@ class Worn : public testing::TestWithParam<double> {  // the parameter is the si
     parameters.bust = parameters.hip = size;
     parameters.asymmetry = size > 1 ? 0.1 : 0;
     const auto body = booth::make_body(parameters).mesh;
-    const auto measures = landmarks::find_landmarks(body, {}, {});
+    const auto measures = test::measured(body);
     const auto pattern = control_mesh::load_template(kLaunch + "templates/" + region + ".yaml");
     const auto control = control_mesh::fit_template(pattern, body, measures, {});
     return fitted_->emplace(key, Fitted{tensegric::build_model(control, {}), measures.body_from_scan})

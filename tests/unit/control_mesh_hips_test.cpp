@@ -10,7 +10,7 @@
 #include "control_mesh/skin.hpp"
 #include "control_mesh_changed_template.hpp"
 #include "geometry/status.hpp"
-#include "landmarks/find_landmarks.hpp"
+#include "measured_body.hpp"
 
 namespace {
 
@@ -44,7 +44,7 @@ Body body_of(unsigned seed) {
   }
   Body body;
   body.mesh = booth::make_body(parameters).mesh;
-  body.measures = landmarks::find_landmarks(body.mesh, {}, {});
+  body.measures = test::measured(body.mesh);
   return body;
 }
 

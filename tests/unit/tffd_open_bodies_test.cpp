@@ -5,7 +5,7 @@
 
 #include "control_mesh/fit_template.hpp"
 #include "geometry/ply.hpp"
-#include "landmarks/find_landmarks.hpp"
+#include "measured_body.hpp"
 #include "tensegric/solver.hpp"
 #include "tffd/binding.hpp"
 
@@ -25,7 +25,7 @@ TEST_P(OpenBody, NoTriangleTurnsOverAtFifteenPercent) {
   const std::string file = kSource + "/../shared/data/open/" + GetParam() + "_body.ply";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   const geometry::TriangleMesh body = geometry::read_ply_mesh(file);
-  const geometry::BodyMeasures measures = landmarks::find_landmarks(body, {}, {});
+  const geometry::BodyMeasures measures = test::measured(body);
   const auto piece = [&](const char* name) {
     const auto pattern = control_mesh::load_template(kSource + "/launch/templates/" + name + ".yaml");
     return control_mesh::fit_template(pattern, body, measures, {});

@@ -1,0 +1,361 @@
+// Each finder of the landmarks on a surface whose answer is known in closed form.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "implicit_surface.hpp"
+#include "landmarks/finders.hpp"
+
+namespace tensegric_fit::landmarks {
+namespace {
+
+using geometry::TriangleMesh;
+using test::capsule;
+
+constexpr double kDegree = M_PI / 180;
+
+/// Nothing of it an arm's.
+Surface skin(TriangleMesh mesh) {
+  const std::size_t count = mesh.vertices.size();
+  return {std::move(mesh), std::vector<double>(count, 0), std::vector<unsigned char>(count, 0), {}};
+}
+
+/// A chest that is the plane x = 0 with half a ball on it, joined by a fillet: an arc that is as hollow
+/// everywhere.
+struct Breast {
+  static constexpr double kRadius = 0.060, kFillet = 0.012;  // m
+  Vector3d middle{0, 0.08, 1.20};
+  /// m, from the middle in the plane x = 0: to the middle of the fillet's circle, and to that of its arc.
+  static double to_fillet() { return std::sqrt(kRadius * kRadius + 2 * kRadius * kFillet); }
+  static double to_fold() {
+    const double to_ball = to_fillet() / (kRadius + kFillet);  // its arc runs from (-1, 0) to there
+    return to_fillet() - kFillet * std::sqrt((1 - std::sqrt(1 - to_ball * to_ball)) / 2);
+  }
+
+  double operator()(const Vector3d& p) const {
+    const double x = p.x(), aside = std::hypot(p.y() - middle.y(), p.z() - middle.z());
+    if (x < kFillet && aside < to_fillet() && aside * kFillet > x * to_fillet())
+      return kFillet - std::hypot(x - kFillet, aside - to_fillet());
+    const double block =
+        std::max({x, -x - 0.05, std::abs(p.y() - 0.06) - 0.11, std::abs(p.z() - 1.18) - 0.16});
+    return std::min(block, (p - middle).norm() - kRadius);
+  }
+  Vector3d tip(double medial) const {
+    return {std::sqrt(kRadius * kRadius - medial * medial), middle.y() + medial, middle.z()};
+  }
+};
+
+const Surface& breast() {
+  static const Surface surface =
+      skin(test::surface_of(Breast(), {-0.06, -0.06, 1.01}, {0.07, 0.18, 1.35}, 0.0031));
+  return surface;
+}
+
+TEST(FoldFinder, AFilletsMiddleUnderTheBustPoint) {
+  const Breast shape;
+  const Trunk trunk(breast());
+  const double height = shape.middle.z() - Breast::to_fold();
+  for (const double off : {-0.012, 0.0, 0.012}) {  // of where it is expected
+    const Fold fold =
+        find_fold(trunk, shape.tip(0), kLeft, {Vector3d(0, shape.middle.y(), height + off)}, 0.025);
+    ASSERT_FALSE(fold.places.empty());
+    // Steps of 1 mm, and the smoothing of a profile rounds an arc of 12 mm by 0.7.
+    EXPECT_NEAR(fold.places.front().z(), height, 0.002) << off;
+    EXPECT_NEAR(fold.lowest.z(), height, 0.002) << off;
+    EXPECT_NEAR(fold.curvature, 1 / Breast::kFillet, 0.25 / Breast::kFillet)
+        << off;  // the arc is 10 mm long, the smoothing 4
+  }
+}
+
+TEST(FoldFinder, RunsRoundTheBreastAndIsLowestInItsMiddle) {
+  const Breast shape;
+  const Trunk trunk(breast());
+  const double outside = 0.020,
+               height = shape.middle.z() - std::sqrt(std::pow(Breast::to_fold(), 2) - outside * outside);
+  const Fold fold =
+      find_fold(trunk, shape.tip(outside), kLeft, {Vector3d(0, shape.middle.y() + outside, height)}, 0.025);
+  ASSERT_GT(fold.places.size(), 16u);  // 40 mm inwards
+  for (const Vector3d& place : fold.places) {
+    const double round = std::hypot(place.y() - shape.middle.y(), place.z() - shape.middle.z());
+    EXPECT_NEAR(round, Breast::to_fold(), 0.003) << place.transpose();  // profiles cut the fold askew
+  }
+  EXPECT_NEAR(fold.lowest.z(), shape.middle.z() - Breast::to_fold(), 0.002);
+  EXPECT_NEAR(fold.lowest.y(), shape.middle.y(), 0.008);  // 0.5 mm of height
+}
+
+TEST(FoldFinder, ABallHasNone) {
+  const Surface ball = skin(test::surface_of([](const Vector3d& p) { return p.norm() - 0.12; },
+                                             {-0.13, -0.13, -0.13}, {0.13, 0.13, 0.13}, 0.0047));
+  const Trunk trunk(ball);
+  EXPECT_TRUE(find_fold(trunk, {0.12, 0, 0}, kLeft, {Vector3d(0.08, 0, -0.08)}, 0.025).places.empty());
+}
+
+constexpr double kLeast = 1.083;  // m, height of a trunk's least girth
+
+/// The trunk slims to `kLeast` like a hyperboloid, with elliptic sections.
+const Surface& slim_trunk() {
+  static const Surface surface = skin(test::surface_of(
+      [](const Vector3d& p) {
+        const double waist = std::sqrt(1 + std::pow((p.z() - kLeast) / 0.15, 2));
+        const double side = 0.10 * (std::hypot(p.x() / 0.10, p.y() / 0.13) - waist);
+        return std::max(side, std::abs(p.z() - 1.05) - 0.25);
+      },
+      {-0.25, -0.3, 0.78}, {0.25, 0.3, 1.32}, 0.0083));
+  return surface;
+}
+
+TEST(WaistFinder, AHyperboloidsLeastGirth) {
+  const Trunk trunk(slim_trunk());
+  for (const double low : {0.90, 0.95, 1.02}) {
+    const auto waist = find_waist(trunk, low, 1.20);
+    ASSERT_TRUE(waist) << low;
+    EXPECT_NEAR(*waist, kLeast, 0.001);  // less than half of a level
+  }
+}
+
+TEST(WaistFinder, ATrunkThatOnlyWidensHasNoWaist) {
+  const Trunk trunk(slim_trunk());
+  EXPECT_FALSE(find_waist(trunk, kLeast + 0.02, 1.25));
+  EXPECT_FALSE(find_waist(trunk, 0.85, kLeast - 0.02));
+  EXPECT_FALSE(find_waist(trunk, 2, 2.1));
+}
+
+TEST(SideFinder, AnEllipsesEnds) {
+  const Trunk trunk(slim_trunk());
+  for (const Side side : kSides) {
+    const auto end = find_side(trunk, side, kLeast);
+    ASSERT_TRUE(end);
+    EXPECT_NEAR(end->y(), kSign[side] * 0.13, 0.003);  // skin 3 mm further in counts as the end, too
+    EXPECT_NEAR(end->x(), 0, 0.004);                   // half of a cell
+    EXPECT_FALSE(find_side(trunk, side, 2));
+  }
+}
+
+/// A pelvis that is a level tube from side to side, on two legs clear of the midline.
+const Surface& on_two_legs() {
+  static const Surface surface = skin(test::surface_of(
+      [](const Vector3d& p) {
+        double d = capsule(p, {0, -0.08, 0.90}, {0, 0.08, 0.90}, 0.10, 0.10);
+        for (const double side : {1.0, -1.0})
+          d = std::min(d, capsule(p, {0, side * 0.085, 0.2}, {0, side * 0.085, 0.85}, 0.06, 0.07));
+        return d;
+      },
+      {-0.13, -0.2, 0.12}, {0.13, 0.2, 1.02}, 0.0071));
+  return surface;
+}
+
+TEST(CrotchFinder, TheLowestPlaceBetweenTwoLegs) {
+  for (const Vector3d& off :
+       {Vector3d(0, 0, 0), Vector3d(0.02, 0.004, 0.015), Vector3d(-0.02, -0.004, -0.015)}) {
+    const auto crotch = find_crotch(on_two_legs(), Vector3d(0, 0, 0.80) + off);
+    ASSERT_TRUE(crotch);
+    EXPECT_NEAR(crotch->z(), 0.80, 0.0005);  // a chord of 10 mm in a circle of 100 mm
+    EXPECT_NEAR(crotch->x(), 0, 0.010);      // half a millimetre of height
+    EXPECT_NEAR(crotch->y(), off.y(), 1e-9);
+  }
+  EXPECT_FALSE(find_crotch(on_two_legs(), {0, 0, 0.5}));
+}
+
+/// A ball with a nipple: a Gaussian bump 5 mm high.
+struct NippledBall {
+  static constexpr double kRadius = 0.080, kHeight = 0.005, kWidth = 0.007;  // m
+  double height = kHeight;
+  Vector3d way = Vector3d(0.9, 0.3, -0.1).normalized();
+  double operator()(const Vector3d& p) const {
+    const double off = kRadius * std::acos(std::min(1.0, p.normalized().dot(way)));
+    return p.norm() - kRadius - height * std::exp(-0.5 * off * off / (kWidth * kWidth));
+  }
+  Surface surface(double noise, unsigned seed) const {
+    TriangleMesh mesh = test::surface_of(*this, {0, -0.09, -0.09}, {0.09, 0.09, 0.09}, 0.0029);
+    std::mt19937 random(seed);
+    std::normal_distribution<double> off(0, noise);
+    if (noise > 0)
+      for (Vector3d& v : mesh.vertices) v += off(random) * v.normalized();
+    return skin(std::move(mesh));
+  }
+};
+
+constexpr double kDeviation = 0.010;  // m
+
+TEST(NippleFinder, ABumpsTop) {
+  const NippledBall ball;
+  const Vector3d tip = (NippledBall::kRadius + NippledBall::kHeight) * ball.way;
+  // Places tried are 1.2 mm apart; in noise the place that is expected counts, 12 to 14 mm away here.
+  for (const auto& [noise, limit] : {std::pair(0.0, 0.0015), std::pair(0.0005, 0.004)}) {
+    const Surface surface = ball.surface(noise, 1);
+    for (const Vector3d& off : {Vector3d(0, 0.012, 0.006), Vector3d(0, -0.010, 0.010), Vector3d(0, 0, 0)}) {
+      const Vector3d expected = NippledBall::kRadius * (tip + off).normalized();
+      const auto found = find_nipple(surface, expected, kDeviation, expected.normalized());
+      ASSERT_TRUE(found) << noise;
+      EXPECT_LT((*found - tip).norm(), limit) << noise << " " << off.transpose();
+    }
+  }
+}
+
+TEST(NippleFinder, NoiseIsNoNipple) {
+  for (const unsigned seed : {1, 2, 3, 4, 5}) {
+    const NippledBall bare{0};
+    const Vector3d expected = NippledBall::kRadius * bare.way;
+    EXPECT_FALSE(find_nipple(bare.surface(0.0005, seed), expected, kDeviation, bare.way)) << "seed " << seed;
+  }
+}
+
+constexpr double kTrunkRadius = 0.12, kArmRadius = 0.04;  // m
+
+/// A round trunk with an arm on its left from the shoulder to the hand.
+Surface with_arm(const Vector3d& shoulder, const Vector3d& hand) {
+  return skin(test::surface_of(
+      [&](const Vector3d& p) {
+        const double trunk = std::max(std::hypot(p.x(), p.y()) - kTrunkRadius, std::abs(p.z() - 1.15) - 0.25);
+        return std::min(trunk, capsule(p, shoulder, hand, kArmRadius, kArmRadius));
+      },
+      {-0.13, -0.13, 0.79}, {0.13, std::max(hand.y() + 0.05, 0.2), 1.43}, 0.0041));
+}
+
+TEST(AxillaFinder, WhereALeaningArmComesClearOfTheTrunk) {
+  const Vector3d shoulder(0, 0.10, 1.35), hand(0, 0.40, 0.88);
+  const Vector3d way = (hand - shoulder).normalized();
+  const double half_breadth = kArmRadius / -way.z(),  // of its level section
+      height = shoulder.z() - (kTrunkRadius + half_breadth - shoulder.y()) * -way.z() / way.y();
+  const auto axilla = find_axilla(with_arm(shoulder, hand), kLeft, 1.0, 1.4, 0);
+  ASSERT_TRUE(axilla);
+  // The wedge is one cell wide 6 mm under its end.
+  EXPECT_NEAR(axilla->z(), height - 0.003, 0.0045);
+  EXPECT_NEAR(axilla->y(), kTrunkRadius, 0.003);
+  EXPECT_NEAR(axilla->x(), 0, 0.010);  // the wedge's end is round: 1 mm there
+}
+
+TEST(AxillaFinder, OfALevelArmTheCornerUnderIt) {
+  const Surface surface = with_arm({0, 0.05, 1.30}, {0, 0.45, 1.30});
+  const auto axilla = find_axilla(surface, kLeft, 1.0, 1.4, 45 * kDegree);
+  ASSERT_TRUE(axilla);
+  EXPECT_NEAR(axilla->z(), 1.30 - kArmRadius, 0.005);
+  EXPECT_NEAR(axilla->y(), kTrunkRadius, 0.005);
+}
+
+TEST(AxillaFinder, WithoutAnArmThereIsNone) {
+  const Surface surface = with_arm({0, 0.10, 1.35}, {0, 0.40, 0.88});
+  EXPECT_FALSE(find_axilla(surface, kRight, 1.0, 1.4, 0));
+}
+
+TEST(NeckFinder, ATiltedHyperboloidsLeastGirth) {
+  const Vector3d middle(0.01, 0, 1.45), along = Vector3d(std::sin(18 * kDegree), 0, std::cos(18 * kDegree));
+  constexpr double kRadius = 0.055;
+  const Surface neck = skin(test::surface_of(
+      [&](const Vector3d& p) {
+        const double up = along.dot(p - middle), aside = (p - middle - up * along).norm();
+        return std::max(aside - std::hypot(kRadius, 0.7 * up), std::abs(p.z() - 1.45) - 0.09);
+      },
+      {-0.12, -0.12, 1.35}, {0.14, 0.12, 1.55}, 0.0041));
+  for (const double below : {0.020, 0.035}) {
+    const auto tape = find_neck(neck, middle - below * along, along);
+    ASSERT_GT(tape.size(), 20u);
+    EXPECT_NEAR(geometry::length_of(tape, true), 2 * M_PI * kRadius,
+                0.0005);  // chords of 6 mm: a thousandth of it
+    for (const Vector3d& p : tape) EXPECT_NEAR(along.dot(p - middle), 0, 1e-6);
+  }
+  EXPECT_TRUE(find_neck(neck, middle + along, along).empty());
+}
+
+TEST(SkinAbove, ABallsTop) {
+  const Surface ball = skin(test::surface_of([](const Vector3d& p) { return p.norm() - 0.1; },
+                                             {-0.11, -0.11, -0.11}, {0.11, 0.11, 0.11}, 0.0047));
+  for (const Vector3d& under :
+       {Vector3d(0, 0, 0.09), Vector3d(0.03, -0.02, 0.06), Vector3d(-0.05, 0.01, 0.07)}) {
+    const auto skin = skin_above(ball, under);
+    ASSERT_TRUE(skin);
+    EXPECT_LT(
+        (*skin - Vector3d(under.x(), under.y(), std::sqrt(0.01 - under.head<2>().squaredNorm()))).norm(),
+        0.0002);
+  }
+  EXPECT_FALSE(skin_above(ball, {0.2, 0, 0.05}));
+}
+
+TEST(ButtockFinder, AnEllipsoidsRear) {
+  const Vector3d middle(-0.05, 0.07, 0.90), radii(0.09, 0.08, 0.10);
+  const Surface surface =
+      skin(test::surface_of([&](const Vector3d& p) { return test::ellipsoid(p, middle, radii); },
+                            {-0.16, -0.03, 0.78}, {0.06, 0.17, 1.02}, 0.0041));
+  const Trunk trunk(surface);
+  for (const Vector3d& off : {Vector3d(0, 0, 0), Vector3d(0, 0.015, 0.02), Vector3d(0, -0.01, -0.02)}) {
+    const auto buttock = find_buttock(trunk, middle - Vector3d(0.09, 0, 0) + off);
+    ASSERT_TRUE(buttock);
+    EXPECT_NEAR(buttock->z(), middle.z(), 0.002);  // 0.02 mm of depth
+    EXPECT_NEAR(buttock->x(), middle.x() - 0.09,
+                0.002);  // an ellipse is flatter than the parabola beside its apex
+    EXPECT_NEAR(buttock->y(), middle.y(), 0.005);
+  }
+}
+
+TEST(ButtockFinder, AFlatBackHasNoApex) {
+  const Surface post = skin(test::surface_of(
+      [](const Vector3d& p) { return std::max(std::hypot(p.x(), p.y()) - 0.1, std::abs(p.z()) - 0.2); },
+      {-0.11, -0.11, -0.21}, {0.11, 0.11, 0.21}, 0.0071));
+  EXPECT_FALSE(find_buttock(Trunk(post), {-0.1, 0, 0}));
+}
+
+/// A round seat over a straight thigh, whose backs are in line.
+TEST(GlutealFoldFinder, TheCreaseBetweenSeatAndThigh) {
+  const double radius = 0.09, thigh = 0.07;
+  const Vector3d seat(-0.02, 0.08, 0.90);
+  const Surface surface = skin(test::surface_of(
+      [&](const Vector3d& p) {
+        return std::min((p - seat).norm() - radius,
+                        capsule(p, {-0.01, 0.08, 0.55}, {-0.01, 0.08, 0.85}, thigh, thigh));
+      },
+      {-0.13, -0.03, 0.46}, {0.09, 0.19, 1.01}, 0.0041));
+  const Trunk trunk(surface);
+  const Vector3d rear = seat - Vector3d(radius, 0, 0);
+  // The ball meets the thigh's back, x = -0.08, 60 mm behind its middle.
+  const double crease = seat.z() - std::sqrt(radius * radius - 0.06 * 0.06);
+  const auto fold = find_gluteal_fold(trunk, rear, 0.22, 0.003);
+  ASSERT_TRUE(fold);
+  EXPECT_NEAR(fold->z(), crease, 0.004);  // a cell; the profile is smoothed over as much
+  EXPECT_NEAR(fold->x(), -0.08, 0.003);
+  EXPECT_FALSE(find_gluteal_fold(trunk, rear, 0.22, 0.10));  // not as deep
+  EXPECT_FALSE(find_gluteal_fold(trunk, rear, 2, 0.003));    // nothing so far down
+}
+
+TEST(LimbTape, IsSquareToALeaningTube) {
+  const Vector3d from(0, 0.15, 1.3), to(0.05, 0.40, 0.9), along = (to - from).normalized(),
+                                                          middle = (from + to) / 2;
+  const double radius = 0.042;
+  const Surface surface = skin(test::surface_of(
+      [&](const Vector3d& p) {
+        const double arm = capsule(p, from, to, radius, radius),
+                     other =
+                         capsule(p, from + Vector3d(0, 0.25, 0), to + Vector3d(0, 0.25, 0), radius, radius);
+        return std::min(arm, other);
+      },
+      {-0.06, 0.09, 0.84}, {0.12, 0.71, 1.36}, 0.0047));
+  const auto all = [](const Eigen::Vector3i&) { return true; };
+  const auto tape = round_limb(surface, middle, along, 0.07, all);
+  ASSERT_GT(tape.size(), 10u);
+  EXPECT_NEAR(geometry::length_of(tape, true), 2 * M_PI * radius,
+              0.0008);  // chords of up to 8 mm: 0.3 % of it
+  EXPECT_TRUE(round_limb(surface, middle, along, 0.07, [](const Eigen::Vector3i&) { return false; }).empty());
+  EXPECT_TRUE(round_limb(surface, middle + Vector3d(0.3, 0, 0), along, 0.07, all).empty());
+}
+
+TEST(Profile, AnArcsCurvature) {
+  for (const double radius : {0.05, 0.2}) {
+    const Surface tube = skin(
+        test::surface_of([&](const Vector3d& p) { return std::hypot(p.x(), p.z()) - radius; },
+                         {-1.1 * radius, -0.03, -1.1 * radius}, {1.1 * radius, 0.03, 1.1 * radius}, 0.0051));
+    const geometry::TriangleMesh& mesh = tube.mesh;
+    ASSERT_FALSE(mesh.triangles.empty());
+    const Trunk trunk(tube);
+    const Profile profile = profile_down(trunk, {radius, 0, 0}, 0.06);
+    ASSERT_GT(profile.points.size(), 50u);
+    double sum = 0;
+    for (std::size_t i = 15; i < 45; ++i) sum += profile.curvature[i] / 30;
+    EXPECT_NEAR(sum, -1 / radius, 0.05 / radius);
+    EXPECT_LT(profile.points.back().z(), -0.04);
+    EXPECT_TRUE(profile_down(trunk, {radius + 0.2, 0, 0}, 0.06).points.empty());
+  }
+}
+
+}  // namespace
+}  // namespace tensegric_fit::landmarks
