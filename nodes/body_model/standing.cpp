@@ -12,9 +12,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kSole = 0.006;      // m over the lowest point of the feet at rest: skin that bears her
-constexpr double kClearly = 2.5;     // deviations: of 100 women who stand upright one seems to lean so far
-constexpr std::size_t kStray = 9;    // points that may lie below the feet
+constexpr double kSole = 0.006;    // m over the lowest point of the feet at rest: skin that bears her
+constexpr double kClearly = 2.5;   // deviations: of 100 women who stand upright one seems to lean so far
+constexpr std::size_t kStray = 9;  // points that may lie below the feet
 
 /// Of the model's soles, where pose and shape have them.
 std::vector<Vector3d> soles_of(const RegisteredBody& body) {
@@ -46,23 +46,37 @@ Vector3d normal_of(const std::vector<Vector3d>& points, const Vector3d& up) {
 Standing load_standing(const std::string& path) {
   constexpr const char* kCode = geometry::refusal::kBrokenFile;
   const YAML::Node root = geometry::load_yaml_map(path, kCode);
-  geometry::check_keys(root, {"made", "bodies", "error", "forwards", "sideways", "along", "seen", "soles"}, path, kCode);
-  const auto degrees = [&](const char* key) { return geometry::number_in(root, key, -5, 5, path, kCode) * M_PI / 180; };
+  geometry::check_keys(root, {"made", "bodies", "error", "forwards", "sideways", "along", "seen", "soles"},
+                       path, kCode);
+  const auto degrees = [&](const char* key) {
+    return geometry::number_in(root, key, -5, 5, path, kCode) * M_PI / 180;
+  };
   const auto metres = [&](const char* key) { return geometry::number_in(root, key, 0, 0.02, path, kCode); };
   return {degrees("forwards"), degrees("sideways"), degrees("along"), metres("seen"), metres("soles")};
 }
 
-Vector3d upright(const RegisteredBody& body, const Standing& standing) {
-  const Vector3d legs = (body.joint("upperleg01.L") + body.joint("upperleg01.R") - body.joint("foot.L") - body.joint("foot.R")).normalized();
-  Vector3d up = (legs + normal_of(soles_of(body), legs)).normalized();
-  const Vector3d left = (body.left() - body.left().dot(up) * up).normalized(), forward = left.cross(up);
-  up = (up - std::tan(standing.forwards) * forward).normalized();
-  const Vector3d tilt = up - up.dot(body.vertical) * body.vertical;
-  return std::hypot(tilt.dot(left) / standing.sideways, tilt.dot(forward) / standing.along) < kClearly ? body.vertical : up;
+Stance stance_of(const RegisteredBody& body) {
+  const Vector3d legs =
+      (body.joint("upperleg01.L") + body.joint("upperleg01.R") - body.joint("foot.L") - body.joint("foot.R"))
+          .normalized();
+  const std::vector<Vector3d> soles = soles_of(body);
+  const Vector3d up = (legs + normal_of(soles, legs)).normalized();
+  return {up, body.left().cross(up).normalized(), mean_of(soles)};
 }
 
-double ground_under(const RegisteredBody& body, const std::vector<Vector3d>& points, const Standing& standing) {
-  const double soles = body.vertical.dot(mean_of(soles_of(body))) - standing.soles * std::exp(body.parameters.log_scale);
+Vector3d upright(const RegisteredBody& body, const Standing& standing) {
+  const Stance stance = stance_of(body);
+  const Vector3d up = (stance.up - std::tan(standing.forwards) * stance.forward).normalized();
+  const Vector3d tilt = up - up.dot(body.vertical) * body.vertical, left = stance.up.cross(stance.forward);
+  return std::hypot(tilt.dot(left) / standing.sideways, tilt.dot(stance.forward) / standing.along) < kClearly
+             ? body.vertical
+             : up;
+}
+
+double ground_under(const RegisteredBody& body, const std::vector<Vector3d>& points,
+                    const Standing& standing) {
+  const double soles =
+      body.vertical.dot(stance_of(body).soles) - standing.soles * std::exp(body.parameters.log_scale);
   std::vector<double> heights;
   for (const Vector3d& p : points) heights.push_back(body.vertical.dot(p));
   if (heights.size() <= kStray) return soles;

@@ -5,7 +5,8 @@
 
 namespace tensegric_fit::body_model {
 
-/// What women who stand upright on level ground look like in a scan: fitted by tests/body_model/fit_standing.py.
+/// What women who stand upright on level ground look like in a scan: fitted by
+/// tests/body_model/fit_standing.py.
 struct Standing {
   double forwards;         ///< rad: soles and legs of the model lean forwards by so much
   double sideways, along;  ///< rad: deviations of that lean, to the side and forwards, sway included
@@ -16,10 +17,19 @@ struct Standing {
 /// \throw Refusal broken_file: not there, unknown keys, values out of range
 Standing load_standing(const std::string& path);
 
+/// How legs and soles stand: before what is known of other women is taken off.
+struct Stance {
+  Eigen::Vector3d up, forward;  ///< unit vectors, perpendicular to each other
+  Eigen::Vector3d soles;        ///< m, their middle
+};
+Stance stance_of(const RegisteredBody& body);
+
 /// Up, a unit vector: body.vertical, the booth's own, unless legs and soles clearly stand on another.
 Eigen::Vector3d upright(const RegisteredBody& body, const Standing& standing);
 
-/// The ground along body.vertical, m: from the model's soles and from the lowest points of a scan alike, as each is off on its own.
-double ground_under(const RegisteredBody& body, const std::vector<Eigen::Vector3d>& points, const Standing& standing);
+/// The ground along body.vertical, m: from the model's soles and from the lowest points of a scan alike, as
+/// each is off on its own.
+double ground_under(const RegisteredBody& body, const std::vector<Eigen::Vector3d>& points,
+                    const Standing& standing);
 
 }  // namespace tensegric_fit::body_model

@@ -10,13 +10,13 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kSearch = 2.5;      // deviations from where it is expected
-constexpr double kBump = 0.007;      // m: deviation of a Gaussian bump like a nipple in its areola
-constexpr double kPatch = 0.028;     // m of skin that nipple and smooth surface are fitted to together
+constexpr double kSearch = 2.5;   // deviations from where it is expected
+constexpr double kBump = 0.007;   // m: deviation of a Gaussian bump like a nipple in its areola
+constexpr double kPatch = 0.028;  // m of skin that nipple and smooth surface are fitted to together
 constexpr double kSteps = 7, kFineSteps = 3;  // from the middle of a search to its end
-constexpr double kExact = 0.0002;    // m; a mesh is not taken to be better than this
-constexpr double kClear = 5;         // deviations; over all places, noise alone reaches 4
-constexpr int kCubic = 10;           // terms
+constexpr double kExact = 0.0002;             // m; a mesh is not taken to be better than this
+constexpr double kClear = 5;                  // deviations; over all places, noise alone reaches 4
+constexpr int kCubic = 10;                    // terms
 
 /// Skin seen along a direction: (u, v) across, w along.
 struct Patch {
@@ -25,11 +25,14 @@ struct Patch {
   std::vector<Vector3d> points;
 };
 
-Patch patch_of(const Surface& surface, const std::vector<Vector3d>& normals, const Vector3d& origin, const Vector3d& outward, double radius) {
+Patch patch_of(const Surface& surface, const std::vector<Vector3d>& normals, const Vector3d& origin,
+               const Vector3d& outward, double radius) {
   Patch patch{origin, {}, {}};
   const Vector3d u = Vector3d::UnitZ().cross(outward).normalized();
   patch.axes << u, outward.cross(u), outward;
-  for (const int v : vertices_near(surface, origin, radius, [&](int i) { return surface.arm[i] < 0.5 && normals[i].dot(outward) > 0.3; }))
+  for (const int v : vertices_near(surface, origin, radius, [&](int i) {
+         return surface.arm[i] < 0.5 && normals[i].dot(outward) > 0.3;
+       }))
     patch.points.push_back(patch.axes.transpose() * (surface.mesh.vertices[v] - origin));
   return patch;
 }
@@ -55,7 +58,8 @@ Bump bump_at(const Patch& patch, const Vector2d& at) {
   }
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(terms);
   Eigen::VectorXd projected = qr.householderQ().transpose() * heights;
-  const Eigen::VectorXd c = qr.matrixQR().topRows(kCubic + 1).triangularView<Eigen::Upper>().solve(projected.head(kCubic + 1));
+  const Eigen::VectorXd c =
+      qr.matrixQR().topRows(kCubic + 1).triangularView<Eigen::Upper>().solve(projected.head(kCubic + 1));
   const double variance = projected.tail(spare).squaredNorm() / spare + std::pow(kExact / kPatch, 2);
   const double sign = qr.matrixQR()(kCubic, kCubic) < 0 ? -1 : 1;
   return {sign * projected[kCubic] / std::sqrt(variance), kPatch * (c[0] + c[kCubic])};
@@ -63,8 +67,10 @@ Bump bump_at(const Patch& patch, const Vector2d& at) {
 
 }  // namespace
 
-std::optional<Vector3d> find_nipple(const Surface& surface, const Vector3d& expected, double deviation, const Vector3d& outward) {
-  const std::vector<Vector3d> normals = geometry::vertex_normals(surface.mesh.vertices, surface.mesh.triangles);
+std::optional<Vector3d> find_nipple(const Surface& surface, const Vector3d& expected, double deviation,
+                                    const Vector3d& outward) {
+  const std::vector<Vector3d> normals =
+      geometry::vertex_normals(surface.mesh.vertices, surface.mesh.triangles);
   const Patch patch = patch_of(surface, normals, expected, outward, kSearch * deviation + kPatch);
   Vector2d best = Vector2d::Zero();
   Bump clearest{0, 0};

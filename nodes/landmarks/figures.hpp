@@ -9,8 +9,8 @@
 
 namespace tensegric_fit::landmarks {
 
-/// How far off a reading is, m, on bodies whose truth is known: the root of base^2 (of a model: (base * residual)^2) and
-/// (slope * support)^2.
+/// How far off a reading is, m, on bodies whose truth is known: the root of base^2 (of a model: (base *
+/// residual)^2) and (slope * support)^2.
 struct Spread {
   double base, support;
 };
@@ -24,7 +24,8 @@ struct FigurePrecision {
 
 /// Of all figures, for meshes that were given and for scans: what tests/body_model/fit_precision.py writes.
 struct Precision {
-  std::map<std::string, FigurePrecision> of_mesh, of_scan;  ///< by "girth bust", "height hip", "point bust_point" (both sides)
+  std::map<std::string, FigurePrecision> of_mesh,
+      of_scan;  ///< by "girth bust", "height hip", "point bust_point" (both sides)
 };
 
 /// \throw Refusal broken_file
@@ -47,7 +48,8 @@ struct Figure {
 /// A settled figure.
 struct Settled {
   Eigen::Vector3d value;
-  double half_width;  ///< m, of the 95 % interval; of a point, the radius
+  double half_width;    ///< m, of the 95 % interval; of a point, the radius
+  bool rests_on_model;  ///< the mesh does not show it, or shows something else
 };
 
 /// Mesh and model weighted by how far off each may be.
@@ -55,5 +57,11 @@ Settled settle(const Figure& figure, const Precision& precision, bool scanned);
 
 /// What ISO 20685 allows, m.
 double limit_of(const Figure& figure);
+
+/// 0 to 1: 0.5 where the interval is one and a half times as wide as ISO 20685 allows.
+double confidence_of(const Figure& figure, const Settled& settled);
+
+/// Why the interval is wide, for the one who reads the report.
+std::string reason_of(const Figure& figure, const Settled& settled);
 
 }  // namespace tensegric_fit::landmarks

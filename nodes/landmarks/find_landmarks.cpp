@@ -17,14 +17,24 @@ using body_model::RegisteredBody;
 using Eigen::Vector3d;
 using Tape = std::vector<Vector3d>;
 
-constexpr double kUnderbustBelowFold = 0.003;                      // m: the tape lies just under the fold (definition)
+constexpr double kUnderbustBelowFold = 0.003;  // m: the tape lies just under the fold (definition)
 constexpr double kWaistAboveHip = 0.10, kWaistBelowUnderbust = 0.005;  // m: the least girth is in between
-constexpr double kBreast = 0.045;     // m round the bust point: skin that says where the breast points
-constexpr double kMisfits = 2.5;      // of the model: deviation of a nipple from where the model has it
-constexpr double kFoldOfModel = 0.040, kFoldOfMesh = 0.025;  // m from where folds usually are on the model, and from where hers is
+constexpr double kBreast = 0.045;  // m round the bust point: skin that says where the breast points
+constexpr double kMisfits = 2.5;   // of the model: deviation of a nipple from where the model has it
+constexpr double kFoldOfModel = 0.040,
+                 kFoldOfMesh = 0.025;  // m from where folds usually are on the model, and from where hers is
 constexpr double kSeat = 0.02, kBelowWaist = 0.04;  // m: buttocks from below the crotch to below the navel
 constexpr double kAboveShoulder = 0.05, kBelowFold = 0.02;  // m: the axilla is in between (definition)
-constexpr double kLevelArm = M_PI / 3;  // rad; an arm held out more has its axilla on a plane that rises with it (definition)
+constexpr double kArmBelowAxilla = 0.051, kThighBelowCrotch = 0.039;  // statures along the limb (definition)
+constexpr double kArmReach = 0.055,
+                 kThighReach = 0.12;  // statures: half of the thickest limb's breadth, and room
+constexpr double kUnderButtock = 0.13,
+                 kFoldUnderButtock =
+                     0.065;  // statures (definition): back of the thigh, and a fold that does not show
+constexpr double kPerineum = 0.015;   // m round the crotch
+constexpr double kFoldDepth = 0.003;  // m under the straight edge; less is noise
+constexpr double kLevelArm =
+    M_PI / 3;  // rad; an arm held out more has its axilla on a plane that rises with it (definition)
 
 template <typename T>
 std::optional<Vector3d> as_figure(const std::optional<T>& value) {
@@ -32,18 +42,21 @@ std::optional<Vector3d> as_figure(const std::optional<T>& value) {
   return Vector3d(*value, 0, 0);
 }
 
-double length(const Tape& tape) { return geometry::length_of(tape, true); }
+double length(const Tape& tape) {
+  return geometry::length_of(tape, true);
+}
 
 /// One of the two surfaces that a figure is read on.
-struct Side2 {
+struct Source {
   Surface surface;
   Trunk trunk;
-  explicit Side2(Surface s) : surface(std::move(s)), trunk(surface) {}
+  explicit Source(Surface s) : surface(std::move(s)), trunk(surface) {}
 };
 
 class Reader {
  public:
-  Reader(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, const RegisteredBody& model, const Precision& precision)
+  Reader(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, const RegisteredBody& model,
+         const Precision& precision)
       : body_(model),
         precision_(precision),
         frame_(body_frame(model)),
@@ -55,11 +68,11 @@ class Reader {
   Reading read() {
     for (const Side side : kSides) bust_point(side);
     for (const Side side : kSides) fold(side);
-    level("bust", {"bust_point_L", "bust_point_R"}, false);
+    level("bust", {"bust_point_L", "bust_point_R"});
     level_of_folds();
     crotch();
     for (const Side side : kSides) buttock(side);
-    level("hip", {"buttock_L", "buttock_R"}, false);
+    level("hip", {"buttock_L", "buttock_R"});
     waist();
     girth("bust", [&](const Trunk& t) { return t.tape(height("bust")); });
     girth_under_breasts();
@@ -68,6 +81,11 @@ class Reader {
     for (const Side side : kSides) {
       shoulder(side);
       axilla(side);
+      upper_arm(side);
+      thigh(side);
+      gluteal_fold(side);
+      farthest("hip", side);
+      farthest("waist", side);
     }
     neck();
     stature();
@@ -78,53 +96,71 @@ class Reader {
   Vector3d expected(const std::string& name) const { return frame_ * body_.skin_point(name); }
 
   /// RegisteredBody::support round a point.
-  double support_at(const Vector3d& point) const { return std::min(body_.support[tree_.nearest(point)], kWorst); }
+  double support_at(const Vector3d& point) const {
+    return std::min(body_.support[tree_.nearest(point)], kWorst);
+  }
   double support_along(const Tape& tape) const {
     double sum = 0;
     for (const Vector3d& p : tape) sum += support_at(p);
     return tape.empty() ? kWorst : sum / static_cast<double>(tape.size());
   }
 
-  void add(Kind kind, const std::string& name, std::optional<Vector3d> on_mesh, std::optional<Vector3d> on_model, double support, Tape loop = {}) {
+  void add(Kind kind, const std::string& name, std::optional<Vector3d> on_mesh,
+           std::optional<Vector3d> on_model, double support, Tape loop = {}) {
     if (!on_mesh && !on_model) return;
-    figures_.push_back({kind, name, std::move(on_mesh), std::move(on_model), support, body_.residual, std::move(loop)});
+    figures_.push_back(
+        {kind, name, std::move(on_mesh), std::move(on_model), support, body_.residual, std::move(loop)});
   }
   const Figure* find(Kind kind, const std::string& name) const {
-    const auto found = std::find_if(figures_.begin(), figures_.end(), [&](const Figure& f) { return f.kind == kind && f.name == name; });
+    const auto found = std::find_if(figures_.begin(), figures_.end(),
+                                    [&](const Figure& f) { return f.kind == kind && f.name == name; });
     return found == figures_.end() ? nullptr : &*found;
   }
-  Vector3d point(const std::string& name) const { return settle(*find(Kind::point, name), precision_, body_.scanned).value; }
-  double height(const std::string& name) const { return settle(*find(Kind::height, name), precision_, body_.scanned).value.x(); }
+  Vector3d point(const std::string& name) const {
+    return settle(*find(Kind::point, name), precision_, body_.scanned).value;
+  }
+  double height(const std::string& name) const {
+    return settle(*find(Kind::height, name), precision_, body_.scanned).value.x();
+  }
 
   void bust_point(Side side) {
     const std::string name = std::string("bust_point") + kSuffix[side];
     const Vector3d there = expected(name);
     Vector3d outward = Vector3d::Zero();
     for (std::size_t v = 0; v < normals_.size(); ++v)
-      if ((skin_.surface.mesh.vertices[v] - there).norm() < kBreast && skin_.surface.arm[v] < 0.5) outward += normals_[v];
-    add(Kind::point, name, find_nipple(mesh_.surface, there, kMisfits * body_.residual, outward.normalized()), there, support_at(there));
+      if ((skin_.surface.mesh.vertices[v] - there).norm() < kBreast && skin_.surface.arm[v] < 0.5)
+        outward += normals_[v];
+    add(Kind::point, name, find_nipple(mesh_.surface, there, kMisfits * body_.residual, outward.normalized()),
+        there, support_at(there));
   }
 
   void fold(Side side) {
     const Vector3d tip = point(std::string("bust_point") + kSuffix[side]);
-    const Fold on_model = find_fold(skin_.trunk, tip, side, {expected(std::string("underbust") + kSuffix[side])}, kFoldOfModel);
+    const Fold on_model =
+        find_fold(skin_.trunk, tip, side, {expected(std::string("underbust") + kSuffix[side])}, kFoldOfModel);
     const Fold on_mesh = find_fold(mesh_.trunk, tip, side, on_model.places, kFoldOfMesh);
     lowest_[0][side] = on_mesh.places.empty() ? std::nullopt : std::optional<Vector3d>(on_mesh.lowest);
     lowest_[1][side] = on_model.places.empty() ? std::nullopt : std::optional<Vector3d>(on_model.lowest);
-    const auto first = [](const Fold& f) { return f.places.empty() ? std::nullopt : std::optional<Vector3d>(f.places.front()); };
-    if (!on_model.places.empty()) add(Kind::point, std::string("underbust") + kSuffix[side], first(on_mesh), first(on_model), support_at(on_model.places.front()));
+    const auto first = [](const Fold& f) {
+      return f.places.empty() ? std::nullopt : std::optional<Vector3d>(f.places.front());
+    };
+    if (!on_model.places.empty())
+      add(Kind::point, std::string("underbust") + kSuffix[side], first(on_mesh), first(on_model),
+          support_at(on_model.places.front()));
   }
 
   /// The mean height of points.
-  void level(const std::string& name, const std::vector<std::string>& points, bool) {
+  void level(const std::string& name, const std::vector<std::string>& points) {
     std::optional<double> on_mesh = 0.0, on_model = 0.0;
     double support = 0;
     for (const std::string& p : points) {
       const Figure* figure = find(Kind::point, p);
       if (figure == nullptr) return;
       const auto take = [&](std::optional<double>& sum, const std::optional<Vector3d>& value) {
-        if (sum && value) *sum += value->z() / static_cast<double>(points.size());
-        else sum.reset();
+        if (sum && value)
+          *sum += value->z() / static_cast<double>(points.size());
+        else
+          sum.reset();
       };
       take(on_mesh, figure->on_mesh);
       take(on_model, figure->on_model);
@@ -145,9 +181,12 @@ class Reader {
 
   void crotch() {
     const Vector3d there = expected("crotch");
-    const auto on_mesh = find_crotch(mesh_.surface, there);
+    auto on_mesh = find_crotch(mesh_.surface, there);
+    if (on_mesh && unseen_share(mesh_.surface, *on_mesh, kPerineum) > 0.5)
+      on_mesh.reset();  // a filled gap has its own lowest place
     add(Kind::point, "crotch", on_mesh, there, support_at(there));
-    add(Kind::height, "crotch", as_figure(on_mesh ? std::optional<double>(on_mesh->z()) : std::nullopt), Vector3d(there.z(), 0, 0), support_at(there));
+    add(Kind::height, "crotch", as_figure(on_mesh ? std::optional<double>(on_mesh->z()) : std::nullopt),
+        Vector3d(there.z(), 0, 0), support_at(there));
   }
 
   void buttock(Side side) {
@@ -155,11 +194,14 @@ class Reader {
     const Vector3d* rearmost = nullptr;
     for (std::size_t v = 0; v < normals_.size(); ++v) {
       const Vector3d& p = skin_.surface.mesh.vertices[v];
-      if (skin_.surface.arm[v] > 0.5 || kSign[side] * (p.y() - expected_crotch_y()) < kSeat || p.z() < lowest || p.z() > highest) continue;
+      if (skin_.surface.arm[v] > 0.5 || kSign[side] * (p.y() - expected_crotch_y()) < kSeat ||
+          p.z() < lowest || p.z() > highest)
+        continue;
       if (rearmost == nullptr || p.x() < rearmost->x()) rearmost = &p;
     }
     if (rearmost == nullptr) return;
-    add(Kind::point, std::string("buttock") + kSuffix[side], find_buttock(mesh_.trunk, *rearmost), find_buttock(skin_.trunk, *rearmost), support_at(*rearmost));
+    add(Kind::point, std::string("buttock") + kSuffix[side], find_buttock(mesh_.trunk, *rearmost),
+        find_buttock(skin_.trunk, *rearmost), support_at(*rearmost));
   }
   double expected_crotch_y() const { return expected("crotch").y(); }
 
@@ -168,14 +210,15 @@ class Reader {
     const double low = height("hip") + kWaistAboveHip, high = height("underbust") - kWaistBelowUnderbust;
     const auto on_mesh = find_waist(mesh_.trunk, low, high), on_model = find_waist(skin_.trunk, low, high);
     if (on_mesh && on_model) {
-      add(Kind::height, "waist", as_figure(on_mesh), as_figure(on_model), support_along(skin_.trunk.tape_of_torso(*on_model)));
+      add(Kind::height, "waist", as_figure(on_mesh), as_figure(on_model),
+          support_along(skin_.trunk.tape_of_torso(*on_model)));
     } else {
-      no_waist_ = true;
       add(Kind::height, "waist", std::nullopt, Vector3d(expected("navel").z(), 0, 0), kWorst);
     }
   }
 
-  /// Under each surface's own fold, where that is lower: a breast that joins the trunk below the level is none of the tape.
+  /// Under each surface's own fold, where that is lower: a breast that joins the trunk below the level is
+  /// none of the tape.
   void girth_under_breasts() {
     if (find(Kind::height, "underbust") == nullptr) return;
     Tape tapes[2];
@@ -195,30 +238,101 @@ class Reader {
   }
   void girth_of(const std::string& name, Tape on_mesh, Tape on_model) {
     if (on_mesh.size() < 3 && on_model.size() < 3) return;
-    const auto value = [](const Tape& t) { return t.size() < 3 ? std::nullopt : std::optional<double>(length(t)); };
+    const auto value = [](const Tape& t) {
+      return t.size() < 3 ? std::nullopt : std::optional<double>(length(t));
+    };
     const double support = support_along(on_model.size() < 3 ? on_mesh : on_model);
-    add(Kind::girth, name, as_figure(value(on_mesh)), as_figure(value(on_model)), support, on_mesh.size() < 3 ? on_model : on_mesh);
+    add(Kind::girth, name, as_figure(value(on_mesh)), as_figure(value(on_model)), support,
+        on_mesh.size() < 3 ? on_model : on_mesh);
   }
 
   void shoulder(Side side) {
     const Vector3d bone = frame_ * body_.bone_point(std::string("acromion") + kSuffix[side]);
-    add(Kind::point, std::string("shoulder") + kSuffix[side], skin_above(mesh_.surface, bone), skin_above(skin_.surface, bone), support_at(bone));
+    add(Kind::point, std::string("shoulder") + kSuffix[side], skin_above(mesh_.surface, bone),
+        skin_above(skin_.surface, bone), support_at(bone));
   }
 
   void axilla(Side side) {
     const std::string arm = kSuffix[side] + 1;
-    const Vector3d way = frame_.linear() * (body_.joint("lowerarm01." + arm) - body_.joint("upperarm01." + arm));
-    const double raised = std::atan2(kSign[side] * way.y(), -way.z()), rise = raised >= kLevelArm ? raised / 2 : 0;
+    const Vector3d way =
+        frame_.linear() * (body_.joint("lowerarm01." + arm) - body_.joint("upperarm01." + arm));
+    const double raised = std::atan2(kSign[side] * way.y(), -way.z()),
+                 rise = raised >= kLevelArm ? raised / 2 : 0;
     const Vector3d bone = frame_ * body_.bone_point(std::string("acromion") + kSuffix[side]);
-    const auto lowest = lowest_[1][side] ? lowest_[1][side]->z() : expected(std::string("bust_point") + kSuffix[side]).z();
-    const auto on_mesh = find_axilla(mesh_.surface, side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
-    const auto on_model = find_axilla(skin_.surface, side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
-    add(Kind::point, std::string("axilla") + kSuffix[side], on_mesh, on_model, support_at(on_model ? *on_model : bone));
+    const auto lowest =
+        lowest_[1][side] ? lowest_[1][side]->z() : expected(std::string("bust_point") + kSuffix[side]).z();
+    const auto on_mesh =
+        find_axilla(mesh_.surface, side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
+    const auto on_model =
+        find_axilla(skin_.surface, side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
+    add(Kind::point, std::string("axilla") + kSuffix[side], on_mesh, on_model,
+        support_at(on_model ? *on_model : bone));
+  }
+
+  void upper_arm(Side side) {
+    const std::string arm = kSuffix[side] + 1;
+    const Vector3d shoulder = frame_ * body_.joint("upperarm01." + arm);
+    const Vector3d along = (frame_ * body_.joint("lowerarm01." + arm) - shoulder).normalized();
+    if (find(Kind::point, "axilla" + std::string(kSuffix[side])) == nullptr) return;
+    const double down = along.dot(point(std::string("axilla") + kSuffix[side]) - shoulder) +
+                        kArmBelowAxilla * body_.stature();
+    limb("upper_arm", side, shoulder + down * along, along, kArmReach,
+         [](const Surface& s, const Eigen::Vector3i& t) {
+           return s.arm[t[0]] + s.arm[t[1]] + s.arm[t[2]] > 3 * 0.5;
+         });
+  }
+
+  /// Of thighs that touch, what lies on this side of the plane between the hip joints.
+  void thigh(Side side) {
+    const std::string leg = kSuffix[side] + 1;
+    const Vector3d hip = frame_ * body_.joint("upperleg01." + leg),
+                   knee = frame_ * body_.joint("lowerleg01." + leg);
+    const Vector3d along = (knee - hip).normalized(),
+                   outwards = (hip - frame_ * body_.joint(side == kLeft ? "upperleg01.R" : "upperleg01.L"))
+                                  .normalized();
+    const double level = height("crotch") - kThighBelowCrotch * body_.stature(),
+                 between = outwards.dot(point("crotch"));
+    limb("thigh", side, hip + (level - hip.z()) / along.z() * along, along, kThighReach,
+         [&](const Surface& s, const Eigen::Vector3i& t) {
+           const Vector3d middle =
+               (s.mesh.vertices[t[0]] + s.mesh.vertices[t[1]] + s.mesh.vertices[t[2]]) / 3;
+           return outwards.dot(middle) > between && s.arm[t[0]] + s.arm[t[1]] + s.arm[t[2]] <= 3 * 0.5;
+         });
+  }
+
+  template <typename Belongs>
+  void limb(const std::string& name, Side side, const Vector3d& place, const Vector3d& along, double reach,
+            const Belongs& belongs) {
+    const auto round = [&](const Surface& s) {
+      return round_limb(s, place, along, reach * body_.stature(),
+                        [&](const Eigen::Vector3i& t) { return belongs(s, t); });
+    };
+    girth_of(name + kSuffix[side], round(mesh_.surface), round(skin_.surface));
+  }
+
+  void gluteal_fold(Side side) {
+    if (find(Kind::point, std::string("buttock") + kSuffix[side]) == nullptr) return;
+    const Vector3d seat = point(std::string("buttock") + kSuffix[side]);
+    const double far = kUnderButtock * body_.stature();
+    std::optional<Vector3d> on_model = find_gluteal_fold(skin_.trunk, seat, far, 0);
+    if (!on_model) on_model = seat - kFoldUnderButtock * body_.stature() * Vector3d::UnitZ();
+    add(Kind::point, std::string("gluteal_fold") + kSuffix[side],
+        find_gluteal_fold(mesh_.trunk, seat, far, kFoldDepth), on_model, support_at(*on_model));
+  }
+
+  void farthest(const std::string& level, Side side) {
+    if (find(Kind::height, level) == nullptr) return;
+    const auto on_model = find_side(skin_.trunk, side, height(level));
+    if (on_model)
+      add(Kind::point, level + "_side" + kSuffix[side], find_side(mesh_.trunk, side, height(level)), on_model,
+          support_at(*on_model));
   }
 
   void neck() {
-    const Vector3d front = expected("neck_ring_front"), back = expected("neck_ring_back"), left = expected("neck_ring_L"), right = expected("neck_ring_R");
-    const Vector3d base = (front + back + left + right) / 4, along = (front - back).cross(left - right).normalized();
+    const Vector3d front = expected("neck_ring_front"), back = expected("neck_ring_back"),
+                   left = expected("neck_ring_L"), right = expected("neck_ring_R");
+    const Vector3d base = (front + back + left + right) / 4,
+                   along = (front - back).cross(left - right).normalized();
     girth_of("neck", find_neck(mesh_.surface, base, along), find_neck(skin_.surface, base, along));
     add(Kind::height, "neck", std::nullopt, Vector3d(base.z(), 0, 0), support_at(front));
     for (const char* name : {"neck_front", "neck_back", "neck_side_L", "neck_side_R", "navel"})
@@ -230,7 +344,8 @@ class Reader {
     Vector3d crown = skin_.surface.mesh.vertices.front();
     for (const Vector3d& p : skin_.surface.mesh.vertices)
       if (p.z() > crown.z()) crown = p;
-    add(Kind::height, "stature", Vector3d(top(mesh_.surface), 0, 0), Vector3d(crown.z(), 0, 0), support_at(crown));
+    add(Kind::height, "stature", Vector3d(top(mesh_.surface), 0, 0), Vector3d(crown.z(), 0, 0),
+        support_at(crown));
   }
 
   static constexpr double kWorst = 0.1;  // m; support is no worse than that
@@ -238,37 +353,45 @@ class Reader {
   const RegisteredBody& body_;
   const Precision& precision_;
   Eigen::Isometry3d frame_;
-  Side2 mesh_, skin_;
+  Source mesh_, skin_;
   std::vector<Vector3d> normals_;
   geometry::PointTree tree_;
   std::vector<Figure> figures_;
-  std::array<std::array<std::optional<Vector3d>, 2>, 2> lowest_;  ///< of the folds: on mesh and model, left and right
-  bool no_waist_ = false;
+  std::array<std::array<std::optional<Vector3d>, 2>, 2>
+      lowest_;  ///< of the folds: on mesh and model, left and right
 };
 
 }  // namespace
 
-Reading read_figures(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, const RegisteredBody& model, const Precision& precision) {
+Reading read_figures(const geometry::TriangleMesh& mesh, const std::vector<char>& filled,
+                     const RegisteredBody& model, const Precision& precision) {
   geometry::check_mesh(mesh);
-  if (mesh.triangles.empty()) throw geometry::Refusal(geometry::refusal::kBadMesh, "the mesh has no triangles");
+  if (mesh.triangles.empty())
+    throw geometry::Refusal(geometry::refusal::kBadMesh, "the mesh has no triangles");
   if (!filled.empty() && filled.size() != mesh.vertices.size())
-    throw geometry::Refusal(geometry::refusal::kBadMesh, "one flag per vertex is needed to know filled holes");
+    throw geometry::Refusal(geometry::refusal::kBadMesh,
+                            "one flag per vertex is needed to know filled holes");
   return Reader(mesh, filled, model, precision).read();
 }
 
-geometry::BodyMeasures find_landmarks(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, const RegisteredBody& model,
-                                      const Precision& precision) {
+geometry::BodyMeasures find_landmarks(const geometry::TriangleMesh& mesh, const std::vector<char>& filled,
+                                      const RegisteredBody& model, const Precision& precision) {
   const Reading reading = read_figures(mesh, filled, model, precision);
   geometry::BodyMeasures measures;
   measures.body_from_scan = reading.body_from_scan;
   const Eigen::Isometry3d scan_from_body = reading.body_from_scan.inverse();
   for (const Figure& figure : reading.figures) {
     const Settled settled = settle(figure, precision, model.scanned);
-    const double limit = limit_of(figure), confidence = limit / (limit + settled.half_width);
-    const std::string reason = confidence < 0.5 ? "its 95 % interval is wider than ISO 20685 allows" : "";
+    const double confidence = confidence_of(figure, settled);
+    const std::string reason = confidence < 0.5 ? reason_of(figure, settled) : "";
     switch (figure.kind) {
-      case Kind::point: measures.landmarks.push_back({figure.name, scan_from_body * settled.value, confidence, reason, settled.half_width}); break;
-      case Kind::height: measures.heights.push_back({figure.name, settled.value.x(), confidence, reason, settled.half_width}); break;
+      case Kind::point:
+        measures.landmarks.push_back(
+            {figure.name, scan_from_body * settled.value, confidence, reason, settled.half_width});
+        break;
+      case Kind::height:
+        measures.heights.push_back({figure.name, settled.value.x(), confidence, reason, settled.half_width});
+        break;
       case Kind::girth: {
         measures.girths.push_back({figure.name, settled.value.x(), confidence, reason, settled.half_width});
         geometry::GirthLoop loop{figure.name, {}};

@@ -1,4 +1,5 @@
-/// Body mesh and the body model registered to it -> landmarks, heights, girths (ISO 8559-1 names; DESIGN §2 and §6).
+/// Body mesh and the body model registered to it -> landmarks, heights, girths (ISO 8559-1 names; DESIGN §2
+/// and §6).
 #pragma once
 
 #include <vector>
@@ -10,16 +11,17 @@
 
 namespace tensegric_fit::landmarks {
 
-/// What is known of every figure of a body before it is settled how much mesh and model count, in the body's frame.
+/// What is known of every figure of a body before it is settled how much mesh and model count, in the body's
+/// frame.
 struct Reading {
   Eigen::Isometry3d body_from_scan;
   std::vector<Figure> figures;
 };
 
-/// `filled` is empty or has one flag a vertex: 1 where the scan saw nothing. `model`: registered to the same person, in the mesh's
-/// frame. \throw Refusal bad_mesh, non_finite
-Reading read_figures(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, const body_model::RegisteredBody& model,
-                     const Precision& precision);
+/// `filled` is empty or has one flag a vertex: 1 where the scan saw nothing. `model`: registered to the same
+/// person, in the mesh's frame. \throw Refusal bad_mesh, non_finite
+Reading read_figures(const geometry::TriangleMesh& mesh, const std::vector<char>& filled,
+                     const body_model::RegisteredBody& model, const Precision& precision);
 
 /// \throw Refusal as read_figures
 geometry::BodyMeasures find_landmarks(const geometry::TriangleMesh& mesh, const std::vector<char>& filled,

@@ -19,14 +19,16 @@ constexpr double kContinued = 0.3;  // of its curvature below the bust point: le
 constexpr double kBottom = 0.6;     // of the curvature: skin that is as hollow takes part in the place
 constexpr double kOutlier = 0.004;  // m off the arc, where a place counts for half
 
-/// The most hollow place of a profile: the middle of the skin that is nearly as hollow; nothing where there is none.
+/// The most hollow place of a profile: the middle of the skin that is nearly as hollow; nothing where there
+/// is none.
 struct Hollow {
   Vector3d place;
   double curvature;
 };
 std::optional<Hollow> most_hollow(const Profile& profile, const Vector3d& expected, double reach) {
   const int first = static_cast<int>(kRim / Profile::kStep),
-            last = std::min(static_cast<int>(profile.points.size()) - 2, static_cast<int>(kReach / Profile::kStep));
+            last = std::min(static_cast<int>(profile.points.size()) - 2,
+                            static_cast<int>(kReach / Profile::kStep));
   std::vector<double> value(profile.points.size(), -1e9);
   int best = -1;
   for (int i = first; i < last; ++i) {
@@ -40,7 +42,8 @@ std::optional<Hollow> most_hollow(const Profile& profile, const Vector3d& expect
   double weight = 0;
   const double floor = kBottom * profile.curvature[best];
   for (const int step : {-1, 1})
-    for (int i = step < 0 ? best : best + 1; i >= first && i < last && profile.curvature[i] > floor; i += step) {
+    for (int i = step < 0 ? best : best + 1; i >= first && i < last && profile.curvature[i] > floor;
+         i += step) {
       sum += (profile.curvature[i] - floor) * profile.points[i];
       weight += profile.curvature[i] - floor;
     }
@@ -51,7 +54,8 @@ std::optional<Hollow> most_hollow(const Profile& profile, const Vector3d& expect
 Vector3d lowest_of_arc(const std::vector<Vector3d>& places, Side side) {
   const int count = static_cast<int>(places.size());
   if (count < 4)
-    return *std::min_element(places.begin(), places.end(), [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); });
+    return *std::min_element(places.begin(), places.end(),
+                             [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); });
   Eigen::VectorXd inwards(count), z(count), weight = Eigen::VectorXd::Ones(count);
   for (int i = 0; i < count; ++i) {
     inwards[i] = -kSign[side] * (places[i].y() - places[0].y()) / kMedial;
@@ -61,7 +65,9 @@ Vector3d lowest_of_arc(const std::vector<Vector3d>& places, Side side) {
   terms << Eigen::VectorXd::Ones(count), inwards, inwards.cwiseAbs2();
   Eigen::Vector3d c = Eigen::Vector3d::Zero();
   for (int round = 0; round < 5; ++round) {
-    c = (terms.transpose() * weight.asDiagonal() * terms).ldlt().solve(terms.transpose() * weight.asDiagonal() * z);
+    c = (terms.transpose() * weight.asDiagonal() * terms)
+            .ldlt()
+            .solve(terms.transpose() * weight.asDiagonal() * z);
     const Eigen::VectorXd off = z - terms * c;
     weight = 1 / (1 + (off.array() / kOutlier).square());
   }
@@ -73,17 +79,20 @@ Vector3d lowest_of_arc(const std::vector<Vector3d>& places, Side side) {
 
 }  // namespace
 
-Fold find_fold(const Trunk& trunk, const Vector3d& bust_point, Side side, const std::vector<Vector3d>& expected, double reach) {
+Fold find_fold(const Trunk& trunk, const Vector3d& bust_point, Side side,
+               const std::vector<Vector3d>& expected, double reach) {
   Fold fold;
   for (double medial = 0; medial < kMedial + kApart / 2; medial += kApart) {
     const std::size_t i = fold.places.size();
     if (i >= expected.size() && expected.size() != 1) break;
-    const Profile profile = profile_down(trunk, bust_point - kSign[side] * medial * Vector3d::UnitY(), kReach + 0.08);
+    const Profile profile =
+        profile_down(trunk, bust_point - kSign[side] * medial * Vector3d::UnitY(), kReach + 0.08);
     const auto found = most_hollow(profile, i < expected.size() ? expected[i] : fold.places.back(), reach);
     if (!found) break;
     if (fold.places.empty()) {
       fold.curvature = found->curvature;
-    } else if (found->curvature < kContinued * fold.curvature || std::abs(found->place.z() - fold.places.back().z()) > kStep) {
+    } else if (found->curvature < kContinued * fold.curvature ||
+               std::abs(found->place.z() - fold.places.back().z()) > kStep) {
       break;
     }
     fold.places.push_back(found->place);

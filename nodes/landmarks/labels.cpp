@@ -18,13 +18,17 @@ std::vector<Vector3d> moved(const std::vector<Vector3d>& points, const Eigen::Is
 
 }  // namespace
 
-Surface labelled(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, const body_model::RegisteredBody& body,
-                 const Eigen::Isometry3d& body_from_scan) {
+Surface labelled(const geometry::TriangleMesh& mesh, const std::vector<char>& filled,
+                 const body_model::RegisteredBody& body, const Eigen::Isometry3d& body_from_scan) {
   const body_model::Model& model = *body.model;
   const std::size_t count = mesh.vertices.size();
-  Surface surface{{moved(mesh.vertices, body_from_scan), mesh.triangles}, std::vector<double>(count), std::vector<unsigned char>(count), filled};
+  Surface surface{{moved(mesh.vertices, body_from_scan), mesh.triangles},
+                  std::vector<double>(count),
+                  std::vector<unsigned char>(count),
+                  filled};
   const std::vector<Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
-  const body_model::OrientedTree tree(body.skin, geometry::vertex_normals(body.skin, model.triangles), kReach);
+  const body_model::OrientedTree tree(body.skin, geometry::vertex_normals(body.skin, model.triangles),
+                                      kReach);
   geometry::in_halves(count, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t v = begin; v < end; ++v) {
       const int nearest = tree.nearest(mesh.vertices[v], normals[v]);

@@ -6,9 +6,10 @@
 
 namespace tensegric_fit::landmarks {
 
-/// The mesh in the body's frame, labelled by the nearest skin of the model that faces the same way. `filled` as for find_landmarks.
-Surface labelled(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, const body_model::RegisteredBody& body,
-                 const Eigen::Isometry3d& body_from_scan);
+/// The mesh in the body's frame, labelled by the nearest skin of the model that faces the same way. `filled`
+/// as for find_landmarks.
+Surface labelled(const geometry::TriangleMesh& mesh, const std::vector<char>& filled,
+                 const body_model::RegisteredBody& body, const Eigen::Isometry3d& body_from_scan);
 
 /// The model's own skin on this person, in the body's frame.
 Surface skin_of(const body_model::RegisteredBody& body, const Eigen::Isometry3d& body_from_scan);

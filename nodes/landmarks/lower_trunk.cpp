@@ -1,6 +1,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "landmarks/finders.hpp"
 
@@ -9,21 +10,26 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLevels = 0.0025, kSmoothing = 2;  // m between tapes; levels: deviation of the Gaussian over their girths
-constexpr int kEnd = 3;                             // levels; a least girth this near the end of the search is the end's
-constexpr double kBottom = 0.0176;                  // m each way, of the parabola through the least girth
-constexpr double kMoved = 0.006;                    // m that it may move the level
-constexpr double kSeat = 0.040, kNarrowSeat = 0.025;  // m of a buttock's profile up and down; where that is round enough, less
-constexpr double kLeastRound = 2;                     // 1/m; flatter profiles have no apex
-constexpr double kBeside = 0.010, kProfile = 0.12;    // m to the sides; of a profile's length
-constexpr int kProfiles = 4;                          // on each side of the middle one
-constexpr double kMidline = 0.010, kPerineum = 0.04;  // m: to the sides and round it
+constexpr double kLevels = 0.0025,
+                 kSmoothing = 2;    // m between tapes; levels: deviation of the Gaussian over their girths
+constexpr int kEnd = 3;             // levels; a least girth this near the end of the search is the end's
+constexpr double kBottom = 0.0176;  // m each way, of the parabola through the least girth
+constexpr double kMoved = 0.006;    // m that it may move the level
+constexpr double kSeat = 0.040,
+                 kNarrowSeat =
+                     0.025;        // m of a buttock's profile up and down; where that is round enough, less
+constexpr double kLeastRound = 2;  // 1/m; flatter profiles have no apex
+constexpr double kBeside = 0.010, kProfile = 0.12;  // m to the sides; of a profile's length
+constexpr int kProfiles = 4;                        // on each side of the middle one
+constexpr double kFlatSide = 0.003;                 // m: skin that is as far to the side
+constexpr double kPerineum = 0.04;                  // m round it
 
 /// Where a quadratic surface through the skin of a buttock is rearmost; `start` where it is so nowhere near.
 Vector3d rearmost_near(const Surface& surface, const Vector3d& start) {
   Vector3d place = start;
   for (int pass = 0; pass < 8; ++pass) {
-    const std::vector<int> near = vertices_near(surface, place, kSeat, [&](int v) { return surface.arm[v] < 0.5; });
+    const std::vector<int> near =
+        vertices_near(surface, place, kSeat, [&](int v) { return surface.arm[v] < 0.5; });
     if (near.size() < 12) return start;  // twice the unknowns
     Eigen::MatrixXd terms(near.size(), 6);
     Eigen::VectorXd depth(near.size());
@@ -45,7 +51,9 @@ Vector3d rearmost_near(const Surface& surface, const Vector3d& start) {
   return place;
 }
 
-double girth(const std::vector<Vector3d>& tape) { return tape.size() < 3 ? -1 : geometry::length_of(tape, true); }
+double girth(const std::vector<Vector3d>& tape) {
+  return tape.size() < 3 ? -1 : geometry::length_of(tape, true);
+}
 
 }  // namespace
 
@@ -77,6 +85,48 @@ std::optional<Vector3d> find_buttock(const Trunk& trunk, const Vector3d& start_a
   if (apexes.empty()) return std::nullopt;
   std::sort(apexes.begin(), apexes.end(), [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); });
   return apexes[apexes.size() / 2];
+}
+
+std::optional<Vector3d> find_gluteal_fold(const Trunk& trunk, const Vector3d& buttock, double length,
+                                          double depth) {
+  const Profile profile = profile_down(trunk, buttock, 2 * length);
+  const auto end = std::find_if(profile.points.begin(), profile.points.end(),
+                                [&](const Vector3d& p) { return p.z() < buttock.z() - length; });
+  if (end == profile.points.end()) return std::nullopt;
+  const Vector3d edge = (*end - buttock).normalized(), inwards = edge.cross(Vector3d::UnitY());
+  std::optional<Vector3d> deepest;
+  for (auto p = profile.points.begin(); p != end; ++p) {
+    const double here = inwards.dot(*p - buttock);
+    if (here <= depth) continue;
+    depth = here;
+    deepest = *p;
+  }
+  return deepest;
+}
+
+std::optional<Vector3d> find_side(const Trunk& trunk, Side side, double height) {
+  std::vector<Vector3d> points;
+  for (const geometry::SectionLoop& loop : trunk.level(height))
+    points.insert(points.end(), loop.points.begin(), loop.points.end());
+  double farthest = -1e9;
+  for (const Vector3d& p : points) farthest = std::max(farthest, kSign[side] * p.y());
+  points.erase(std::remove_if(points.begin(), points.end(),
+                              [&](const Vector3d& p) { return kSign[side] * p.y() < farthest - kFlatSide; }),
+               points.end());
+  if (points.empty()) return std::nullopt;
+  const auto middle = points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
+  std::nth_element(points.begin(), middle, points.end(),
+                   [](const Vector3d& a, const Vector3d& b) { return a.x() < b.x(); });
+  return *middle;
+}
+
+std::vector<Vector3d> round_limb(const Surface& surface, const Vector3d& origin, const Vector3d& along,
+                                 double reach, const Selected& selected) {
+  std::vector<Vector3d> points;
+  for (const geometry::SectionLoop& loop : cut(surface, origin, along, selected))
+    std::copy_if(loop.points.begin(), loop.points.end(), std::back_inserter(points),
+                 [&](const Vector3d& p) { return (p - origin).norm() < reach; });
+  return points.size() < 3 ? std::vector<Vector3d>() : geometry::tape(points, along);
 }
 
 std::optional<double> find_waist(const Trunk& trunk, double lowest, double highest) {

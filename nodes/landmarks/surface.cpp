@@ -25,14 +25,17 @@ geometry::TriangleMesh piece_of(const Surface& surface, const std::vector<int>& 
   for (const int t : triangles) {
     Eigen::Vector3i corners;
     for (int k = 0; k < 3; ++k)
-      corners[k] = static_cast<int>(std::lower_bound(used.begin(), used.end(), surface.mesh.triangles[t][k]) - used.begin());
+      corners[k] = static_cast<int>(std::lower_bound(used.begin(), used.end(), surface.mesh.triangles[t][k]) -
+                                    used.begin());
     piece.triangles.push_back(corners);
   }
   return piece;
 }
 
 std::vector<SectionLoop> without_slivers(std::vector<SectionLoop> loops) {
-  loops.erase(std::remove_if(loops.begin(), loops.end(), [](const SectionLoop& l) { return l.points.size() <= kFewest; }), loops.end());
+  loops.erase(std::remove_if(loops.begin(), loops.end(),
+                             [](const SectionLoop& l) { return l.points.size() <= kFewest; }),
+              loops.end());
   return loops;
 }
 
@@ -75,14 +78,16 @@ std::vector<Vector3d> even_steps(const std::vector<Vector3d>& line, double step,
   return even;
 }
 
-std::vector<SectionLoop> cut(const Surface& surface, const Vector3d& origin, const Vector3d& normal, const Selected& selected) {
+std::vector<SectionLoop> cut(const Surface& surface, const Vector3d& origin, const Vector3d& normal,
+                             const Selected& selected) {
   std::vector<double> height(surface.mesh.vertices.size());
   for (std::size_t v = 0; v < height.size(); ++v) height[v] = normal.dot(surface.mesh.vertices[v] - origin);
   std::vector<int> through;
   for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i) {
     const Eigen::Vector3i& t = surface.mesh.triangles[i];
     const bool above = height[t[0]] >= 0;
-    if (((height[t[1]] >= 0) != above || (height[t[2]] >= 0) != above) && selected(t)) through.push_back(static_cast<int>(i));
+    if (((height[t[1]] >= 0) != above || (height[t[2]] >= 0) != above) && selected(t))
+      through.push_back(static_cast<int>(i));
   }
   return without_slivers(geometry::plane_section(piece_of(surface, through), origin, normal));
 }
@@ -100,7 +105,8 @@ Trunk::Trunk(const Surface& surface) : surface_(surface) {
       low = std::min(low, surface.mesh.vertices[t[k]].z());
       high = std::max(high, surface.mesh.vertices[t[k]].z());
     }
-    for (auto s = static_cast<std::size_t>((low - bottom_) / slab_); s <= static_cast<std::size_t>((high - bottom_) / slab_); ++s)
+    for (auto s = static_cast<std::size_t>((low - bottom_) / slab_);
+         s <= static_cast<std::size_t>((high - bottom_) / slab_); ++s)
       triangles_in_[s].push_back(static_cast<int>(i));
   }
 }
@@ -112,20 +118,22 @@ bool Trunk::operator()(const Eigen::Vector3i& t) const {
 std::vector<SectionLoop> Trunk::level(double height) const {
   const double slab = (height - bottom_) / slab_;
   if (!(slab >= 0 && slab < static_cast<double>(triangles_in_.size()))) return {};
-  return without_slivers(geometry::plane_section(piece_of(surface_, triangles_in_[static_cast<std::size_t>(slab)]), {0, 0, height},
-                                                 Vector3d::UnitZ()));
+  return without_slivers(geometry::plane_section(
+      piece_of(surface_, triangles_in_[static_cast<std::size_t>(slab)]), {0, 0, height}, Vector3d::UnitZ()));
 }
 
 std::vector<Vector3d> Trunk::tape(double height) const {
   std::vector<Vector3d> points;
-  for (const SectionLoop& loop : level(height)) points.insert(points.end(), loop.points.begin(), loop.points.end());
+  for (const SectionLoop& loop : level(height))
+    points.insert(points.end(), loop.points.begin(), loop.points.end());
   return points.size() < 3 ? std::vector<Vector3d>() : geometry::tape(points, Vector3d::UnitZ());
 }
 
 std::vector<Vector3d> Trunk::tape_of_torso(double height) const {
   const std::vector<SectionLoop> loops = level(height);
   if (loops.empty()) return {};
-  const auto widest = std::max_element(loops.begin(), loops.end(), [](const auto& a, const auto& b) { return width_of(a) < width_of(b); });
+  const auto widest = std::max_element(
+      loops.begin(), loops.end(), [](const auto& a, const auto& b) { return width_of(a) < width_of(b); });
   return geometry::tape(widest->points, Vector3d::UnitZ());
 }
 
@@ -133,13 +141,15 @@ Profile profile_down(const Trunk& trunk, const Vector3d& start, double length) {
   std::vector<Vector3d> line;
   double nearest = 0.05;  // m; farther from the start there is no profile of it
   for (const SectionLoop& loop : cut(trunk.surface(), start, Vector3d::UnitY(), trunk)) {
-    const auto place = std::min_element(loop.points.begin(), loop.points.end(), [&](const Vector3d& a, const Vector3d& b) {
-      return (a - start).squaredNorm() < (b - start).squaredNorm();
-    });
+    const auto place =
+        std::min_element(loop.points.begin(), loop.points.end(), [&](const Vector3d& a, const Vector3d& b) {
+          return (a - start).squaredNorm() < (b - start).squaredNorm();
+        });
     if ((*place - start).norm() >= nearest) continue;
     nearest = (*place - start).norm();
     // Both ways from there; down is the one that is lower after some centimetres.
-    std::vector<Vector3d> ahead(place, loop.points.end()), back(std::make_reverse_iterator(place + 1), loop.points.rend());
+    std::vector<Vector3d> ahead(place, loop.points.end()),
+        back(std::make_reverse_iterator(place + 1), loop.points.rend());
     if (loop.closed) {
       ahead.insert(ahead.end(), loop.points.begin(), place);
       back.insert(back.end(), loop.points.rbegin(), std::make_reverse_iterator(place + 1));
@@ -162,7 +172,8 @@ Profile profile_down(const Trunk& trunk, const Vector3d& start, double length) {
   const int last = static_cast<int>(profile.points.size()) - 1;
   profile.curvature.assign(profile.points.size(), 0);
   for (int i = 1; i < last; ++i) {
-    const Vector3d a = profile.points[i] - profile.points[i - 1], b = profile.points[i + 1] - profile.points[i];
+    const Vector3d a = profile.points[i] - profile.points[i - 1],
+                   b = profile.points[i + 1] - profile.points[i];
     // Down the front of a body, seen from her left: skin that turns outwards turns about +y.
     const double turn = std::atan2(a.cross(b).y(), a.dot(b));
     profile.curvature[i] = -turn / ((a.norm() + b.norm()) / 2);
@@ -181,10 +192,12 @@ double unseen_share(const Surface& surface, const Vector3d& point, double radius
   return all > 0 ? unseen / all : 1;
 }
 
-std::vector<int> vertices_near(const Surface& surface, const Vector3d& point, double radius, const std::function<bool(int)>& wanted) {
+std::vector<int> vertices_near(const Surface& surface, const Vector3d& point, double radius,
+                               const std::function<bool(int)>& wanted) {
   std::vector<int> near;
   for (std::size_t v = 0; v < surface.mesh.vertices.size(); ++v)
-    if ((surface.mesh.vertices[v] - point).squaredNorm() < radius * radius && wanted(static_cast<int>(v))) near.push_back(static_cast<int>(v));
+    if ((surface.mesh.vertices[v] - point).squaredNorm() < radius * radius && wanted(static_cast<int>(v)))
+      near.push_back(static_cast<int>(v));
   return near;
 }
 

@@ -1,4 +1,5 @@
-/// The skin that landmarks are looked for on: a mesh in the body's frame, each vertex with its part of the body.
+/// The skin that landmarks are looked for on: a mesh in the body's frame, each vertex with its part of the
+/// body.
 #pragma once
 
 #include <functional>
@@ -26,8 +27,8 @@ struct Surface {
 using Selected = std::function<bool(const Eigen::Vector3i& triangle)>;
 
 /// What a plane cuts of the selected triangles.
-std::vector<geometry::SectionLoop> cut(const Surface& surface, const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
-                                       const Selected& selected);
+std::vector<geometry::SectionLoop> cut(const Surface& surface, const Eigen::Vector3d& origin,
+                                       const Eigen::Vector3d& normal, const Selected& selected);
 
 /// The trunk, legs and head: all but the triangles that belong to an arm by more than half.
 class Trunk {
@@ -37,7 +38,8 @@ class Trunk {
 
   /// Level sections, however many are asked for: only triangles near the height are looked at.
   std::vector<geometry::SectionLoop> level(double height) const;
-  /// The tape round all loops at a height, breasts that hang below their fold included; empty where there is no trunk.
+  /// The tape round all loops at a height, breasts that hang below their fold included; empty where there is
+  /// no trunk.
   std::vector<Eigen::Vector3d> tape(double height) const;
   /// The tape round the trunk's own loop, the widest.
   std::vector<Eigen::Vector3d> tape_of_torso(double height) const;
@@ -59,8 +61,8 @@ struct Profile {
   std::vector<double> curvature;  ///< 1/m, per point: positive where the skin is hollow
 };
 
-/// The trunk's sagittal profile from the place nearest to `start` downwards for `length` metres; empty where there is none. Noise is
-/// smoothed away over some 4 mm.
+/// The trunk's sagittal profile from the place nearest to `start` downwards for `length` metres; empty where
+/// there is none. Noise is smoothed away over some 4 mm.
 Profile profile_down(const Trunk& trunk, const Eigen::Vector3d& start, double length);
 
 /// Share of the vertices within `radius` of a point that no scan point backs; 1 where there are none.

@@ -9,9 +9,9 @@ namespace {
 using Eigen::Vector3d;
 using geometry::SectionLoop;
 
-constexpr double kArmBeside = 0.08;   // m from the trunk's middle to an arm's, at least
-constexpr int kHalvings = 12;         // of the search for the highest plane: 0.1 mm
-constexpr int kHarmonics = 8, kLoopPoints = 180;  // of a neck: waves of 40 mm
+constexpr double kArmBeside = 0.08;                      // m from the trunk's middle to an arm's, at least
+constexpr int kHalvings = 12;                            // of the search for the highest plane: 0.1 mm
+constexpr int kHarmonics = 8, kLoopPoints = 180;         // of a neck: waves of 40 mm
 constexpr double kNeckStep = 0.005, kNeckReach = 0.040;  // m (definition)
 
 Vector3d mean_of(const std::vector<Vector3d>& points) {
@@ -39,7 +39,8 @@ std::optional<Vector3d> gap(const Surface& surface, Side side, double height, do
   if (trunk == nullptr) return std::nullopt;
   const double middle = mean_of(trunk->points).y();
   for (const SectionLoop& loop : loops) {
-    if (!loop.closed || &loop == trunk || kSign[side] * (mean_of(loop.points).y() - middle) < kArmBeside) continue;
+    if (!loop.closed || &loop == trunk || kSign[side] * (mean_of(loop.points).y() - middle) < kArmBeside)
+      continue;
     if (arm == nullptr || loop.points.size() > arm->points.size()) arm = &loop;
   }
   if (arm == nullptr) return std::nullopt;
@@ -54,8 +55,9 @@ std::optional<Vector3d> gap(const Surface& surface, Side side, double height, do
   return between;
 }
 
-/// A closed loop by its first harmonics over its length (elliptic Fourier descriptors; Kuhl and Giardina 1982): a tape round the
-/// loop itself would lie on its noise, by some 6 times what a small loop's skin is rough.
+/// A closed loop by its first harmonics over its length (elliptic Fourier descriptors; Kuhl and Giardina
+/// 1982): a tape round the loop itself would lie on its noise, by some 6 times what a small loop's skin is
+/// rough.
 std::vector<Vector3d> without_noise(std::vector<Vector3d> loop) {
   loop.push_back(loop.front());
   const double whole = geometry::length_of(loop, false);
@@ -69,14 +71,16 @@ std::vector<Vector3d> without_noise(std::vector<Vector3d> loop) {
       even += std::cos(2 * M_PI * h * i / count) * (loop[i] - middle) * 2 / count;
       odd += std::sin(2 * M_PI * h * i / count) * (loop[i] - middle) * 2 / count;
     }
-    for (int i = 0; i < count; ++i) smooth[i] += std::cos(2 * M_PI * h * i / count) * even + std::sin(2 * M_PI * h * i / count) * odd;
+    for (int i = 0; i < count; ++i)
+      smooth[i] += std::cos(2 * M_PI * h * i / count) * even + std::sin(2 * M_PI * h * i / count) * odd;
   }
   return smooth;
 }
 
 }  // namespace
 
-std::optional<Vector3d> find_axilla(const Surface& surface, Side side, double lowest, double highest, double rise) {
+std::optional<Vector3d> find_axilla(const Surface& surface, Side side, double lowest, double highest,
+                                    double rise) {
   std::optional<Vector3d> found = gap(surface, side, lowest, rise);
   if (!found) return std::nullopt;
   for (int i = 0; i < kHalvings; ++i) {
@@ -94,11 +98,13 @@ std::optional<Vector3d> find_axilla(const Surface& surface, Side side, double lo
 std::optional<Vector3d> skin_above(const Surface& surface, const Vector3d& point) {
   std::optional<double> highest;
   for (const Eigen::Vector3i& t : surface.mesh.triangles) {
-    const Vector3d &a = surface.mesh.vertices[t[0]], &b = surface.mesh.vertices[t[1]], &c = surface.mesh.vertices[t[2]];
+    const Vector3d &a = surface.mesh.vertices[t[0]], &b = surface.mesh.vertices[t[1]],
+                   &c = surface.mesh.vertices[t[2]];
     const double det = (b - a).head<2>().x() * (c - a).y() - (c - a).x() * (b - a).y();
     if (std::abs(det) < 1e-15) continue;
     const Vector3d d = point - a;
-    const double u = (d.x() * (c - a).y() - (c - a).x() * d.y()) / det, v = ((b - a).x() * d.y() - d.x() * (b - a).y()) / det;
+    const double u = (d.x() * (c - a).y() - (c - a).x() * d.y()) / det,
+                 v = ((b - a).x() * d.y() - d.x() * (b - a).y()) / det;
     if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9) continue;
     const double z = a.z() + u * (b - a).z() + v * (c - a).z();
     if (z > point.z() - 0.04 && z < point.z() + 0.11 && (!highest || z > *highest)) highest = z;
@@ -115,7 +121,9 @@ std::vector<Vector3d> find_neck(const Surface& surface, const Vector3d& base, co
     const SectionLoop* around = nullptr;
     const auto loops = cut(surface, origin, along, [](const Eigen::Vector3i&) { return true; });
     for (const SectionLoop& loop : loops)
-      if (loop.closed && (around == nullptr || (mean_of(loop.points) - origin).norm() < (mean_of(around->points) - origin).norm())) around = &loop;
+      if (loop.closed && (around == nullptr ||
+                          (mean_of(loop.points) - origin).norm() < (mean_of(around->points) - origin).norm()))
+        around = &loop;
     if (around == nullptr) continue;
     std::vector<Vector3d> tape = geometry::tape(without_noise(around->points), along);
     const double girth = geometry::length_of(tape, true);

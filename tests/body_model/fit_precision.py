@@ -2,7 +2,8 @@
 """fit_precision.py --mesh READINGS TRUTHS --scan READINGS TRUTHS --out precision.yaml
 
 How far off each figure's readings on mesh and body model are, fitted to training bodies: READINGS as read_figures writes them (a line of
-JSON per body), TRUTHS a folder with NAME_truth.json. Figures that a truth calls vague take no part. Needs python3-numpy, python3-scipy.
+JSON per body), TRUTHS a folder with NAME_truth.json. Figures that a truth calls vague take no part. What the truths measure by other
+definitions (limbs, sides, gluteal folds) is true where it is read on the true surface. Needs python3-numpy, python3-scipy.
 
 A reading's error has a Student-t distribution (4 degrees of freedom, so that a few gross errors do not rule) with the scale
 sqrt(base^2 + (slope * support)^2); of a model the base is a multiple of the registration's residual. What is printed and written as
@@ -25,6 +26,26 @@ GROSS = 4                                         # as in landmarks/figures.cpp
 LEAST = 1e-4                                      # m: no reading is taken to be better
 
 
+OWN = ('upper_arm', 'thigh', 'hip_side', 'waist_side', 'gluteal_fold')  # read on the true surface
+
+
+def is_own(name):
+    return name.rsplit('_', 1)[0] in OWN
+
+
+def read_on_surfaces(readings):
+    """(body, figure) -> what is read on the true surface: points in the scan's frame."""
+    out = {}
+    for line in open(readings):
+        r = json.loads(line)
+        frame = np.array(r['body_from_scan']).reshape(4, 4)
+        for f in r['figures']:
+            if is_own(f['name']) and 'mesh' in f:
+                v = np.array(f['mesh'])
+                out[r['name'], f['kind'], f['name']] = frame[:3, :3].T @ (v - frame[:3, 3]) if KINDS[f['kind']] == 'point' else v
+    return out
+
+
 def truth_of(truth, frame, kind, name):
     """True value in the body's frame of the reading (4x4 `frame`), the direction that it is loose along, or None."""
     if kind == 'point':
@@ -39,7 +60,7 @@ def truth_of(truth, frame, kind, name):
     return None if v is None else (np.array([v, 0, 0]), None)
 
 
-def samples(readings, truths):
+def samples(readings, truths, own):
     """figure -> list of (error on mesh or None, error on model or None, support, residual): vectors in metres."""
     out = {}
     for line in open(readings):
@@ -54,7 +75,11 @@ def samples(readings, truths):
             kind, name = KINDS[f['kind']], f['name']
             if '%s %s' % (kind, name) in vague - {'girth neck', 'point neck_back'}:
                 continue
-            found = truth_of(truth, frame, kind, name)
+            if is_own(name):
+                v = own.get((r['name'], f['kind'], name))
+                found = None if v is None else (frame[:3, :3] @ v + frame[:3, 3] if kind == 'point' else v, None)
+            else:
+                found = truth_of(truth, frame, kind, name)
             if found is None:
                 continue
             value, loose = found
@@ -92,7 +117,7 @@ def limit(figure):
     kind, name = figure.split(' ', 1)
     if kind == 'point':
         return .005 if name == 'bust_point' else .010
-    return .004 if kind == 'height' or name == 'neck' else .009
+    return .004 if kind == 'height' or name in ('neck', 'upper_arm') else .009
 
 
 def settle(row, fit):
@@ -114,9 +139,11 @@ def fitted(figure, rows):
     fit = dict(limit=limit(figure))
     for i, key, base in ((0, 'mesh', lambda r: 1.), (1, 'model', lambda r: r[3])):
         use = [r for r in rows if r[i] is not None]
-        if len(use) >= 20:
+        if len(use) >= 20 and not any(np.any(r[i]) for r in use):
+            fit[key] = np.array([LEAST, 0.])
+        elif len(use) >= 20:
             fit[key] = scale([r[i] for r in use], np.array([base(r) for r in use]), np.array([r[2] for r in use]))
-    e, s, apart = (np.array(v) for v in zip(*[(np.linalg.norm(a), b, c) for a, b, c in (settle(r, fit) for r in rows)]))
+    e, s, apart = (np.array(v) for v in zip(*[(max(np.linalg.norm(a), LEAST), b, c) for a, b, c in (settle(r, fit) for r in rows)]))
 
     def loss(q):
         t = np.exp(q[1]) * np.hypot(s, np.exp(q[0]) * apart)
@@ -151,11 +178,11 @@ def main():
     a.add_argument('--scan', nargs=2, required=True)
     a.add_argument('--out', required=True)
     o = a.parse_args()
-    text, names = '', set()
+    text, names, own = '', set(), read_on_surfaces(o.mesh[0])
     for source in ('mesh', 'scan'):
         text += '%s:\n' % source
         print('%-20s %4s %9s %9s %9s  mesh: base mm, slope; model: base per residual, slope; disagreement' % (source, 'n', 'median mm', '95 % mm', 'covered'))
-        for key, rows in sorted(samples(*getattr(o, source)).items()):
+        for key, rows in sorted(samples(*getattr(o, source), own).items()):
             names |= {r[4] for r in rows}
             fit = fitted(key, rows)
             error, held, width = left_out(key, rows)
