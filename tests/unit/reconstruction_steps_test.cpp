@@ -10,7 +10,6 @@
 #include "reconstruction/handles.hpp"
 #include "reconstruction/normals.hpp"
 #include "reconstruction/repair.hpp"
-#include "reconstruction/sight_lines.hpp"
 #include "reconstruction/standing.hpp"
 #include "reconstruction/surface_fit.hpp"
 #include "reconstruction/thinning.hpp"
@@ -54,50 +53,16 @@ TEST(ReconstructionSteps, ABodyAloneHasNoFloor) {
   EXPECT_FALSE(find_floor(figure::scan_body(15000, 0.001, 1).points));
 }
 
-/// The rims of two soles, 0.24 m by 0.09 m, under a column of points 1.7 m high.
-std::vector<Eigen::Vector3d> on_two_soles() {
-  std::vector<Eigen::Vector3d> standing;
-  for (double side : {-1.0, 1.0})
-    for (int i = 0; i < 60; ++i)
-      standing.emplace_back(0.12 * std::cos(i * M_PI / 30), side * 0.11 + 0.045 * std::sin(i * M_PI / 30), 0);
-  for (int i = 20; i < 1700; ++i) standing.emplace_back(0, 0, 0.001 * i);
-  return standing;
-}
-
-TEST(ReconstructionSteps, SolesLieOnTheirPlaneThoughTheBodyWouldFall) {
-  const std::vector<Eigen::Vector3d> standing = on_two_soles();
-  for (double towards : {0.0, 90.0, 215.0}) {
-    const double turn = towards * M_PI / 180;
-    const Eigen::Isometry3d lean(
-        Eigen::AngleAxisd(0.21, Eigen::Vector3d(std::cos(turn), std::sin(turn), 0)));  // 12 degrees
-    std::vector<Eigen::Vector3d> leaning = standing;
-    for (Eigen::Vector3d& p : leaning) p = lean * p;
-    const Eigen::Isometry3d upright = resting_plane(leaning) * lean;
-    for (const Eigen::Vector3d& p : standing) EXPECT_NEAR((upright * p).z(), p.z(), 1e-6) << towards;
-  }
-}
-
-TEST(ReconstructionSteps, TwoPointsUnderTheRimsTiltTheSolesByHalfAtMost) {
-  std::vector<Eigen::Vector3d> standing = on_two_soles();
-  const double below = 0.005;
-  for (double side : {-1.0, 1.0}) standing.emplace_back(0.12, side * 0.11, -below);
-  // The facet that they make with the heels leans by the whole of it.
-  const double facet = std::atan2(below, 0.24), leans = std::acos(resting_plane(standing).linear()(2, 2));
-  EXPECT_LT(leans, 0.6 * facet);
-}
-
-TEST(ReconstructionSteps, GroundLiesUnderWhatIsSeenOfTheSoles) {
-  // Edges of two soles, a quarter of a circle of 5 mm, seen but for their lowest 2 mm.
-  for (const int count : {100, 400}) {
-    std::vector<Eigen::Vector3d> edges;
-    for (int i = 0; i < count; ++i)
-      for (int k = 0; k < 30; ++k) edges.emplace_back(0.5 * i / count, 0.02 * k, 0.002 + 0.003 * k * k / 900);
-    EXPECT_NEAR(ground_under(edges), 0, 0.0035);
-    edges.emplace_back(0.1, 0.1, -0.05);  // a stray point is one of the lowest ten, no more
-    EXPECT_NEAR(ground_under(edges), 0, 0.0035);
-    for (Eigen::Vector3d& p : edges) p.z() += 0.3;
-    EXPECT_NEAR(ground_under(edges), 0.3, 0.0035);
-  }
+TEST(ReconstructionSteps, APlaneAsTheGround) {
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.2, -0.1, 1).normalized(), middle(1e3, -2e3, 5);
+  const double offset = 3;
+  const Eigen::Isometry3d standing = level(normal, offset, middle);
+  EXPECT_LT((standing.linear() * normal - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+  const Eigen::Vector3d under = middle + (offset - normal.dot(middle)) * normal;
+  EXPECT_LT((standing * under).norm(), 1e-9);
+  EXPECT_NEAR((standing * (under + 2 * normal)).z(), 2, 1e-9);
+  // The smallest turn: about a level axis.
+  EXPECT_NEAR(Eigen::AngleAxisd(standing.linear()).axis().z(), 0, 1e-9);
 }
 
 TEST(ReconstructionSteps, NormalsPointOutwardWithAndWithoutHints) {
@@ -144,40 +109,6 @@ TEST(ReconstructionSteps, NoiseAndMisregistrationAreNoFracture) {
   EXPECT_TRUE(find_fractures(figure::scan_body(100000, 0.0015, 7)).empty());
   const Eigen::Vector3d off(0.0015, 0.0015, 0.001);
   EXPECT_TRUE(find_fractures(seen_twice([&](const auto&, const auto&) { return off; })).empty());
-}
-
-TEST(ReconstructionSteps, AGapThatOneCanLookThroughGetsItsWalls) {
-  // Two thighs 16 mm apart, whose facing strips no sensor saw; 18 points a square centimetre, and 3.
-  constexpr double kRadius = 0.09, kAxis = 0.098;
-  for (const int count : {60000, 10000}) {
-    std::mt19937 random(5);
-    geometry::PointCloud thighs;
-    for (int i = 0; i < count; ++i) {
-      const double turn = 2 * M_PI * figure::uniform(random), side = i % 2 == 0 ? 1 : -1;
-      const Eigen::Vector3d normal(std::cos(turn), std::sin(turn), 0);
-      if (-side * normal.x() > std::cos(0.2)) continue;  // a strip 36 mm wide
-      thighs.points.push_back(Eigen::Vector3d(side * kAxis, 0, 0.3 * figure::uniform(random)) +
-                              kRadius * normal);
-      thighs.normals.push_back(normal);
-    }
-    const geometry::PointCloud walls = sight_line_points(thighs);
-    std::vector<char> seen_through(50);
-    int on_strip = 0, facing_the_gap = 0;
-    for (std::size_t i = 0; i < walls.points.size(); ++i) {
-      const Eigen::Vector3d& p = walls.points[i];
-      const double side = p.x() > 0 ? 1 : -1, radius = (p - Eigen::Vector3d(side * kAxis, 0, p.z())).norm();
-      // A straight wall across the strip lies up to R (1 - cos 0.2) = 1.8 mm deep, and starts up to 4 mm off
-      // the edge.
-      EXPECT_NEAR(radius, kRadius, 0.004);
-      facing_the_gap += side * walls.normals[i].x() < -0.85;  // the mean of two points', up to 0.5 rad askew
-      on_strip += std::abs(p.y()) < 0.018;
-      seen_through.at(static_cast<std::size_t>(p.z() / 0.006)) = 1;
-    }
-    EXPECT_GT(on_strip, 0.9 * walls.points.size());
-    EXPECT_GT(facing_the_gap, 0.99 * walls.points.size());
-    // Every slice of 6 mm but the last few, above which a row of slices has no points.
-    EXPECT_GT(std::count(seen_through.begin(), seen_through.end(), 1), 45) << count;
-  }
 }
 
 TEST(ReconstructionSteps, ResolutionKeepsTheSurfaceClosed) {
