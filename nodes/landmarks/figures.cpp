@@ -18,8 +18,9 @@ constexpr double kGrossLimits = 3;  // of ISO 20685: less is no gross error, how
 constexpr double kGross = 4;  // spreads between two readings of one thing: with Gaussian errors 1 in 16,000
 
 Spread spread_in(const YAML::Node& node, const std::string& where) {
-  geometry::check_keys(node, {"base", "support"}, where, kCode);
-  return {geometry::number_in(node, "base", 0, kLargest, where, kCode),
+  geometry::check_keys(node, {"bias", "base", "support"}, where, kCode);
+  return {geometry::number_in(node, "bias", -kLargest, kLargest, where, kCode),
+          geometry::number_in(node, "base", 0, kLargest, where, kCode),
           geometry::number_in(node, "support", 0, kLargest, where, kCode)};
 }
 
@@ -73,14 +74,18 @@ Settled settle(const Figure& figure, const Precision& precision, bool scanned) {
   const FigurePrecision& p = found->second;
   const double mesh = deviation(p.mesh, 1, figure.support),
                model = deviation(p.model, figure.misfit, figure.support);
-  if (!figure.on_mesh) return {*figure.on_model, p.half_width * model, true};
-  if (!figure.on_model) return {*figure.on_mesh, p.half_width * mesh, false};
-  const Eigen::Vector3d apart = *figure.on_mesh - *figure.on_model;
+  const auto unbiased = [](const Eigen::Vector3d& reading, const Spread& spread) {
+    return Eigen::Vector3d(reading - spread.bias * Eigen::Vector3d::UnitX());
+  };
+  if (!figure.on_mesh) return {unbiased(*figure.on_model, p.model), p.half_width * model, true};
+  const Eigen::Vector3d on_mesh = unbiased(*figure.on_mesh, p.mesh);
+  if (!figure.on_model) return {on_mesh, p.half_width * mesh, false};
+  const Eigen::Vector3d on_model = unbiased(*figure.on_model, p.model), apart = on_mesh - on_model;
   // A web, a fold of the belly, an arm that was cut off elsewhere: the mesh then shows something else.
   if (apart.norm() > std::max(kGross * std::hypot(mesh, model), kGrossLimits * limit_of(figure)))
-    return {*figure.on_model, p.half_width * std::hypot(model, p.disagreement * kGross * model), true};
+    return {on_model, p.half_width * std::hypot(model, p.disagreement * kGross * model), true};
   const double share = model * model / (mesh * mesh + model * model);
-  return {*figure.on_model + share * apart,
+  return {on_model + share * apart,
           p.half_width * std::hypot(mesh * std::sqrt(share), p.disagreement * apart.norm()), false};
 }
 

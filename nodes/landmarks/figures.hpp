@@ -9,10 +9,11 @@
 
 namespace tensegric_fit::landmarks {
 
-/// How far off a reading is, m, on bodies whose truth is known: the root of base^2 (of a model: (base *
-/// residual)^2) and (slope * support)^2.
+/// How far off a reading is, m, on bodies whose truth is known: on average by `bias` (of heights and girths;
+/// of points 0), round that by the root of base^2 (of a model: (base * Figure::misfit)^2) and (support *
+/// Figure::support)^2.
 struct Spread {
-  double base, support;
+  double bias, base, support;
 };
 
 /// Of one figure.

@@ -19,10 +19,10 @@ constexpr double kSeat = 0.040,
                  kNarrowSeat =
                      0.025;        // m of a buttock's profile up and down; where that is round enough, less
 constexpr double kLeastRound = 2;  // 1/m; flatter profiles have no apex
-constexpr double kBeside = 0.010, kProfile = 0.12;  // m to the sides; of a profile's length
-constexpr int kProfiles = 4;                        // on each side of the middle one
-constexpr double kFlatSide = 0.003;                 // m: skin that is as far to the side
-constexpr double kPerineum = 0.04;                  // m round it
+constexpr double kBeside = 0.010, kProfile = 0.12;   // m to the sides; of a profile's length
+constexpr int kProfiles = 4;                         // on each side of the middle one
+constexpr double kFlatSide = 0.003;                  // m: skin that is as far to the side
+constexpr double kPerineum = 0.04, kMidline = 0.06;  // m round it, and along the midline
 
 /// Where a quadratic surface through the skin of a buttock is rearmost; `start` where it is so nowhere near.
 Vector3d rearmost_near(const Surface& surface, const Vector3d& start) {
@@ -169,18 +169,25 @@ std::optional<double> find_waist(const Trunk& trunk, double lowest, double highe
 }
 
 std::optional<Vector3d> find_crotch(const Surface& surface, const Vector3d& expected) {
-  std::optional<Vector3d> lowest;
-  const auto all = [](const Eigen::Vector3i&) { return true; };
+  std::vector<Vector3d> near;  // of the midline that comes nearest
   double nearest = kPerineum;
-  for (const geometry::SectionLoop& loop : cut(surface, expected, Vector3d::UnitY(), all)) {
-    double far = 1e9;
-    for (const Vector3d& p : loop.points) far = std::min(far, (p - expected).norm());
+  for (const geometry::SectionLoop& loop :
+       cut(surface, expected, Vector3d::UnitY(), [](const Eigen::Vector3i&) { return true; })) {
+    std::vector<Vector3d> points;
+    double far = nearest;
+    for (const Vector3d& p : loop.points) {
+      far = std::min(far, (p - expected).norm());
+      if ((p - expected).norm() < kMidline) points.push_back(p);
+    }
     if (far >= nearest) continue;
     nearest = far;
-    lowest.reset();
-    for (const Vector3d& p : loop.points)
-      if ((p - expected).norm() < 0.06 && (!lowest || p.z() < lowest->z())) lowest = p;
+    near = std::move(points);
   }
+  if (near.empty()) return std::nullopt;
+  const Vector3d lowest = *std::min_element(
+      near.begin(), near.end(), [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); });
+  // Lower still further on: thighs that touch, or skin that fills the gap between them.
+  if ((lowest - expected).norm() > kMidline - kPerineum / 4) return std::nullopt;
   return lowest;
 }
 

@@ -5,8 +5,8 @@ How far off each figure's readings on mesh and body model are, fitted to trainin
 JSON per body), TRUTHS a folder with NAME_truth.json. Figures that a truth calls vague take no part. What the truths measure by other
 definitions (limbs, sides, gluteal folds) is true where it is read on the true surface. Needs python3-numpy, python3-scipy.
 
-A reading's error has a Student-t distribution (4 degrees of freedom, so that a few gross errors do not rule) with the scale
-sqrt(base^2 + (slope * support)^2); of a model the base is a multiple of the registration's residual. What is printed and written as
+A reading's error has a Student-t distribution (4 degrees of freedom, so that a few gross errors do not rule) round a bias (of heights and
+girths; of points 0), with the scale sqrt(base^2 + (slope * support)^2); of a model the base is a multiple of the registration's residual. What is printed and written as
 `error` and `covered` is of bodies left out of the fit, in five parts.
 """
 import argparse
@@ -96,16 +96,17 @@ def samples(readings, truths, own):
     return out
 
 
-def scale(errors, base_of, support):
-    """base and slope of the scale of |errors|, by likelihood."""
-    size = np.array([np.linalg.norm(e) for e in errors])
-    start = np.median(size / base_of)
+def scale(errors, base_of, support, biased):
+    """base, slope and bias of |errors|, by likelihood."""
+    e = np.array(errors)
+    start = np.median(np.linalg.norm(e, axis=1) / base_of)
 
     def loss(q):
         s = np.hypot(np.exp(q[0]) * base_of, np.exp(q[1]) * support)
+        size = np.linalg.norm(e - [q[2] * start * np.median(base_of) if biased else 0, 0, 0], axis=1)
         return np.mean(np.log(s) + (FREEDOM + 1) / 2 * np.log1p((size / s) ** 2 / FREEDOM)) + 1e-3 * (q[1] + 1) ** 2
-    best = min((minimize(loss, (np.log(start), b), method='Nelder-Mead', options=dict(xatol=1e-3, fatol=1e-6, maxiter=2000)) for b in (-3., -1., 0.)), key=lambda m: m.fun)
-    return np.array([max(np.exp(best.x[0]), LEAST / np.median(base_of)), np.exp(best.x[1])])
+    best = min((minimize(loss, (np.log(start), b, 0.), method='Nelder-Mead', options=dict(xatol=1e-3, fatol=1e-6, maxiter=2000)) for b in (-3., -1., 0.)), key=lambda m: m.fun)
+    return np.array([max(np.exp(best.x[0]), LEAST / np.median(base_of)), np.exp(best.x[1]), best.x[2] * start * np.median(base_of) if biased else 0.])
 
 
 def spread(coefficients, base_of, support):
@@ -122,7 +123,8 @@ def limit(figure):
 
 def settle(row, fit):
     """Settled error and its spread without and with disagreement: as landmarks/figures.cpp has it."""
-    mesh, model, support, residual = row[:4]
+    mesh, model = (None if e is None else e - [fit[k][2] if k in fit else 0, 0, 0] for e, k in zip(row, ('mesh', 'model')))
+    support, residual = row[2:4]
     m, b = (spread(fit[k], base, support) if k in fit else None for k, base in (('mesh', 1.), ('model', residual)))
     if mesh is None or m is None:
         return model, b, 0.
@@ -140,9 +142,9 @@ def fitted(figure, rows):
     for i, key, base in ((0, 'mesh', lambda r: 1.), (1, 'model', lambda r: r[3])):
         use = [r for r in rows if r[i] is not None]
         if len(use) >= 20 and not any(np.any(r[i]) for r in use):
-            fit[key] = np.array([LEAST, 0.])
+            fit[key] = np.array([LEAST, 0., 0.])
         elif len(use) >= 20:
-            fit[key] = scale([r[i] for r in use], np.array([base(r) for r in use]), np.array([r[2] for r in use]))
+            fit[key] = scale([r[i] for r in use], np.array([base(r) for r in use]), np.array([r[2] for r in use]), not figure.startswith('point'))
     e, s, apart = (np.array(v) for v in zip(*[(max(np.linalg.norm(a), LEAST), b, c) for a, b, c in (settle(r, fit) for r in rows)]))
 
     def loss(q):
@@ -181,18 +183,18 @@ def main():
     text, names, own = '', set(), read_on_surfaces(o.mesh[0])
     for source in ('mesh', 'scan'):
         text += '%s:\n' % source
-        print('%-20s %4s %9s %9s %9s  mesh: base mm, slope; model: base per residual, slope; disagreement' % (source, 'n', 'median mm', '95 % mm', 'covered'))
+        print('%-20s %4s %9s %9s %9s  mesh: bias mm, base mm, slope; model: bias mm, base per residual, slope; disagreement' % (source, 'n', 'median mm', '95 % mm', 'covered'))
         for key, rows in sorted(samples(*getattr(o, source), own).items()):
             names |= {r[4] for r in rows}
             fit = fitted(key, rows)
             error, held, width = left_out(key, rows)
             m, b = fit.get('mesh'), fit.get('model')
-            c = lambda v, digits: '{base: %.*g, support: %.3g}' % (digits, v[0], v[1]) if v is not None else '{base: 0.1, support: 0}'
+            c = lambda v, digits: '{bias: %.5f, base: %.*g, support: %.3g}' % (v[2], digits, v[0], v[1]) if v is not None else '{bias: 0, base: 0.1, support: 0}'
             text += '  %s: {mesh: %s, model: %s, disagreement: %.3g, half_width: %.3g, error: %.2g, covered: %.3f, n: %d}\n' % (
                 key, c(m, 3), c(b, 3), fit['disagreement'], fit['half_width'], np.median(error), held.mean(), len(rows))
             print('%-20s %4d %9.2f %9.2f %8.1f%%  %s  %s  %.2f   median half width %.2f mm' % (
                 key, len(rows), 1e3 * np.median(error), 1e3 * np.quantile(error, .95), 100 * held.mean(),
-                '-' if m is None else '%.2f %.2f' % (1e3 * m[0], m[1]), '-' if b is None else '%.2f %.2f' % tuple(b), fit['disagreement'], 1e3 * np.median(width)))
+                '-' if m is None else '%+.2f %.2f %.2f' % (1e3 * m[2], 1e3 * m[0], m[1]), '-' if b is None else '%+.2f %.2f %.2f' % (1e3 * b[2], b[0], b[1]), fit['disagreement'], 1e3 * np.median(width)))
     with open(o.out, 'w') as out:
         out.write('# How far off each figure may be: tests/body_model/fit_precision.py wrote this; error (m, median) and covered are of bodies left out.\n')
         out.write('made: %s\nbodies: %d training women (%s to %s)\n%s' % (datetime.date.today(), len(names), min(names), max(names), text))

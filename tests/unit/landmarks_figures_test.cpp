@@ -119,7 +119,7 @@ class PrecisionFile : public testing::Test {
 };
 
 const std::string kFigure =
-    "{mesh: {base: 0.001, support: 0.1}, model: {base: 1, support: 0.2}, disagreement: 0.1, half_width: 2}";
+    "{mesh: {bias: 0, base: 0.001, support: 0.1}, model: {bias: 0, base: 1, support: 0.2}, disagreement: 0.1, half_width: 2}";
 
 std::string file_with(const std::string& of_bust) {
   return "made: 2026-01-01\nbodies: none\nmesh:\n  girth bust: " + of_bust +
