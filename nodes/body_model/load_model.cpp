@@ -1,83 +1,15 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <fstream>
-#include <iomanip>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "body_model/array_file.hpp"
 #include "body_model/model.hpp"
-#include "geometry/status.hpp"
 
 namespace tensegric_fit::body_model {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr char kMagic[] = "tensegric_fit body model 1";
-constexpr std::size_t kLongestHeader = 1 << 20;  // bytes
-constexpr std::size_t kLargestArray = 1 << 26;   // bytes
 constexpr double kRounding = 0.001;              // that shares of a skin point are written with
 constexpr double kShortest = 1, kTallest = 2.5;  // m
-
-/// Refuses the file with `what`.
-struct Check {
-  const std::string& path;
-  void operator()(bool holds, const std::string& what) const {
-    if (!holds) throw geometry::Refusal(geometry::refusal::kBrokenFile, path + ": " + what);
-  }
-};
-
-struct Array {
-  std::string type;
-  std::vector<std::size_t> shape;
-  std::string bytes;
-};
-
-const std::map<std::string, std::size_t> kSizes = {
-    {"float32", 4}, {"int16", 2}, {"uint16", 2}, {"int8", 1}, {"uint8", 1}};
-
-/// Numbers of an array as doubles. Files are little-endian, as every machine is that the product runs on.
-std::vector<double> numbers(const Array& array) {
-  std::vector<double> result;
-  const auto take = [&](auto zero) {
-    using Type = decltype(zero);
-    const auto* data = reinterpret_cast<const Type*>(array.bytes.data());
-    result.assign(data, data + array.bytes.size() / sizeof(Type));
-  };
-  if (array.type == "float32") take(0.0F);
-  if (array.type == "int16") take(std::int16_t{});
-  if (array.type == "uint16") take(std::uint16_t{});
-  if (array.type == "int8") take(std::int8_t{});
-  if (array.type == "uint8") take(std::uint8_t{});
-  return result;
-}
-
-std::vector<Eigen::Vector3d> points(const std::vector<double>& xyz) {
-  std::vector<Eigen::Vector3d> result(xyz.size() / 3);
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
-  return result;
-}
-
-std::map<std::string, Array> read_arrays(std::istream& file, const Json& list, const Check& check) {
-  std::map<std::string, Array> arrays;
-  for (const Json& entry : list) {
-    Array array{entry.at("type"), entry.at("shape"), {}};
-    check(kSizes.count(array.type) > 0, "array of an unknown type");
-    std::size_t bytes = kSizes.at(array.type);
-    for (const std::size_t extent : array.shape) {
-      check(extent <= kLargestArray && bytes * extent <= kLargestArray, "an array is too large");
-      bytes *= extent;
-    }
-    array.bytes.resize(bytes);
-    file.read(array.bytes.data(), static_cast<std::streamsize>(bytes));
-    check(static_cast<std::size_t>(file.gcount()) == bytes, "truncated");
-    arrays[entry.at("name")] = std::move(array);
-  }
-  check(file.peek() == std::char_traits<char>::eof(), "bytes after the last array");
-  return arrays;
-}
 
 /// Bones, groups, parts and bone points.
 void take_header(const Json& header, const Check& check, Model& model) {
@@ -104,30 +36,8 @@ void take_header(const Json& header, const Check& check, Model& model) {
   }
 }
 
-/// Of all bytes of the file, which is read to its end.
-std::string checksum_of(std::istream& file) {
-  std::uint64_t value = 14695981039346656037u;
-  std::vector<char> bytes(1 << 16);
-  while (file.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || file.gcount() > 0)
-    for (std::streamsize i = 0; i < file.gcount(); ++i)
-      value = (value ^ static_cast<unsigned char>(bytes[i])) * 1099511628211u;
-  std::ostringstream text;
-  text << std::hex << std::setw(16) << std::setfill('0') << value;
-  return text.str();
-}
-
-void take_arrays(const std::map<std::string, Array>& arrays, const Check& check, Model& model) {
-  const auto array = [&](const std::string& name, std::vector<std::size_t> shape) {
-    check(arrays.count(name) > 0, "no array '" + name + "'");
-    const Array& found = arrays.at(name);
-    check(found.shape.size() == shape.size(), "shape of '" + name + "'");
-    for (std::size_t i = 0; i < shape.size(); ++i)
-      check(shape[i] == 0 || found.shape[i] == shape[i], "shape of '" + name + "'");
-    const std::vector<double> values = numbers(found);
-    check(!values.empty() && std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }),
-          "'" + name + "' is empty or not finite");
-    return values;
-  };
+void take_arrays(const ArrayFile& file, const Check& check, Model& model) {
+  const auto array = [&](const std::string& name, const std::vector<std::size_t>& shape) { return file.numbers(name, shape); };
   model.mean = points(array("mean", {0, 3}));
   const std::size_t vertices = model.mean.size();
   const std::vector<double> step = array("step", {0});
@@ -211,26 +121,12 @@ int Model::group_named(const std::string& name) const {
 
 Model load_model(const std::string& path) {
   const Check check{path};
-  std::ifstream file(path, std::ios::binary);
-  check(file.good(), "cannot be read");
-  const std::string checksum = checksum_of(file);
-  file.clear();
-  file.seekg(0);
-  std::string magic, length;
-  std::getline(file, magic);
-  check(magic == kMagic, "not a body model of this format");
-  std::getline(file, length);
-  check(!length.empty() && length.size() < 8 && length.find_first_not_of("0123456789") == std::string::npos &&
-            std::stoul(length) <= kLongestHeader,
-        "length of the header");
-  std::string text(std::stoul(length), '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  const ArrayFile file(path, kMagic, "body model");
   Model model{};
-  model.checksum = checksum;
+  model.checksum = file.checksum();
   try {
-    const Json header = Json::parse(text);
-    take_header(header, check, model);
-    take_arrays(read_arrays(file, header.at("arrays"), check), check, model);
+    take_header(file.header(), check, model);
+    take_arrays(file, check, model);
   } catch (const Json::exception& error) {
     check(false, error.what());
   }

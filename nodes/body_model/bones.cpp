@@ -1,0 +1,168 @@
+#include "body_model/bones.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "body_model/array_file.hpp"
+#include "body_model/registration.hpp"
+#include "geometry/shipped_files.hpp"
+
+namespace tensegric_fit::body_model {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr char kMagic[] = "tensegric_fit bones 1";
+constexpr double kByte = 255;  // bytes of weights sum to it
+constexpr double kArm = 0.5;   // of what carries a vertex: more is arm
+constexpr double kLeastStep = 0.0005,
+                 kMostPressed = 0.15;  // m; of a step, and in all: half the depth of a trunk
+
+BoneShape shape_in(const ArrayFile& file, const std::string& name, const Model& model, const Check& check) {
+  BoneShape shape;
+  shape.name = name;
+  shape.mean = points(file.numbers(name + "_mean", {0, 3}));
+  const std::size_t count = shape.mean.size(), components = static_cast<std::size_t>(model.components());
+  const std::vector<double> step = file.numbers(name + "_step", {components}),
+                            basis = file.numbers(name + "_basis", {components, count, 3});
+  shape.basis.resize(model.components(), static_cast<Eigen::Index>(3 * count));
+  for (std::size_t k = 0; k < components; ++k)
+    for (std::size_t i = 0; i < 3 * count; ++i)
+      shape.basis(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
+          static_cast<float>(step[k] * basis[k * 3 * count + i]);
+  const std::vector<double> bones = file.numbers(name + "_bones", {count, Model::kWeights}),
+                            weights = file.numbers(name + "_weights", {count, Model::kWeights});
+  shape.carriers.resize(count);
+  shape.weights.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    double sum = 0;
+    for (std::size_t j = 0; j < Model::kWeights; ++j) {
+      const std::size_t at = i * Model::kWeights + j;
+      check(bones[at] < static_cast<double>(model.bones.size()), "a point's bone");
+      shape.carriers[i][j] = static_cast<unsigned char>(bones[at]);
+      shape.weights[i][j] = static_cast<float>(weights[at] / kByte);
+      sum += weights[at];
+    }
+    check(sum == kByte, "weights of a point that do not sum to 1");
+  }
+  const std::vector<double> quads = file.numbers(name + "_quads", {0, 4});
+  for (const double corner : quads) check(corner < static_cast<double>(count), "a quad's point");
+  for (std::size_t q = 0; q < quads.size(); q += 4) {
+    const Eigen::Vector4i k = Eigen::Map<const Eigen::Vector4d>(&quads[q]).cast<int>();
+    shape.triangles.emplace_back(k[0], k[1], k[2]);
+    shape.triangles.emplace_back(k[0], k[2], k[3]);
+  }
+  return shape;
+}
+
+std::vector<Vector3d> posed(const BoneShape& shape, const Parameters& parameters, const PosedModel& model) {
+  const Eigen::VectorXf offset = shape.basis.transpose() * parameters.shape.cast<float>();
+  std::vector<Vector3d> result;
+  for (std::size_t i = 0; i < shape.mean.size(); ++i) {
+    const Vector3d rest = shape.mean[i] + offset.segment<3>(3 * static_cast<Eigen::Index>(i)).cast<double>();
+    Vector3d sum = Vector3d::Zero();
+    for (int j = 0; j < Model::kWeights; ++j)
+      if (shape.weights[i][j] > 0) sum += shape.weights[i][j] * (model.bone(shape.carriers[i][j]) * rest);
+    result.push_back(sum);
+  }
+  return result;
+}
+
+/// The skin of the trunk: arms may lie against it.
+geometry::TriangleMesh trunk_of(const RegisteredBody& body) {
+  const Model& model = *body.model;
+  std::vector<char> keep;
+  for (const Eigen::Vector3i& t : model.triangles)
+    keep.push_back(model.arm[t[0]] < kArm && model.arm[t[1]] < kArm && model.arm[t[2]] < kArm);
+  return geometry::submesh({body.skin, model.triangles}, keep);
+}
+
+/// Presses points below the skin.
+class Skin {
+ public:
+  explicit Skin(const RegisteredBody& body)
+      : mesh_(trunk_of(body)),
+        normals_(geometry::vertex_normals(mesh_.vertices, mesh_.triangles)),
+        tree_(mesh_) {}
+
+  /// Moves a point nearer to the skin than kThinnestTissue, or outside, along `inward` until it is not.
+  Vector3d below(Vector3d point, const Vector3d& inward) const {
+    const Vector3d start = point;
+    for (double lack = lacking(point); lack > 0 && (point - start).norm() < kMostPressed;
+         lack = lacking(point))
+      point += std::max(lack, kLeastStep) * inward;
+    return point;
+  }
+
+ private:
+  /// How much deeper below the skin a point must go, m.
+  double lacking(const Vector3d& point) const {
+    const geometry::SurfacePoint foot = tree_.nearest(point);
+    const Eigen::Vector3i& k = mesh_.triangles[foot.triangle];
+    Vector3d normal = Vector3d::Zero();
+    for (int c = 0; c < 3; ++c) normal += foot.barycentric[c] * normals_[k[c]];
+    const Vector3d in = foot.position - point;
+    return kThinnestTissue - (in.dot(normal) > 0 ? in.norm() : -in.norm());
+  }
+
+  geometry::TriangleMesh mesh_;
+  std::vector<Vector3d> normals_;
+  geometry::SurfaceTree tree_;
+};
+
+}  // namespace
+
+std::vector<BoneShape> load_bones(const std::string& path, const Model& model) {
+  const Check check{path};
+  const ArrayFile file(path, kMagic, "file of bones");
+  std::vector<BoneShape> shapes;
+  try {
+    const std::string made_for = file.header().at("model");
+    if (made_for != model.checksum)
+      throw geometry::Refusal(geometry::refusal::kOtherModel, path + ": made for body model '" + made_for +
+                                                                  "', not for '" + model.checksum +
+                                                                  "': run tests/body_model/bones.py anew");
+    for (const Json& bone : file.header().at("bones"))
+      shapes.push_back(shape_in(file, bone.at("name"), model, check));
+  } catch (const Json::exception& error) {
+    check(false, error.what());
+  }
+  check(!shapes.empty(), "no bones");
+  return shapes;
+}
+
+const std::vector<BoneShape>& shipped_bones() {
+  static const std::vector<BoneShape> bones =
+      load_bones(geometry::shipped_folder("body_model") + "/bones.tfb", shipped_registrar().model());
+  return bones;
+}
+
+std::vector<BoneSurface> bones_of(const RegisteredBody& body, const std::vector<BoneShape>& shapes) {
+  const PosedModel model(*body.model, body.parameters);
+  const Skin skin(body);
+  std::vector<BoneSurface> surfaces;
+  for (const BoneShape& shape : shapes) {
+    surfaces.push_back({shape.name, {posed(shape, body.parameters, model), shape.triangles}});
+    geometry::TriangleMesh& mesh = surfaces.back().mesh;
+    const std::vector<Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
+    for (std::size_t i = 0; i < normals.size(); ++i)
+      mesh.vertices[i] = skin.below(mesh.vertices[i], -normals[i]);
+  }
+  return surfaces;
+}
+
+Tissue::Tissue(const std::vector<BoneSurface>& bones) {
+  for (const BoneSurface& bone : bones) trees_.emplace_back(bone.mesh);
+}
+
+Tissue::Depth Tissue::depth(const Vector3d& skin) const {
+  Depth best{0, skin, -1};
+  for (std::size_t b = 0; b < trees_.size(); ++b) {
+    const Vector3d foot = trees_[b].nearest(skin).position;
+    const double distance = (foot - skin).norm();
+    if (best.bone < 0 || distance < best.distance) best = {distance, foot, static_cast<int>(b)};
+  }
+  return best;
+}
+
+}  // namespace tensegric_fit::body_model
