@@ -11,18 +11,22 @@ constexpr double kReach = 0.05;  // m that a normal turned by 60 degrees counts 
 
 }  // namespace
 
-std::vector<unsigned char> parts_of(const geometry::TriangleMesh& mesh, const RegisteredBody& body) {
-  const Model& model = *body.model;
+std::vector<int> nearest_skin(const geometry::TriangleMesh& mesh, const RegisteredBody& body) {
   const std::vector<Eigen::Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
-  const OrientedTree tree(body.skin, geometry::vertex_normals(body.skin, model.triangles), kReach);
-  std::vector<unsigned char> parts(mesh.vertices.size(), kUnknownPart);
-  geometry::in_halves(parts.size(), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t v = begin; v < end; ++v) {
-      const int nearest = tree.nearest(mesh.vertices[v], normals[v]);
-      if ((body.skin[nearest] - mesh.vertices[v]).norm() <= Matching::kUnmatched)
-        parts[v] = model.part[nearest];
-    }
+  const OrientedTree tree(body.skin, geometry::vertex_normals(body.skin, body.model->triangles), kReach);
+  std::vector<int> nearest(mesh.vertices.size());
+  geometry::in_halves(nearest.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t v = begin; v < end; ++v) nearest[v] = tree.nearest(mesh.vertices[v], normals[v]);
   });
+  return nearest;
+}
+
+std::vector<unsigned char> parts_of(const geometry::TriangleMesh& mesh, const RegisteredBody& body) {
+  const std::vector<int> nearest = nearest_skin(mesh, body);
+  std::vector<unsigned char> parts(nearest.size(), kUnknownPart);
+  for (std::size_t v = 0; v < parts.size(); ++v)
+    if ((body.skin[nearest[v]] - mesh.vertices[v]).norm() <= Matching::kUnmatched)
+      parts[v] = body.model->part[nearest[v]];
   return parts;
 }
 

@@ -20,7 +20,6 @@ inline constexpr const char* kSuffix[2] = {"_L", "_R"};
 struct Surface {
   geometry::TriangleMesh mesh;
   std::vector<double> arm;          ///< per vertex: how much of it an arm carries, 0 to 1
-  std::vector<unsigned char> part;  ///< per vertex: index into the body model's parts
   std::vector<char> unseen;         ///< per vertex: 1 where no scan point backs it; empty: all is seen
 };
 

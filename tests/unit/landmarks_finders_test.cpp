@@ -19,7 +19,7 @@ constexpr double kDegree = M_PI / 180;
 /// Nothing of it an arm's.
 Surface skin(TriangleMesh mesh) {
   const std::size_t count = mesh.vertices.size();
-  return {std::move(mesh), std::vector<double>(count, 0), std::vector<unsigned char>(count, 0), {}};
+  return {std::move(mesh), std::vector<double>(count, 0), {}};
 }
 
 /// A chest that is the plane x = 0 with half a ball on it, joined by a fillet: an arc that is as hollow
