@@ -21,6 +21,8 @@ constexpr double kDegree = M_PI / 180;
 constexpr double kTilt = 10 * kDegree;       // of the pelvis: 15 degrees of the scan, 25 of a stoop are within 2.5 deviations
 constexpr double kStature = 0.15;            // of its logarithm: 1.45 to 1.95 m
 constexpr double kNoisePerScale = .06, kLeastNoise = 0.002;  // what a match may be off, and m that the model always is
+constexpr double kPiece = 180, kMisfit = 0.002;  // pieces of a woman's skin, 10 cm wide, that misfit each on its own; m, by how much
+constexpr double kStatures = 0.06;            // of the logarithm of people's stature: 1.45 to 1.95 m are within 2.5 deviations
 constexpr int kWorthThreads = 800;            // points; fewer are done before a second thread has begun
 constexpr double kLargestTurn = 20 * kDegree;  // in a step; beyond that derivatives mean little
 
@@ -87,6 +89,15 @@ double residual_of(const Matching& matching, const std::vector<double>& weights)
   return (model / weight + samples / std::max<std::size_t>(matching.unexplained.size(), 1)) / 2;
 }
 
+/// As Fitted::surprise. The prior's stature is where the fit began, which says nothing of people.
+double surprise_of(const Matching& matching, const Prior& prior, double log_scale) {
+  double misfit = 0;
+  for (const double d : matching.unexplained) misfit += d / static_cast<double>(matching.unexplained.size());
+  const double start = prior.off[Parameters::kScale] * prior.off[Parameters::kScale] * prior.precision[Parameters::kScale];
+  const double squares = prior.off.cwiseAbs2().dot(prior.precision) - start + std::pow(log_scale / kStatures, 2);
+  return kPiece * misfit / kMisfit + squares / 2;
+}
+
 /// Normal equations of the matches, in the first `active` parameters. A pull is nearly one of a plane: its largest direction stands
 /// for it where `planes`, all three otherwise.
 void normal_equations(const PosedModel& posed, const std::vector<int>& vertices, const std::vector<Pull>& pulls, int count, int active, bool planes,
@@ -122,7 +133,7 @@ void normal_equations(const PosedModel& posed, const std::vector<int>& vertices,
 }  // namespace
 
 Fitted fit_stage(const Model& model, const Matcher& matcher, Parameters start, const Stage& stage) {
-  Fitted fitted{std::move(start), 0, {}};
+  Fitted fitted{std::move(start), 0, 0, {}};
   Parameters& p = fitted.parameters;
   const FitPoints points(model, p, stage.every);
   const double stature = p.log_scale;
@@ -138,6 +149,7 @@ Fitted fit_stage(const Model& model, const Matcher& matcher, Parameters start, c
     VectorXd gradient;
     normal_equations(posed, points.vertices(), matching.pulls, p.count(), active, scale <= 0.02, matrix, gradient);
     const Prior prior = prior_of(model, p, stature);
+    fitted.surprise = surprise_of(matching, prior, p.log_scale);
     matrix /= noise * noise;
     matrix.diagonal() += prior.precision.head(active);
     gradient = gradient / (noise * noise) + prior.precision.cwiseProduct(prior.off).head(active);

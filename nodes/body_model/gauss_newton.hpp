@@ -18,6 +18,7 @@ struct Stage {
 struct Fitted {
   Parameters parameters;
   double residual;            ///< m: mean distance of model and samples from each other, each capped at Matching::kUnmatched
+  double surprise;            ///< minus the logarithm of its probability, but for a constant: samples and prior, whatever of the model they lack
   Eigen::MatrixXd precision;  ///< of the parameters that were free: data and prior
 };
 

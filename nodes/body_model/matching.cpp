@@ -13,6 +13,7 @@ using Eigen::Vector3d;
 
 constexpr double kReach = 0.05;      // m that a normal turned by 60 degrees counts like: skin of the other side of an arm is farther
 constexpr double kFarthest = 2.5;    // scales
+constexpr double kAstray = 0.5;      // scales from the sample's own model point: half counts at two thirds of it
 constexpr double kSameSide = 0.5;    // cosine between two normals of one skin
 constexpr double kSideways = 15;     // 1/m^2: a match a metre off is one of points, a near one of planes
 
@@ -55,8 +56,8 @@ Matching Matcher::match(const ModelSkin& skin, double scale, int samples) const 
       result.distances[i] = pair.distance;
       // A part that the samples lack finds those of another part, which belong to that.
       const int owner = pair.weight > 0 ? model.nearest(samples_.points[s], n) : static_cast<int>(i);
-      const double astray = (skin.points[owner] - skin.points[i]).squaredNorm() / (scale * scale);
-      const double w = skin.weights[i] * pair.weight / (1 + astray);
+      const double astray = (skin.points[owner] - skin.points[i]).squaredNorm() / std::pow(kAstray * scale, 2);
+      const double w = skin.weights[i] * pair.weight / ((1 + astray) * (1 + astray));
       result.pulls[i].information = w * (n * n.transpose() + sideways * Matrix3d::Identity());
       result.pulls[i].pull = w * (n * n.dot(off) + sideways * off);
     }

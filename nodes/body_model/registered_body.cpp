@@ -35,6 +35,7 @@ RegisteredBody moved(const RegisteredBody& body, const Eigen::Isometry3d& motion
   RegisteredBody result = body;
   for (auto* points : {&result.posed, &result.skin, &result.joints, &result.bone_points})
     for (Eigen::Vector3d& p : *points) p = motion * p;
+  for (Unexplained& thing : result.unexplained) thing.centre = motion * thing.centre;
   result.parameters.rotation = motion.linear() * body.parameters.rotation;
   result.parameters.position = motion * body.parameters.position;
   result.vertical = motion.linear() * body.vertical;

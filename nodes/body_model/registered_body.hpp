@@ -2,10 +2,27 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "body_model/posed_model.hpp"
 
 namespace tensegric_fit::body_model {
+
+/// What speaks for and against a person.
+struct Evidence {
+  double misfit = 0;       ///< m: of surface and skin by shape and pose alone, on average, where the surface is hers
+  double unexplained = 0;  ///< share of the surface that is not, 0 to 1
+  double shape = 0;        ///< root of the mean square of the shape's coefficients, in standard deviations
+};
+
+/// Surface that is none of hers: hair, a thing, somebody else. Scan's frame, metres.
+struct Unexplained {
+  Eigen::Vector3d centre;
+  double extent;       ///< between its farthest points
+  double share;        ///< of the whole surface, 0 to 1
+  std::string reason;  ///< where it is and what it may be, in words
+};
 
 /// In the scan's frame, metres; per-vertex arrays have one entry a vertex of the model's skin.
 struct RegisteredBody {
@@ -18,6 +35,9 @@ struct RegisteredBody {
   std::vector<double> support;            ///< m, of the skin from the middle of the samples nearest to it: small where they lie all round
   std::vector<Eigen::Vector3d> joints;    ///< one a bone
   std::vector<Eigen::Vector3d> bone_points;
+  Evidence evidence;
+  std::vector<Unexplained> unexplained;   ///< largest first
+  std::string note;                       ///< what is unusual about her shape, in words, or empty
   bool scanned = true;                    ///< registered to a scan's points; false: to a mesh that was given
   Eigen::Vector3d vertical = Eigen::Vector3d::UnitZ();  ///< up, unit vector
   double ground = 0;                      ///< m along `vertical`, under her soles

@@ -8,6 +8,7 @@
 
 #include "body_model/arms.hpp"
 #include "body_model/gauss_newton.hpp"
+#include "body_model/recognition.hpp"
 #include "geometry/halves.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/shipped_files.hpp"
@@ -27,13 +28,16 @@ constexpr std::size_t kFewest = 500;  // samples
 constexpr int kSamplesOfMesh = 40000;  // 7 mm apart on a woman
 constexpr int kAround = 12;           // samples: two rings of neighbours
 
-/// What of a person a scan may show: from where to where, in statures.
-struct Span {
-  double bottom, top;
+/// Where a person may stand of whom a scan shows all or a part.
+struct Stand {
+  double stature, soles;  ///< m
 };
-constexpr Span kWhole{0, 1};
-constexpr Span kParts[] = {{0.46, 1}, {0, 0.5}, {0.44, 0.87}, {0.1, 0.87}};  // without legs, without all above the waist, the trunk alone
-constexpr double kShortest = 1.30, kTallest = 2.15;                          // m, of women who stand or stoop
+constexpr double kShortest = 1.30, kTallest = 2.15;  // m, of women who stand or stoop
+constexpr double kShort = 1.45;                      // m; of 100 women one is shorter: it may be a part of a taller one
+constexpr double kUsual = 1.65;                      // m, of women and men of whom only a part is seen
+constexpr double kLeast = 0.5;                       // m; less of a person is too little to know her by
+constexpr double kKnee = 0.27, kCrotch = 0.46, kChin = 0.87;  // statures above the soles
+
 constexpr int kYaws = 8;
 constexpr double kRestingArm = M_PI / 4;             // rad, how far the arms are raised at rest
 constexpr double kShoulder = 0.11, kArm = 0.40;      // statures: half the shoulders' breadth, an arm's length
@@ -44,9 +48,9 @@ double median(std::vector<double> values) {
 }
 
 /// The mean woman in the place of the samples, facing one way, her arms as far out as the samples reach.
-Parameters start_at(const Model& model, const Samples& samples, const Span& span, double yaw) {
+Parameters start_at(const Model& model, const Samples& samples, const Stand& stand, double yaw) {
   const auto box = geometry::bounding_box(samples.points);
-  const double low = box[0].z(), height = box[1].z() - low, stature = height / (span.top - span.bottom);
+  const double low = box[0].z(), height = box[1].z() - low;
   std::vector<double> xs, ys;
   for (const Vector3d& p : samples.points)
     if (p.z() > low + 0.4 * height && p.z() < low + 0.8 * height) {
@@ -56,41 +60,36 @@ Parameters start_at(const Model& model, const Samples& samples, const Span& span
   if (xs.empty()) throw geometry::Refusal(geometry::refusal::kNotABody, "nothing in the middle of its height");
   Parameters p(model);
   p.rotation = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
-  p.log_scale = std::log(stature / model.stature);
+  p.log_scale = std::log(stand.stature / model.stature);
   const Vector3d left = p.rotation.col(0), middle(median(xs), median(ys), 0);
   std::vector<double> aside;
   for (const Vector3d& q : samples.points) aside.push_back(std::abs((q - middle).dot(left)));
   const auto far = aside.begin() + static_cast<std::ptrdiff_t>(aside.size() * 499 / 500);  // but for stray ones
   std::nth_element(aside.begin(), far, aside.end());
-  const double raised = std::asin(std::clamp((*far / stature - kShoulder) / kArm, 0.1, 1.0)) - kRestingArm;
+  const double raised = std::asin(std::clamp((*far / stand.stature - kShoulder) / kArm, 0.1, 1.0)) - kRestingArm;
   p.turns[model.group_named("arm_L")].y() = -raised;
   p.turns[model.group_named("arm_R")].y() = raised;
   const PosedModel posed(model, p);
   double lowest = 1e9;
   for (const int v : model.fit_points) lowest = std::min(lowest, posed.vertex(v).z());
-  p.position = Vector3d(middle.x(), middle.y(), low - span.bottom * stature - lowest);
+  p.position = Vector3d(middle.x(), middle.y(), stand.soles - lowest);
   return p;
 }
 
-std::vector<Parameters> starts(const Model& model, const Samples& samples) {
+/// Of a whole person, or of one whose feet, head, or both are missing. \throw Refusal not_a_body
+std::vector<Stand> stands_of(const Samples& samples) {
   const auto box = geometry::bounding_box(samples.points);
-  const double height = box[1].z() - box[0].z();
-  const auto fits = [&](const Span& span) {
-    const double stature = height / (span.top - span.bottom);
-    return stature > kShortest && stature < kTallest;
-  };
-  std::vector<Span> spans;
-  if (fits(kWhole)) {
-    spans.push_back(kWhole);
-  } else {
-    std::copy_if(std::begin(kParts), std::end(kParts), std::back_inserter(spans), fits);
-  }
-  if (spans.empty())
-    throw geometry::Refusal(geometry::refusal::kNotABody, fmt::format("what was scanned is {:.2f} m high; a person, or her trunk, is 0.5 to 2.15 m", height));
-  std::vector<Parameters> all;
-  for (const Span& span : spans)
-    for (int k = 0; k < kYaws; ++k) all.push_back(start_at(model, samples, span, 2 * M_PI * k / kYaws));
-  return all;
+  const double low = box[0].z(), high = box[1].z(), height = high - low;
+  if (height < kLeast || height > kTallest)
+    throw geometry::Refusal(geometry::refusal::kNotABody, fmt::format("what was scanned is {:.2f} m high; a person, or her trunk, is {:.2f} to {:.2f} m", height, kLeast, kTallest));
+  std::vector<Stand> stands;
+  if (height > kShortest) stands.push_back({height, low});
+  if (height > kShort) return stands;
+  stands.push_back({kUsual, high - kUsual});
+  stands.push_back({kUsual, low});
+  for (const double bottom : {kKnee, kCrotch})
+    if (const double stature = height / (kChin - bottom); stature > kShortest && stature < kTallest) stands.push_back({stature, low - bottom * stature});
+  return stands;
 }
 
 /// m, of each vertex from the mean of the samples nearest to it.
@@ -119,19 +118,20 @@ RegisteredBody Registrar::operator()(const Samples& surface) const {
   if (surface.points.size() < kFewest) throw geometry::Refusal(geometry::refusal::kNotABody, "too little surface to be a body");
   const Samples samples = shuffled(surface);
   const Matcher matcher(samples);
-  // 1. Which way she faces; 2. where her arms are, of the two likeliest; 3. pose and shape; 4. what they leave over.
-  const std::vector<Parameters> start = starts(model, samples);
-  std::vector<Fitted> tried(start.size(), Fitted{start[0], 1e9, {}});
-  geometry::in_halves(start.size(), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t i = begin; i < end; ++i) tried[i] = fit_stage(model, matcher, start[i], kRough);
+  // 1. What of her there is and which way she faces; 2. where her arms are, of the two likeliest; 3. pose and shape; 4. what they leave over.
+  std::vector<Fitted> tried;
+  for (const Stand& stand : stands_of(samples))
+    for (int k = 0; k < kYaws; ++k) tried.push_back({start_at(model, samples, stand, 2 * M_PI * k / kYaws), 0, 0, {}});
+  geometry::in_halves(tried.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) tried[i] = fit_stage(model, matcher, tried[i].parameters, kRough);
   });
-  const auto better = [](const Fitted& a, const Fitted& b) { return a.residual < b.residual; };
-  std::stable_sort(tried.begin(), tried.end(), better);
+  const auto likelier = [](const Fitted& a, const Fitted& b) { return a.surprise < b.surprise; };
+  std::stable_sort(tried.begin(), tried.end(), likelier);
   tried.erase(tried.begin() + 2, tried.end());
   geometry::in_halves(2, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) tried[i] = fit_stage(model, matcher, with_arms_placed(model, matcher, tried[i].parameters), kSecond);
   });
-  Fitted fitted = *std::min_element(tried.begin(), tried.end(), better);
+  Fitted fitted = *std::min_element(tried.begin(), tried.end(), likelier);
   for (const Stage& stage : {kThird, kFine}) fitted = fit_stage(model, matcher, fitted.parameters, stage);
   const PosedModel posed(model, fitted.parameters);
   RegisteredBody body;
@@ -145,6 +145,7 @@ RegisteredBody Registrar::operator()(const Samples& surface) const {
   body.support = support_of(body.skin, samples.points);
   for (std::size_t b = 0; b < model.bones.size(); ++b) body.joints.push_back(posed.joint(static_cast<int>(b)));
   for (std::size_t i = 0; i < model.bone_points.size(); ++i) body.bone_points.push_back(posed.bone_point(static_cast<int>(i)));
+  recognise(body, samples);
   return body;
 }
 

@@ -1,0 +1,277 @@
+#include "body_model/recognition.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "body_model/oriented_tree.hpp"
+#include "geometry/halves.hpp"
+#include "geometry/point_tree.hpp"
+#include "geometry/status.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::body_model {
+namespace {
+
+using Eigen::Vector3d;
+
+// Limits between women and things, by tests/body_model/recognise.py: training women's surfaces and scans,
+// women of another make; 31 things.
+constexpr double kMisfit =
+    0.006;                      // m; women 0.004 at most, things that are refused by it alone 0.007 at least
+constexpr double kShape = 3.3;  // women 2.9 at most, a pole that misfits by 0.004 m 3.6
+constexpr double kUnexplained = 0.25;  // of the surface; women 0.02 at most, things that are refused by it
+                                       // alone 0.33 at least, two persons 0.5
+constexpr double kShortest = 1.2, kTallest = 2.2;  // m, of grown-up people
+constexpr double kUnusual = 1.6;                   // women of the model's own kind 1.25 at most
+
+constexpr double kOff = 0.035;    // m from the skin: more than the model misses women by
+constexpr double kThere = 0.030;  // m of RegisteredBody::support: the samples lie all round, not beside it
+constexpr double kLeastOfPart =
+    0.5;  // of a part's skin; of women whose feet the floor took and whose crown no sensor saw 0.85 at least
+constexpr double kCrown = 0.03, kLeastOfCrown = 0.25;  // statures below the top; of its skin: no sensor looks
+                                                       // down, scans have 0.54 at least
+constexpr int kSamples = 6000;                         // that are asked: 17 mm apart on a woman
+constexpr double kTogether = 0.06;                     // m; nearer ones are one thing
+constexpr double kLeastThing = 0.004;  // of the surface, 70 cm^2: more than fingers that are bent otherwise
+constexpr double kArmsLength = 0.3;    // m: so far a limb may have turned away from where the model has it
+constexpr double kReach = 0.05;  // m that a normal turned by 60 degrees counts like, as in the registration
+constexpr double kTurned = 0.5;  // cosine between two normals of one skin
+
+/// Each part of whom it hangs on another; head and limbs from the trunk outwards.
+struct Limb {
+  const char *part, *on;
+};
+constexpr Limb kLimbs[] = {{"trunk", ""},
+                           {"head", ""},
+                           {"upper_arm_L", ""},
+                           {"forearm_L", "upper_arm_L"},
+                           {"hand_L", "forearm_L"},
+                           {"upper_arm_R", ""},
+                           {"forearm_R", "upper_arm_R"},
+                           {"hand_R", "forearm_R"},
+                           {"thigh_L", ""},
+                           {"shank_L", "thigh_L"},
+                           {"foot_L", "shank_L"},
+                           {"thigh_R", ""},
+                           {"shank_R", "thigh_R"},
+                           {"foot_R", "shank_R"}};
+
+std::size_t asked(const Samples& samples) {
+  return std::min<std::size_t>(kSamples, samples.points.size());
+}
+
+/// Of each part: which share of its skin has samples.
+std::vector<double> shares_there(const RegisteredBody& body) {
+  const Model& model = *body.model;
+  std::vector<double> there(model.parts.size(), 0), whole(model.parts.size(), 0);
+  for (std::size_t i = 0; i < model.fit_points.size(); ++i) {
+    const int v = model.fit_points[i], part = model.part[v];
+    whole[part] += model.fit_weights[i];
+    if (body.support[v] < kThere) there[part] += model.fit_weights[i];
+  }
+  for (std::size_t p = 0; p < there.size(); ++p) there[p] = whole[p] > 0 ? there[p] / whole[p] : 1;
+  return there;
+}
+
+double share_of_crown(const RegisteredBody& body) {
+  const Model& model = *body.model;
+  double top = model.mean.front().z();
+  for (const Vector3d& p : model.mean) top = std::max(top, p.z());
+  int there = 0, whole = 0;
+  for (std::size_t v = 0; v < model.mean.size(); ++v) {
+    if (model.mean[v].z() < top - kCrown * model.stature) continue;
+    ++whole;
+    there += static_cast<int>(body.support[v] < kThere);
+  }
+  return static_cast<double>(there) / whole;
+}
+
+Vector3d middle_of(const RegisteredBody& body, int part) {
+  Vector3d sum = Vector3d::Zero();
+  int count = 0;
+  for (std::size_t v = 0; v < body.skin.size(); ++v) {
+    if (body.model->part[v] != part) continue;
+    sum += body.skin[v];
+    ++count;
+  }
+  return sum / std::max(count, 1);
+}
+
+/// Of each sample that is asked: m from her skin, and the vertex of the skin there.
+struct Off {
+  std::vector<double> distances;
+  std::vector<int> nearest;
+};
+
+Off off_skin(const RegisteredBody& body, const Samples& samples) {
+  const geometry::PointTree tree(body.skin);
+  Off off{std::vector<double>(asked(samples)), std::vector<int>(asked(samples))};
+  geometry::in_halves(off.nearest.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t s = begin; s < end; ++s) {
+      off.nearest[s] = tree.nearest(samples.points[s]);
+      off.distances[s] = (body.skin[off.nearest[s]] - samples.points[s]).norm();
+    }
+  });
+  return off;
+}
+
+double share_off(const Off& off) {
+  const auto far =
+      std::count_if(off.distances.begin(), off.distances.end(), [](double d) { return d > kOff; });
+  return static_cast<double>(far) / static_cast<double>(off.distances.size());
+}
+
+/// m, of the samples that are hers from the posed skin, along its normal.
+double misfit_of(const RegisteredBody& body, const Samples& samples, const Off& off) {
+  const std::vector<Vector3d> normals = geometry::vertex_normals(body.posed, body.model->triangles);
+  const OrientedTree tree(body.posed, normals, kReach);
+  std::vector<double> distances(off.distances.size(), -1);
+  geometry::in_halves(distances.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t s = begin; s < end; ++s) {
+      if (off.distances[s] > kOff) continue;
+      const int v = tree.nearest(samples.points[s], samples.normals[s]);
+      const bool matched = normals[v].dot(samples.normals[s]) > kTurned;
+      distances[s] =
+          matched ? std::min(std::abs((samples.points[s] - body.posed[v]).dot(normals[v])), kOff) : kOff;
+    }
+  });
+  double sum = 0;
+  int count = 0;
+  for (const double d : distances) {
+    if (d < 0) continue;
+    sum += d;
+    ++count;
+  }
+  return count > 0 ? sum / count : kOff;
+}
+
+/// \throw Refusal not_a_body
+void check(const Evidence& e, double stature) {
+  std::string why;
+  if (e.unexplained > kUnexplained) {
+    why = fmt::format("{:.0f} % of the surface is none of hers: a thing, or more than one person",
+                      100 * e.unexplained);
+  } else if (!(stature > kShortest && stature < kTallest)) {
+    why = "nobody has that size";
+  } else if (e.misfit > kMisfit) {
+    why = "no person's shape comes near";
+  } else if (e.shape > kShape) {
+    why = "no person has that shape";
+  } else {
+    return;
+  }
+  throw geometry::Refusal(geometry::refusal::kNotABody,
+                          fmt::format("{} (the most similar woman is {:.2f} m tall ({} to {}), {:.1f} mm off "
+                                      "({:.0f} at most), {:.1f} deviations from the mean ({} at most); "
+                                      "{:.0f} % of the surface is not hers ({:.0f} at most))",
+                                      why, stature, kShortest, kTallest, 1e3 * e.misfit, 1e3 * kMisfit,
+                                      e.shape, kShape, 100 * e.unexplained, 100 * kUnexplained));
+}
+
+/// Groups of samples off the skin, each as indices, in order of their first.
+std::vector<std::vector<int>> things_off(const Samples& samples, const Off& off) {
+  std::vector<int> left;
+  for (std::size_t s = 0; s < off.distances.size(); ++s)
+    if (off.distances[s] > kOff) left.push_back(static_cast<int>(s));
+  std::vector<std::vector<int>> things;
+  while (!left.empty()) {
+    std::vector<int> thing{left.front()};
+    left.erase(left.begin());
+    for (std::size_t i = 0; i < thing.size(); ++i) {
+      const Vector3d at = samples.points[thing[i]];
+      const auto near = std::stable_partition(
+          left.begin(), left.end(), [&](int s) { return (samples.points[s] - at).norm() > kTogether; });
+      thing.insert(thing.end(), near, left.end());
+      left.erase(near, left.end());
+    }
+    things.push_back(std::move(thing));
+  }
+  return things;
+}
+
+std::string guess(const std::string& part, double farthest) {
+  if (part == "head" || part == "neck") return "hair or something worn";
+  if (farthest > 0.3)
+    return "a thing or another person";  // m: beyond arm's breadth of a limb that is posed wrongly
+  if (part == "trunk" || part == "breast_L" || part == "breast_R")
+    return "hair, something worn or held, or an arm";
+  return "something worn or held, or a limb that is bent otherwise";
+}
+
+Unexplained described(const std::vector<int>& thing, const RegisteredBody& body, const Samples& samples,
+                      const Off& off) {
+  Unexplained result{
+      Vector3d::Zero(), 0, static_cast<double>(thing.size()) / static_cast<double>(off.distances.size()), {}};
+  double farthest = 0;
+  std::vector<int> of_part(body.model->parts.size(), 0);
+  for (const int s : thing) {
+    result.centre += samples.points[s] / static_cast<double>(thing.size());
+    farthest = std::max(farthest, off.distances[s]);
+    ++of_part[body.model->part[off.nearest[s]]];
+  }
+  for (const int a : thing)
+    for (const int b : thing)
+      result.extent = std::max(result.extent, (samples.points[a] - samples.points[b]).norm());
+  const std::string& part =
+      body.model->parts[std::max_element(of_part.begin(), of_part.end()) - of_part.begin()];
+  result.reason = fmt::format(
+      "{:.1f} % of the surface, {:.0f} mm across, up to {:.0f} mm off her skin, nearest to {}: {}",
+      100 * result.share, 1e3 * result.extent, 1e3 * farthest, part, guess(part, farthest));
+  return result;
+}
+
+}  // namespace
+
+void recognise(RegisteredBody& body, const Samples& samples) {
+  const Off off = off_skin(body, samples);
+  const Eigen::VectorXd& shape = body.parameters.shape;
+  body.evidence = {misfit_of(body, samples, off), share_off(off),
+                   std::sqrt(shape.squaredNorm() / static_cast<double>(shape.size()))};
+  check(body.evidence, body.stature());
+  body.unexplained.clear();
+  for (const std::vector<int>& thing : things_off(samples, off))
+    if (static_cast<double>(thing.size()) >= kLeastThing * static_cast<double>(off.distances.size()))
+      body.unexplained.push_back(described(thing, body, samples, off));
+  std::stable_sort(body.unexplained.begin(), body.unexplained.end(),
+                   [](const Unexplained& a, const Unexplained& b) { return a.share > b.share; });
+  body.note.clear();
+  if (body.evidence.shape > kUnusual)
+    body.note = fmt::format(
+        "an unusual shape: {:.1f} deviations from the model's mean woman, of the women it was made from none "
+        "is beyond {}; a man, padding, clothes?",
+        body.evidence.shape, kUnusual);
+}
+
+std::vector<geometry::Missing> missing_parts(const RegisteredBody& body) {
+  const std::vector<double> there = shares_there(body);
+  const auto share = [&](const std::string& part) { return there[body.model->part_named(part)]; };
+  const auto gone = [&](const std::string& part) { return !part.empty() && share(part) < kLeastOfPart; };
+  const char* where = body.scanned ? "scan" : "mesh";
+  const auto only = [&](double of_it) {
+    return of_it < 0.01 ? fmt::format("none of it is in the {}", where)
+                        : fmt::format("only {:.0f} % of it is in the {}", 100 * of_it, where);
+  };
+  std::vector<geometry::Missing> missing;
+  for (const Limb& limb : kLimbs) {
+    if (!gone(limb.part)) continue;
+    if (gone(limb.on)) {
+      missing.back().reason += fmt::format(", nor is {}", limb.part);
+      continue;
+    }
+    missing.push_back({limb.part, only(share(limb.part))});
+  }
+  if (!gone("head") && share_of_crown(body) < kLeastOfCrown)
+    missing.push_back(
+        {"crown", only(share_of_crown(body)) + ": heights of the whole body are the model's guess"});
+  for (geometry::Missing& part : missing)
+    for (const Unexplained& thing : body.unexplained)
+      if (const int index = body.model->part_named(part.name);
+          index >= 0 && (thing.centre - middle_of(body, index)).norm() < kArmsLength)
+        part.reason += fmt::format("; what is unexplained {:.0f} mm from there may be it",
+                                   1e3 * (thing.centre - middle_of(body, index)).norm());
+  return missing;
+}
+
+}  // namespace tensegric_fit::body_model

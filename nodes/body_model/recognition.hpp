@@ -1,0 +1,21 @@
+/// What was registered: whether it is a person, what of her is not there, and what is there besides her.
+#pragma once
+
+#include <vector>
+
+#include "body_model/registered_body.hpp"
+#include "body_model/samples.hpp"
+#include "geometry/body_measures.hpp"
+
+namespace tensegric_fit::body_model {
+
+/// Fills `evidence`, `unexplained` and `note`. \pre samples in random order; the body is registered to them
+/// \throw Refusal not_a_body: no person's shape or size, or more than one person
+void recognise(RegisteredBody& body, const Samples& samples);
+
+/// Head and limbs (upper_arm_L, forearm_L, hand_L, thigh_L, shank_L, foot_L, ..._R) of which the scan has
+/// less than half, and the trunk, and `crown`, the top of the head; what hangs on a missing part is named in
+/// its reason.
+std::vector<geometry::Missing> missing_parts(const RegisteredBody& body);
+
+}  // namespace tensegric_fit::body_model
