@@ -4,9 +4,9 @@
 
 #include "booth/virtual_scanner.hpp"
 #include "control_mesh/fit_template.hpp"
+#include "fit/chain.hpp"
 #include "geometry/decimate.hpp"
 #include "geometry/ply.hpp"
-#include "landmarks/find_landmarks.hpp"
 #include "tffd/binding.hpp"
 
 namespace tensegric_fit::benchmarks {
@@ -31,9 +31,12 @@ void choose_body(const std::string& ply_file) {
 }
 
 const booth::VirtualBody& customer() {
-  static const booth::VirtualBody one = body_file.empty()
-                                            ? booth::make_body({})
-                                            : booth::VirtualBody{geometry::read_ply_mesh(body_file), {}, {}};
+  static const booth::VirtualBody one = [] {
+    if (body_file.empty()) return booth::make_body({});
+    booth::VirtualBody from_file;
+    from_file.mesh = geometry::read_ply_mesh(body_file);
+    return from_file;
+  }();
   return one;
 }
 
@@ -66,7 +69,10 @@ const geometry::TriangleMesh& chest_skin(int triangles) {
 
 const geometry::ControlMesh& bust_control(int triangles) {
   static std::map<int, geometry::ControlMesh> all;
-  static const geometry::BodyMeasures measures = landmarks::find_landmarks(body(62000), {}, {});
+  static const geometry::BodyMeasures measures = [] {
+    fit::StageTimes times;
+    return fit::measure_mesh(body(62000), {}, times).measures;
+  }();
   return kept(all, triangles, [&] {
     control_mesh::Options options;
     options.control_triangles = triangles;

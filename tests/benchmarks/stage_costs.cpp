@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <ctime>
+#include <functional>
 #include <optional>
 
 #include "customer.hpp"
@@ -54,12 +55,20 @@ class Rounds {
   void run() {
     next_ = 0;
     const geometry::PointCloud& seen = scan(kPoints);
-    reconstruction::BodyMesh body;
+    std::optional<reconstruction::Reconstruction> made;
     geometry::BodyMeasures measures;
     geometry::ControlMesh control;
     tensegric::Solution worn;
-    measure("reconstruction", 1, [&] { body = reconstruction::reconstruct(seen, {}); });
-    measure("landmarks", 1, [&] { measures = landmarks::find_landmarks(body.mesh, body.filled, {}); });
+    const body_model::Registrar& registrar = body_model::shipped_registrar();
+    measure("reconstruction", 1, [&] {  // with the registration
+      made = reconstruction::reconstruct(seen, {}, {std::cref(registrar), registrar.standing()});
+    });
+    const reconstruction::BodyMesh& body = made->body;
+    measure("body_model", 1, [&] { body_model::register_mesh(registrar, body.mesh); });
+    measure("landmarks", 1, [&] {
+      measures =
+          landmarks::find_landmarks(body.mesh, body.filled, made->model, landmarks::shipped_precision());
+    });
     const auto pattern = control_mesh::load_template(TENSEGRIC_FIT_LAUNCH "/templates/bust.yaml");
     measure("control_mesh", 1,
             [&] { control = control_mesh::fit_template(pattern, body.mesh, measures, {}); });

@@ -5,7 +5,7 @@
 #include "booth/random_body.hpp"
 #include "booth/virtual_body.hpp"
 #include "control_mesh/fit_template.hpp"
-#include "landmarks/find_landmarks.hpp"
+#include "fit/chain.hpp"
 #include "stability_case.hpp"
 
 namespace tensegric_fit::stability {
@@ -32,6 +32,11 @@ booth::BodyParameters parameters_of(const std::string& body) {
   return parameters;
 }
 
+fit::Body measured(const booth::BodyParameters& parameters) {
+  fit::StageTimes times;
+  return fit::measure_mesh(booth::make_body(parameters).mesh, {}, times);
+}
+
 std::vector<std::string> yaml_files(const std::string& folder) {
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder))
@@ -41,8 +46,7 @@ std::vector<std::string> yaml_files(const std::string& folder) {
 }
 
 /// The pieces of control mesh that the regions need, on the body.
-geometry::ControlMesh dressed(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,
-                              const std::vector<std::string>& regions) {
+geometry::ControlMesh dressed(const fit::Body& body, const std::vector<std::string>& regions) {
   std::vector<geometry::ControlMesh> pieces;
   for (const std::string& file : yaml_files(kLaunch + "templates")) {
     const control_mesh::Template pattern = control_mesh::load_template(file);
@@ -50,7 +54,7 @@ geometry::ControlMesh dressed(const geometry::TriangleMesh& body, const geometry
         pattern.regions.begin(), pattern.regions.end(), [&](const control_mesh::TemplateRegion& r) {
           return std::find(regions.begin(), regions.end(), r.name) != regions.end();
         });
-    if (wanted) pieces.push_back(control_mesh::fit_template(pattern, body, measures, {}));
+    if (wanted) pieces.push_back(control_mesh::fit_template(pattern, body.mesh.mesh, body.measures, {}));
   }
   return pieces.size() == 1 ? pieces.front() : geometry::joined(pieces);
 }
@@ -58,37 +62,35 @@ geometry::ControlMesh dressed(const geometry::TriangleMesh& body, const geometry
 }  // namespace
 
 std::vector<geometry::ControlMesh> template_meshes(std::uint64_t seed) {
-  const geometry::TriangleMesh mesh = booth::make_body(booth::random_body(seed)).mesh;
-  const geometry::BodyMeasures measures = landmarks::find_landmarks(mesh, {}, {});
+  const fit::Body body = measured(booth::random_body(seed));
   std::vector<geometry::ControlMesh> meshes;
   for (const std::string& file : yaml_files(kLaunch + "templates"))
-    meshes.push_back(control_mesh::fit_template(control_mesh::load_template(file), mesh, measures, {}));
+    meshes.push_back(
+        control_mesh::fit_template(control_mesh::load_template(file), body.mesh.mesh, body.measures, {}));
   return meshes;
 }
 
-std::vector<Case> garment_cases(const std::string& body, const std::vector<double>& ratios) {
-  const geometry::TriangleMesh mesh = booth::make_body(parameters_of(body)).mesh;
-  const geometry::BodyMeasures measures = landmarks::find_landmarks(mesh, {}, {});
+std::vector<Case> garment_cases(const std::string& name, const std::vector<double>& ratios) {
+  const fit::Body body = measured(parameters_of(name));
   std::map<std::vector<std::string>, geometry::ControlMesh> meshes;
   std::vector<Case> cases;
   for (const std::string& file : yaml_files(kLaunch + "garments")) {
     const tensegric::Garment garment = tensegric::load_garment(file);
-    if (meshes.count(garment.regions) == 0)
-      meshes[garment.regions] = dressed(mesh, measures, garment.regions);
+    if (meshes.count(garment.regions) == 0) meshes[garment.regions] = dressed(body, garment.regions);
     for (double ratio : ratios) {
       Case all;
       all.control = meshes[garment.regions];
       all.garment = garment;
       set_ratio(all.garment, "", ratio);
       const std::string at = " at " + std::to_string(ratio).substr(0, 4);
-      all.name = "garments/" + body + " body, " + garment.name + at;
+      all.name = "garments/" + name + " body, " + garment.name + at;
       cases.push_back(all);
       if (garment.lines.size() < 2) continue;
       for (const tensegric::GarmentLine& line : garment.lines) {
         Case one = all;
         set_ratio(one.garment, "", 1);
         set_ratio(one.garment, line.name, ratio);
-        one.name = "garments/" + body + " body, " + garment.name + ", " + line.name + at;
+        one.name = "garments/" + name + " body, " + garment.name + ", " + line.name + at;
         cases.push_back(one);
       }
     }
