@@ -18,12 +18,17 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double kDegree = M_PI / 180;
-constexpr double kTilt = 10 * kDegree;       // of the pelvis: 15 degrees of the scan, 25 of a stoop are within 2.5 deviations
-constexpr double kStature = 0.15;            // of its logarithm: 1.45 to 1.95 m
-constexpr double kNoisePerScale = .06, kLeastNoise = 0.002;  // what a match may be off, and m that the model always is
-constexpr double kPiece = 180, kMisfit = 0.002;  // pieces of a woman's skin, 10 cm wide, that misfit each on its own; m, by how much
-constexpr double kStatures = 0.06;            // of the logarithm of people's stature: 1.45 to 1.95 m are within 2.5 deviations
-constexpr int kWorthThreads = 800;            // points; fewer are done before a second thread has begun
+constexpr double kTilt =
+    10 * kDegree;  // of the pelvis: 15 degrees of the scan, 25 of a stoop are within 2.5 deviations
+constexpr double kStature = 0.15;  // of its logarithm: 1.45 to 1.95 m
+constexpr double kNoisePerScale = .06,
+                 kLeastNoise = 0.002;  // what a match may be off, and m that the model always is
+constexpr double
+    kPiece = 180,
+    kMisfit = 0.002;  // pieces of a woman's skin, 10 cm wide, that misfit each on its own; m, by how much
+constexpr double kStatures =
+    0.06;  // of the logarithm of people's stature: 1.45 to 1.95 m are within 2.5 deviations
+constexpr int kWorthThreads = 800;             // points; fewer are done before a second thread has begun
 constexpr double kLargestTurn = 20 * kDegree;  // in a step; beyond that derivatives mean little
 
 /// What the prior takes the parameters to be, and how firmly.
@@ -48,7 +53,8 @@ Prior prior_of(const Model& model, const Parameters& p, double stature) {
   return prior;
 }
 
-/// The fit points that take part, with their normals at rest: those of one shape serve for the next ones as well.
+/// The fit points that take part, with their normals at rest: those of one shape serve for the next ones as
+/// well.
 class FitPoints {
  public:
   FitPoints(const Model& model, const Parameters& p, int every) : model_(model) {
@@ -93,15 +99,18 @@ double residual_of(const Matching& matching, const std::vector<double>& weights)
 double surprise_of(const Matching& matching, const Prior& prior, double log_scale) {
   double misfit = 0;
   for (const double d : matching.unexplained) misfit += d / static_cast<double>(matching.unexplained.size());
-  const double start = prior.off[Parameters::kScale] * prior.off[Parameters::kScale] * prior.precision[Parameters::kScale];
-  const double squares = prior.off.cwiseAbs2().dot(prior.precision) - start + std::pow(log_scale / kStatures, 2);
+  const double start =
+      prior.off[Parameters::kScale] * prior.off[Parameters::kScale] * prior.precision[Parameters::kScale];
+  const double squares =
+      prior.off.cwiseAbs2().dot(prior.precision) - start + std::pow(log_scale / kStatures, 2);
   return kPiece * misfit / kMisfit + squares / 2;
 }
 
-/// Normal equations of the matches, in the first `active` parameters. A pull is nearly one of a plane: its largest direction stands
-/// for it where `planes`, all three otherwise.
-void normal_equations(const PosedModel& posed, const std::vector<int>& vertices, const std::vector<Pull>& pulls, int count, int active, bool planes,
-                      MatrixXd& matrix, VectorXd& gradient) {
+/// Normal equations of the matches, in the first `active` parameters. A pull is nearly one of a plane: its
+/// largest direction stands for it where `planes`, all three otherwise.
+void normal_equations(const PosedModel& posed, const std::vector<int>& vertices,
+                      const std::vector<Pull>& pulls, int count, int active, bool planes, MatrixXd& matrix,
+                      VectorXd& gradient) {
   const int rows_each = planes ? 1 : 3, points = static_cast<int>(vertices.size());
   std::array<MatrixXd, 2> matrices{MatrixXd::Zero(active, active), MatrixXd::Zero(active, active)};
   std::array<VectorXd, 2> gradients{VectorXd::Zero(active), VectorXd::Zero(active)};
@@ -124,8 +133,10 @@ void normal_equations(const PosedModel& posed, const std::vector<int>& vertices,
     matrices[half].selfadjointView<Eigen::Lower>().rankUpdate(rows);
     gradients[half] = rows * off;
   };
-  if (points < kWorthThreads) accumulate(0, points, 0);
-  else geometry::in_halves(points, accumulate);
+  if (points < kWorthThreads)
+    accumulate(0, points, 0);
+  else
+    geometry::in_halves(points, accumulate);
   matrix = matrices[0] + matrices[1];
   gradient = gradients[0] + gradients[1];
 }
@@ -139,7 +150,9 @@ Fitted fit_stage(const Model& model, const Matcher& matcher, Parameters start, c
   const double stature = p.log_scale;
   const int active = p.shape_at() + std::min(stage.components, model.components());
   for (int i = 0; i < stage.iterations; ++i) {
-    const double scale = stage.from * std::pow(stage.to / stage.from, stage.iterations < 2 ? 1.0 : double(i) / (stage.iterations - 1));
+    const double scale =
+        stage.from *
+        std::pow(stage.to / stage.from, stage.iterations < 2 ? 1.0 : double(i) / (stage.iterations - 1));
     const double noise = std::max(kNoisePerScale * scale, kLeastNoise);
     const PosedModel posed(model, p);
     const ModelSkin skin = points.skin(posed);
@@ -147,7 +160,8 @@ Fitted fit_stage(const Model& model, const Matcher& matcher, Parameters start, c
     fitted.residual = residual_of(matching, skin.weights);
     MatrixXd matrix;
     VectorXd gradient;
-    normal_equations(posed, points.vertices(), matching.pulls, p.count(), active, scale <= 0.02, matrix, gradient);
+    normal_equations(posed, points.vertices(), matching.pulls, p.count(), active, scale <= 0.02, matrix,
+                     gradient);
     const Prior prior = prior_of(model, p, stature);
     fitted.surprise = surprise_of(matching, prior, p.log_scale);
     matrix /= noise * noise;
@@ -157,7 +171,8 @@ Fitted fit_stage(const Model& model, const Matcher& matcher, Parameters start, c
     VectorXd step = VectorXd::Zero(p.count());
     step.head(active) = -matrix.ldlt().solve(gradient);
     const int turns = p.shape_at() - Parameters::kTurns;
-    const double turn = std::max(step.head<3>().cwiseAbs().maxCoeff(), step.segment(Parameters::kTurns, turns).cwiseAbs().maxCoeff());
+    const double turn = std::max(step.head<3>().cwiseAbs().maxCoeff(),
+                                 step.segment(Parameters::kTurns, turns).cwiseAbs().maxCoeff());
     if (turn > kLargestTurn) step *= kLargestTurn / turn;
     p = p.plus(step);
     fitted.precision = std::move(matrix);

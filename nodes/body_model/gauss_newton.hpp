@@ -10,15 +10,17 @@ namespace tensegric_fit::body_model {
 struct Stage {
   double from, to;  ///< m, scale of distances in the first and the last iteration
   int iterations;
-  int every;        ///< n-th fit point takes part
-  int samples;      ///< that look for the model in their turn
-  int components;   ///< of the shape that are free
+  int every;       ///< n-th fit point takes part
+  int samples;     ///< that look for the model in their turn
+  int components;  ///< of the shape that are free
 };
 
 struct Fitted {
   Parameters parameters;
-  double residual;            ///< m: mean distance of model and samples from each other, each capped at Matching::kUnmatched
-  double surprise;            ///< minus the logarithm of its probability, but for a constant: samples and prior, whatever of the model they lack
+  double residual;  ///< m: mean distance of model and samples from each other, each capped at
+                    ///< Matching::kUnmatched
+  double surprise;  ///< minus the logarithm of its probability, but for a constant: samples and prior,
+                    ///< whatever of the model they lack
   Eigen::MatrixXd precision;  ///< of the parameters that were free: data and prior
 };
 

@@ -11,11 +11,12 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kReach = 0.05;      // m that a normal turned by 60 degrees counts like: skin of the other side of an arm is farther
-constexpr double kFarthest = 2.5;    // scales
-constexpr double kAstray = 0.5;      // scales from the sample's own model point: half counts at two thirds of it
-constexpr double kSameSide = 0.5;    // cosine between two normals of one skin
-constexpr double kSideways = 15;     // 1/m^2: a match a metre off is one of points, a near one of planes
+constexpr double kReach =
+    0.05;  // m that a normal turned by 60 degrees counts like: skin of the other side of an arm is farther
+constexpr double kFarthest = 2.5;  // scales
+constexpr double kAstray = 0.5;  // scales from the sample's own model point: half counts at two thirds of it
+constexpr double kSameSide = 0.5;  // cosine between two normals of one skin
+constexpr double kSideways = 15;   // 1/m^2: a match a metre off is one of points, a near one of planes
 
 /// What one pair says.
 struct Pair {
@@ -25,7 +26,8 @@ struct Pair {
 
 Pair weigh(const Vector3d& off, const Vector3d& model_normal, const Vector3d& sample_normal, double scale) {
   const double squared = off.squaredNorm() / (scale * scale);
-  if (squared > kFarthest * kFarthest || model_normal.dot(sample_normal) < kSameSide) return {0, Matching::kUnmatched};
+  if (squared > kFarthest * kFarthest || model_normal.dot(sample_normal) < kSameSide)
+    return {0, Matching::kUnmatched};
   const double robust = 1 / (1 + squared);
   return {robust * robust, std::min(std::abs(off.dot(sample_normal)), Matching::kUnmatched)};
 }
@@ -40,7 +42,8 @@ void in_parallel(std::size_t count, const Work& work) {
 
 }  // namespace
 
-Matcher::Matcher(const Samples& samples) : samples_(samples), tree_(samples.points, samples.normals, kReach) {}
+Matcher::Matcher(const Samples& samples)
+    : samples_(samples), tree_(samples.points, samples.normals, kReach) {}
 Matcher::~Matcher() = default;
 
 Matching Matcher::match(const ModelSkin& skin, double scale, int samples) const {
@@ -56,7 +59,8 @@ Matching Matcher::match(const ModelSkin& skin, double scale, int samples) const 
       result.distances[i] = pair.distance;
       // A part that the samples lack finds those of another part, which belong to that.
       const int owner = pair.weight > 0 ? model.nearest(samples_.points[s], n) : static_cast<int>(i);
-      const double astray = (skin.points[owner] - skin.points[i]).squaredNorm() / std::pow(kAstray * scale, 2);
+      const double astray =
+          (skin.points[owner] - skin.points[i]).squaredNorm() / std::pow(kAstray * scale, 2);
       const double w = skin.weights[i] * pair.weight / ((1 + astray) * (1 + astray));
       result.pulls[i].information = w * (n * n.transpose() + sideways * Matrix3d::Identity());
       result.pulls[i].pull = w * (n * n.dot(off) + sideways * off);
@@ -65,7 +69,8 @@ Matching Matcher::match(const ModelSkin& skin, double scale, int samples) const 
   const std::size_t looking = std::min<std::size_t>(samples, samples_.points.size());
   std::vector<int> near(looking), finders(count, 0);
   in_parallel(looking, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s) near[s] = model.nearest(samples_.points[s], samples_.normals[s]);
+    for (std::size_t s = begin; s < end; ++s)
+      near[s] = model.nearest(samples_.points[s], samples_.normals[s]);
   });
   for (const int i : near) ++finders[i];
   for (std::size_t s = 0; s < looking; ++s) {

@@ -15,16 +15,18 @@ struct ModelSkin {
   std::vector<double> weights;
 };
 
-/// What the samples ask of one point of the model: the quadratic (x - p)^T information (x - p) / 2 + pull . (x - p).
+/// What the samples ask of one point of the model: the quadratic (x - p)^T information (x - p) / 2 + pull .
+/// (x - p).
 struct Pull {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d pull = Eigen::Vector3d::Zero();
 };
 
 struct Matching {
-  std::vector<Pull> pulls;        ///< one a point of the model
-  std::vector<double> distances;  ///< m, of each point of the model from the samples' nearest plane; kUnmatched: none
-  std::vector<double> unexplained;  ///< m, of each sample that was looked at, in the samples' order
+  std::vector<Pull> pulls;  ///< one a point of the model
+  std::vector<double>
+      distances;  ///< m, of each point of the model from the samples' nearest plane; kUnmatched: none
+  std::vector<double> unexplained;            ///< m, of each sample that was looked at, in the samples' order
   static constexpr double kUnmatched = 0.05;  ///< m; farther counts as this
 };
 
@@ -34,11 +36,14 @@ class Matcher {
   /// The samples, in random order, must outlive it.
   explicit Matcher(const Samples& samples);
   ~Matcher();
-  /// Distances beyond some 2.5 times `scale` (m) say nothing, shorter ones less the longer they are. `samples`: how many look back.
+  /// Distances beyond some 2.5 times `scale` (m) say nothing, shorter ones less the longer they are.
+  /// `samples`: how many look back.
   Matching match(const ModelSkin& skin, double scale, int samples) const;
 
   /// m: from a point to the nearest sample, a turned normal counting as distance.
-  double distance(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const { return tree_.distance(point, normal); }
+  double distance(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const {
+    return tree_.distance(point, normal);
+  }
 
  private:
   const Samples& samples_;

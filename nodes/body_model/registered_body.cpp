@@ -5,14 +5,26 @@
 
 namespace tensegric_fit::body_model {
 
-Eigen::Vector3d RegisteredBody::skin_point(const std::string& name) const {
-  for (const SkinPoint& point : model->skin_points) {
+namespace {
+
+Eigen::Vector3d point_of(const Model& model, const std::string& name,
+                         const std::vector<Eigen::Vector3d>& skin) {
+  for (const SkinPoint& point : model.skin_points) {
     if (point.name != name) continue;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const auto& [vertex, share] : point.vertices) sum += share * skin[vertex];
     return sum;
   }
   throw std::out_of_range("the body model has no skin point " + name);
+}
+
+}  // namespace
+
+Eigen::Vector3d RegisteredBody::skin_point(const std::string& name) const {
+  return point_of(*model, name, skin);
+}
+Eigen::Vector3d RegisteredBody::posed_point(const std::string& name) const {
+  return point_of(*model, name, posed);
 }
 
 Eigen::Vector3d RegisteredBody::bone_point(const std::string& name) const {

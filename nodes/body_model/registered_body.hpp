@@ -11,7 +11,8 @@ namespace tensegric_fit::body_model {
 
 /// What speaks for and against a person.
 struct Evidence {
-  double misfit = 0;       ///< m: of surface and skin by shape and pose alone, on average, where the surface is hers
+  double misfit =
+      0;  ///< m: of surface and skin by shape and pose alone, on average, where the surface is hers
   double unexplained = 0;  ///< share of the surface that is not, 0 to 1
   double shape = 0;        ///< root of the mean square of the shape's coefficients, in standard deviations
 };
@@ -28,22 +29,24 @@ struct Unexplained {
 struct RegisteredBody {
   std::shared_ptr<const Model> model;
   Parameters parameters;
-  double residual = 0;                    ///< m: mean distance of model and surface from each other before the displacement
-  std::vector<Eigen::Vector3d> posed;     ///< skin by pose and shape alone
-  std::vector<Eigen::Vector3d> skin;      ///< and displaced onto the surface
-  std::vector<double> off;                ///< m, of the skin from the surface; Matching::kUnmatched where there is none
-  std::vector<double> support;            ///< m, of the skin from the middle of the samples nearest to it: small where they lie all round
-  std::vector<Eigen::Vector3d> joints;    ///< one a bone
+  double residual = 0;  ///< m: mean distance of model and surface from each other before the displacement
+  std::vector<Eigen::Vector3d> posed;  ///< skin by pose and shape alone
+  std::vector<Eigen::Vector3d> skin;   ///< and displaced onto the surface
+  std::vector<double> off;      ///< m, of the skin from the surface; Matching::kUnmatched where there is none
+  std::vector<double> support;  ///< m, of the skin from the middle of the samples nearest to it: small where
+                                ///< they lie all round
+  std::vector<Eigen::Vector3d> joints;  ///< one a bone
   std::vector<Eigen::Vector3d> bone_points;
   Evidence evidence;
-  std::vector<Unexplained> unexplained;   ///< largest first
-  std::string note;                       ///< what is unusual about her shape, in words, or empty
-  bool scanned = true;                    ///< registered to a scan's points; false: to a mesh that was given
+  std::vector<Unexplained> unexplained;  ///< largest first
+  std::string note;                      ///< what is unusual about her shape, in words, or empty
+  bool scanned = true;                   ///< registered to a scan's points; false: to a mesh that was given
   Eigen::Vector3d vertical = Eigen::Vector3d::UnitZ();  ///< up, unit vector
-  double ground = 0;                      ///< m along `vertical`, under her soles
+  double ground = 0;                                    ///< m along `vertical`, under her soles
 
   /// \throw std::out_of_range: the model has no such point
   Eigen::Vector3d skin_point(const std::string& name) const;
+  Eigen::Vector3d posed_point(const std::string& name) const;  ///< the same by pose and shape alone
   Eigen::Vector3d bone_point(const std::string& name) const;
   Eigen::Vector3d joint(const std::string& name) const;
   /// Her left and the pelvis' up, unit vectors.

@@ -24,26 +24,27 @@ const Stage kSecond{.10, .06, 16, 4, 2000, 60};
 const Stage kThird{.06, .05, 12, 2, 3000, 60};
 const Stage kFine{.05, .02, 8, 1, 4000, 1000};
 
-constexpr std::size_t kFewest = 500;  // samples
+constexpr std::size_t kFewest = 500;   // samples
 constexpr int kSamplesOfMesh = 40000;  // 7 mm apart on a woman
-constexpr int kAround = 12;           // samples: two rings of neighbours
+constexpr int kAround = 12;            // samples: two rings of neighbours
 
 /// Where a person may stand of whom a scan shows all or a part.
 struct Stand {
   double stature, soles;  ///< m
 };
 constexpr double kShortest = 1.30, kTallest = 2.15;  // m, of women who stand or stoop
-constexpr double kShort = 1.45;                      // m; of 100 women one is shorter: it may be a part of a taller one
-constexpr double kUsual = 1.65;                      // m, of women and men of whom only a part is seen
-constexpr double kLeast = 0.5;                       // m; less of a person is too little to know her by
+constexpr double kShort = 1.45;  // m; of 100 women one is shorter: it may be a part of a taller one
+constexpr double kUsual = 1.65;  // m, of women and men of whom only a part is seen
+constexpr double kLeast = 0.5;   // m; less of a person is too little to know her by
 constexpr double kKnee = 0.27, kCrotch = 0.46, kChin = 0.87;  // statures above the soles
 
 constexpr int kYaws = 8;
-constexpr double kRestingArm = M_PI / 4;             // rad, how far the arms are raised at rest
-constexpr double kShoulder = 0.11, kArm = 0.40;      // statures: half the shoulders' breadth, an arm's length
+constexpr double kRestingArm = M_PI / 4;         // rad, how far the arms are raised at rest
+constexpr double kShoulder = 0.11, kArm = 0.40;  // statures: half the shoulders' breadth, an arm's length
 
 double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
   return values[values.size() / 2];
 }
 
@@ -57,16 +58,19 @@ Parameters start_at(const Model& model, const Samples& samples, const Stand& sta
       xs.push_back(p.x());
       ys.push_back(p.y());
     }
-  if (xs.empty()) throw geometry::Refusal(geometry::refusal::kNotABody, "nothing in the middle of its height");
+  if (xs.empty())
+    throw geometry::Refusal(geometry::refusal::kNotABody, "nothing in the middle of its height");
   Parameters p(model);
   p.rotation = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
   p.log_scale = std::log(stand.stature / model.stature);
   const Vector3d left = p.rotation.col(0), middle(median(xs), median(ys), 0);
   std::vector<double> aside;
   for (const Vector3d& q : samples.points) aside.push_back(std::abs((q - middle).dot(left)));
-  const auto far = aside.begin() + static_cast<std::ptrdiff_t>(aside.size() * 499 / 500);  // but for stray ones
+  const auto far =
+      aside.begin() + static_cast<std::ptrdiff_t>(aside.size() * 499 / 500);  // but for stray ones
   std::nth_element(aside.begin(), far, aside.end());
-  const double raised = std::asin(std::clamp((*far / stand.stature - kShoulder) / kArm, 0.1, 1.0)) - kRestingArm;
+  const double raised =
+      std::asin(std::clamp((*far / stand.stature - kShoulder) / kArm, 0.1, 1.0)) - kRestingArm;
   p.turns[model.group_named("arm_L")].y() = -raised;
   p.turns[model.group_named("arm_R")].y() = raised;
   const PosedModel posed(model, p);
@@ -81,14 +85,18 @@ std::vector<Stand> stands_of(const Samples& samples) {
   const auto box = geometry::bounding_box(samples.points);
   const double low = box[0].z(), high = box[1].z(), height = high - low;
   if (height < kLeast || height > kTallest)
-    throw geometry::Refusal(geometry::refusal::kNotABody, fmt::format("what was scanned is {:.2f} m high; a person, or her trunk, is {:.2f} to {:.2f} m", height, kLeast, kTallest));
+    throw geometry::Refusal(
+        geometry::refusal::kNotABody,
+        fmt::format("what was scanned is {:.2f} m high; a person, or her trunk, is {:.2f} to {:.2f} m",
+                    height, kLeast, kTallest));
   std::vector<Stand> stands;
   if (height > kShortest) stands.push_back({height, low});
   if (height > kShort) return stands;
   stands.push_back({kUsual, high - kUsual});
   stands.push_back({kUsual, low});
   for (const double bottom : {kKnee, kCrotch})
-    if (const double stature = height / (kChin - bottom); stature > kShortest && stature < kTallest) stands.push_back({stature, low - bottom * stature});
+    if (const double stature = height / (kChin - bottom); stature > kShortest && stature < kTallest)
+      stands.push_back({stature, low - bottom * stature});
   return stands;
 }
 
@@ -115,21 +123,26 @@ Registrar::Registrar(Model model, const Standing& standing)
 
 RegisteredBody Registrar::operator()(const Samples& surface) const {
   const Model& model = *model_;
-  if (surface.points.size() < kFewest) throw geometry::Refusal(geometry::refusal::kNotABody, "too little surface to be a body");
+  if (surface.points.size() < kFewest)
+    throw geometry::Refusal(geometry::refusal::kNotABody, "too little surface to be a body");
   const Samples samples = shuffled(surface);
   const Matcher matcher(samples);
-  // 1. What of her there is and which way she faces; 2. where her arms are, of the two likeliest; 3. pose and shape; 4. what they leave over.
+  // 1. What of her there is and which way she faces; 2. where her arms are, of the two likeliest; 3. pose and
+  // shape; 4. what they leave over.
   std::vector<Fitted> tried;
   for (const Stand& stand : stands_of(samples))
-    for (int k = 0; k < kYaws; ++k) tried.push_back({start_at(model, samples, stand, 2 * M_PI * k / kYaws), 0, 0, {}});
+    for (int k = 0; k < kYaws; ++k)
+      tried.push_back({start_at(model, samples, stand, 2 * M_PI * k / kYaws), 0, 0, {}});
   geometry::in_halves(tried.size(), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t i = begin; i < end; ++i) tried[i] = fit_stage(model, matcher, tried[i].parameters, kRough);
+    for (std::size_t i = begin; i < end; ++i)
+      tried[i] = fit_stage(model, matcher, tried[i].parameters, kRough);
   });
   const auto likelier = [](const Fitted& a, const Fitted& b) { return a.surprise < b.surprise; };
   std::stable_sort(tried.begin(), tried.end(), likelier);
   tried.erase(tried.begin() + 2, tried.end());
   geometry::in_halves(2, [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t i = begin; i < end; ++i) tried[i] = fit_stage(model, matcher, with_arms_placed(model, matcher, tried[i].parameters), kSecond);
+    for (std::size_t i = begin; i < end; ++i)
+      tried[i] = fit_stage(model, matcher, with_arms_placed(model, matcher, tried[i].parameters), kSecond);
   });
   Fitted fitted = *std::min_element(tried.begin(), tried.end(), likelier);
   for (const Stage& stage : {kThird, kFine}) fitted = fit_stage(model, matcher, fitted.parameters, stage);
@@ -143,8 +156,10 @@ RegisteredBody Registrar::operator()(const Samples& surface) const {
   body.skin = displaced.vertices;
   body.off = field_.spread(displaced.distances);
   body.support = support_of(body.skin, samples.points);
-  for (std::size_t b = 0; b < model.bones.size(); ++b) body.joints.push_back(posed.joint(static_cast<int>(b)));
-  for (std::size_t i = 0; i < model.bone_points.size(); ++i) body.bone_points.push_back(posed.bone_point(static_cast<int>(i)));
+  for (std::size_t b = 0; b < model.bones.size(); ++b)
+    body.joints.push_back(posed.joint(static_cast<int>(b)));
+  for (std::size_t i = 0; i < model.bone_points.size(); ++i)
+    body.bone_points.push_back(posed.bone_point(static_cast<int>(i)));
   recognise(body, samples);
   return body;
 }

@@ -12,7 +12,8 @@ namespace tensegric_fit::body_model {
 class Registrar {
  public:
   Registrar(Model model, const Standing& standing);
-  /// \param surface of one person, or of parts of her, within 15 degrees of upright (z up) \throw Refusal not_a_body
+  /// \param surface of one person, or of parts of her, within 15 degrees of upright (z up) \throw Refusal
+  /// not_a_body
   RegisteredBody operator()(const Samples& surface) const;
   const Model& model() const { return *model_; }
   const std::shared_ptr<const Model>& shared_model() const { return model_; }
@@ -24,7 +25,8 @@ class Registrar {
   Standing standing_;
 };
 
-/// The model on a mesh that was given: up as for a scan, the ground under its lowest vertex. \throw Refusal not_a_body
+/// The model on a mesh that was given: up as for a scan, the ground under its lowest vertex. \throw Refusal
+/// not_a_body
 RegisteredBody register_mesh(const Registrar& registrar, const geometry::TriangleMesh& mesh);
 
 /// That of the shipped model, loaded once. \throw Refusal broken_file

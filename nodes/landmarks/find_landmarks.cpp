@@ -61,7 +61,8 @@ class Reader {
         precision_(precision),
         frame_(body_frame(model)),
         mesh_(labelled(mesh, filled, model, frame_)),
-        skin_(skin_of(model, frame_)),
+        skin_(skin_of(model, model.skin, frame_)),
+        shape_(skin_of(model, model.posed, frame_)),
         normals_(geometry::vertex_normals(skin_.surface.mesh.vertices, skin_.surface.mesh.triangles)),
         tree_(skin_.surface.mesh.vertices) {}
 
@@ -94,6 +95,8 @@ class Reader {
 
  private:
   Vector3d expected(const std::string& name) const { return frame_ * body_.skin_point(name); }
+
+  Vector3d shaped(const std::string& name) const { return frame_ * body_.posed_point(name); }
 
   /// RegisteredBody::support round a point.
   double support_at(const Vector3d& point) const {
@@ -137,7 +140,7 @@ class Reader {
   void fold(Side side) {
     const Vector3d tip = point(std::string("bust_point") + kSuffix[side]);
     const Fold on_model =
-        find_fold(skin_.trunk, tip, side, {expected(std::string("underbust") + kSuffix[side])}, kFoldOfModel);
+        find_fold(shape_.trunk, tip, side, {shaped(std::string("underbust") + kSuffix[side])}, kFoldOfModel);
     const Fold on_mesh = find_fold(mesh_.trunk, tip, side, on_model.places, kFoldOfMesh);
     lowest_[0][side] = on_mesh.places.empty() ? std::nullopt : std::optional<Vector3d>(on_mesh.lowest);
     lowest_[1][side] = on_model.places.empty() ? std::nullopt : std::optional<Vector3d>(on_model.lowest);
@@ -180,7 +183,7 @@ class Reader {
   }
 
   void crotch() {
-    const Vector3d there = expected("crotch");
+    const Vector3d there = shaped("crotch");
     auto on_mesh = find_crotch(mesh_.surface, there);
     if (on_mesh && unseen_share(mesh_.surface, *on_mesh, kPerineum) > 0.5)
       on_mesh.reset();  // a filled gap has its own lowest place
@@ -226,7 +229,7 @@ class Reader {
       double level = height("underbust");
       for (const Side side : kSides)
         if (lowest_[s][side]) level = std::min(level, lowest_[s][side]->z());
-      tapes[s] = (s == 0 ? mesh_ : skin_).trunk.tape_of_torso(level - kUnderbustBelowFold);
+      tapes[s] = (s == 0 ? mesh_ : shape_).trunk.tape_of_torso(level - kUnderbustBelowFold);
     }
     girth_of("underbust", tapes[0], tapes[1]);
   }
@@ -333,7 +336,7 @@ class Reader {
                    left = expected("neck_ring_L"), right = expected("neck_ring_R");
     const Vector3d base = (front + back + left + right) / 4,
                    along = (front - back).cross(left - right).normalized();
-    girth_of("neck", find_neck(mesh_.surface, base, along), find_neck(skin_.surface, base, along));
+    girth_of("neck", find_neck(mesh_.surface, base, along), find_neck(shape_.surface, base, along));
     add(Kind::height, "neck", std::nullopt, Vector3d(base.z(), 0, 0), support_at(front));
     for (const char* name : {"neck_front", "neck_back", "neck_side_L", "neck_side_R", "navel"})
       add(Kind::point, name, std::nullopt, expected(name), support_at(expected(name)));
@@ -354,6 +357,7 @@ class Reader {
   const Precision& precision_;
   Eigen::Isometry3d frame_;
   Source mesh_, skin_;
+  Source shape_;  ///< for folds and the neck: what is displaced follows skin across a fold, and hair
   std::vector<Vector3d> normals_;
   geometry::PointTree tree_;
   std::vector<Figure> figures_;

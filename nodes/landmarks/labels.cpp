@@ -20,8 +20,9 @@ Surface labelled(const geometry::TriangleMesh& mesh, const std::vector<char>& fi
   return surface;
 }
 
-Surface skin_of(const body_model::RegisteredBody& body, const Eigen::Isometry3d& body_from_scan) {
-  return {{moved(body.skin, body_from_scan), body.model->triangles}, body.model->arm, {}};
+Surface skin_of(const body_model::RegisteredBody& body, const std::vector<Eigen::Vector3d>& skin,
+                const Eigen::Isometry3d& body_from_scan) {
+  return {{moved(skin, body_from_scan), body.model->triangles}, body.model->arm, {}};
 }
 
 }  // namespace tensegric_fit::landmarks

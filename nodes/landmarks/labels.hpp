@@ -11,7 +11,8 @@ namespace tensegric_fit::landmarks {
 Surface labelled(const geometry::TriangleMesh& mesh, const std::vector<char>& filled,
                  const body_model::RegisteredBody& body, const Eigen::Isometry3d& body_from_scan);
 
-/// The model's own skin on this person, in the body's frame.
-Surface skin_of(const body_model::RegisteredBody& body, const Eigen::Isometry3d& body_from_scan);
+/// The model's skin, or what pose and shape alone make of it (RegisteredBody::posed), in the body's frame.
+Surface skin_of(const body_model::RegisteredBody& body, const std::vector<Eigen::Vector3d>& skin,
+                const Eigen::Isometry3d& body_from_scan);
 
 }  // namespace tensegric_fit::landmarks

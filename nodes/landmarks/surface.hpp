@@ -19,8 +19,8 @@ inline constexpr const char* kSuffix[2] = {"_L", "_R"};
 /// x forward, y left, z up, the ground at z = 0; metres.
 struct Surface {
   geometry::TriangleMesh mesh;
-  std::vector<double> arm;          ///< per vertex: how much of it an arm carries, 0 to 1
-  std::vector<char> unseen;         ///< per vertex: 1 where no scan point backs it; empty: all is seen
+  std::vector<double> arm;   ///< per vertex: how much of it an arm carries, 0 to 1
+  std::vector<char> unseen;  ///< per vertex: 1 where no scan point backs it; empty: all is seen
 };
 
 using Selected = std::function<bool(const Eigen::Vector3i& triangle)>;
