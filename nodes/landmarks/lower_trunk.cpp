@@ -84,7 +84,8 @@ std::optional<Vector3d> find_buttock(const Trunk& trunk, const Vector3d& start_a
   }
   if (apexes.empty()) return std::nullopt;
   std::sort(apexes.begin(), apexes.end(), [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); });
-  return apexes[apexes.size() / 2];
+  const Vector3d& middle = apexes[apexes.size() / 2];
+  return Vector3d(middle.x(), expected.y(), middle.z());  // which profile it was says nothing of the side
 }
 
 std::optional<Vector3d> find_gluteal_fold(const Trunk& trunk, const Vector3d& buttock, double length,

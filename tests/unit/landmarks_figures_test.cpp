@@ -20,9 +20,9 @@ constexpr double kSupport = 0.003, kMisfit = 0.005;  // m
 constexpr double kOfMesh = 0.003, kOfModel = 0.005, kHalfWidth = 2, kDisagreement = 0.1;
 
 Precision precision() {
-  const FigurePrecision p{{0.0018, 0.8}, {0.8, 1}, kDisagreement, kHalfWidth};
+  const FigurePrecision p{{0, 0.0018, 0.8}, {0, 0.8, 1}, kDisagreement, kHalfWidth};
   return {{{"girth bust", p}, {"point bust_point", p}},
-          {{"girth bust", {{0.0018, 0.8}, {0.8, 1}, kDisagreement, 2 * kHalfWidth}}}};
+          {{"girth bust", {{0, 0.0018, 0.8}, {0, 0.8, 1}, kDisagreement, 2 * kHalfWidth}}}};
 }
 
 Figure girth(std::optional<double> on_mesh, std::optional<double> on_model) {
@@ -38,6 +38,8 @@ TEST(Settle, OneReadingIsTakenAsItIs) {
   EXPECT_EQ(mesh.value.x(), 0.9);
   EXPECT_NEAR(mesh.half_width, kHalfWidth * kOfMesh, 1e-12);
   EXPECT_EQ(model.value.x(), 0.9);
+  EXPECT_FALSE(mesh.rests_on_model);
+  EXPECT_TRUE(model.rests_on_model);
   EXPECT_NEAR(model.half_width, kHalfWidth * kOfModel, 1e-12);
 }
 
@@ -59,6 +61,8 @@ TEST(Settle, AReadingGrosslyOffIsLeftOut) {
                 far = settle(girth(0.9 + 0.0271, 0.9), precision(), false);
   EXPECT_GT(near.value.x(), 0.91);
   EXPECT_EQ(far.value.x(), 0.9);
+  EXPECT_FALSE(near.rests_on_model);
+  EXPECT_TRUE(far.rests_on_model);
   EXPECT_GT(far.half_width,
             kHalfWidth * kOfModel);  // the model alone, less sure than if nothing spoke against it
   Figure point = girth({}, {});
@@ -70,6 +74,19 @@ TEST(Settle, AReadingGrosslyOffIsLeftOut) {
     point.on_mesh = *point.on_model + Vector3d(0, 0, off);
     EXPECT_EQ(settle(point, precision(), false).value == *point.on_model, left_out) << off;
   }
+}
+
+TEST(Settle, WhatReadingsAreOffOnAverageIsTakenOff) {
+  Precision biased = precision();
+  FigurePrecision& p = biased.of_mesh["girth bust"];
+  p.mesh.bias = 0.002;
+  p.model.bias = -0.001;
+  EXPECT_NEAR(settle(girth(0.902, {}), biased, false).value.x(), 0.9, 1e-12);
+  EXPECT_NEAR(settle(girth({}, 0.899), biased, false).value.x(), 0.9, 1e-12);
+  const Settled both = settle(girth(0.902, 0.899), biased, false),
+                agreed = settle(girth(0.9, 0.9), precision(), false);
+  EXPECT_NEAR(both.value.x(), 0.9, 1e-12);
+  EXPECT_NEAR(both.half_width, agreed.half_width, 1e-12);
 }
 
 TEST(Settle, ScansHaveAPrecisionOfTheirOwn) {
@@ -119,7 +136,8 @@ class PrecisionFile : public testing::Test {
 };
 
 const std::string kFigure =
-    "{mesh: {bias: 0, base: 0.001, support: 0.1}, model: {bias: 0, base: 1, support: 0.2}, disagreement: 0.1, half_width: 2}";
+    "{mesh: {bias: -0.002, base: 0.001, support: 0.1}, model: {bias: 0, base: 1, support: 0.2}, disagreement: "
+    "0.1, half_width: 2}";
 
 std::string file_with(const std::string& of_bust) {
   return "made: 2026-01-01\nbodies: none\nmesh:\n  girth bust: " + of_bust +
@@ -136,6 +154,7 @@ TEST_F(PrecisionFile, IsReadAsWritten) {
   const Precision read = load_precision(path_);
   ASSERT_EQ(read.of_mesh.size(), 1u);
   const FigurePrecision& bust = read.of_mesh.at("girth bust");
+  EXPECT_EQ(bust.mesh.bias, -0.002);
   EXPECT_EQ(bust.mesh.base, 0.001);
   EXPECT_EQ(bust.mesh.support, 0.1);
   EXPECT_EQ(bust.model.base, 1);
