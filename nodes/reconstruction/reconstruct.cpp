@@ -195,6 +195,7 @@ BodyMesh surface_of(const Person& person, const Options& options, const Register
   result.mesh =
       geometry::with_finer_belt(mesh, options.body_triangles, kBeltLow * height, kBeltHigh * height);
   fit_to_points(result.mesh, body);
+  for (Eigen::Vector3d& v : result.mesh.vertices) v.z() = std::max(v.z(), 0.0);  // soles end on the ground
   result.points_used = seen;
   body.points.resize(seen);
   result.filled = filled_vertices(result.mesh, body.points, options.support_distance);
