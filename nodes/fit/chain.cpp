@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "body_model/recognition.hpp"
 #include "tffd/body_volume.hpp"
 #include "tffd/distortion.hpp"
 #include "tffd/lay_line.hpp"
@@ -45,6 +46,14 @@ std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitt
   return laid;
 }
 
+geometry::BodyMeasures measures_of(const Body& body) {
+  geometry::BodyMeasures measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, *body.model,
+                                                              landmarks::shipped_precision());
+  for (geometry::Missing& part : body_model::missing_parts(*body.model))
+    measures.missing.push_back(std::move(part));
+  return measures;
+}
+
 }  // namespace
 
 Body measure_scan(const geometry::PointCloud& scan, const Settings& settings, StageTimes& times) {
@@ -62,8 +71,7 @@ Body measure_scan(const geometry::PointCloud& scan, const Settings& settings, St
   }
   times.reconstruction -= times.body_model;
   const Stopwatch watch(times.landmarks);
-  body.measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, *body.model,
-                                            landmarks::shipped_precision());
+  body.measures = measures_of(body);
   geometry::doubt_fractured(body.mesh.fractures, body.measures);
   return body;
 }
@@ -75,8 +83,7 @@ Body measure_mesh(geometry::TriangleMesh mesh, const Settings&, StageTimes& time
     body.model = body_model::register_mesh(body_model::shipped_registrar(), body.mesh.mesh);
   }
   const Stopwatch watch(times.landmarks);
-  body.measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, *body.model,
-                                            landmarks::shipped_precision());
+  body.measures = measures_of(body);
   return body;
 }
 

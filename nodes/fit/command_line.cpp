@@ -67,7 +67,11 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
   std::vector<std::string> ratios;
   std::string band, gravity, volume = "control", solver = to_string(line.settings.solver.solver);
 
-  auto* scan = app.add_option("--scan", line.scan, "Scan: FILE.ply, .pcd or .bag, metres");
+  auto* scan =
+      app.add_option(
+             "--scan", line.scans,
+             "Scan: FILE.ply, .pcd or .bag, metres; may be repeated: parts of one person, in one frame")
+          ->allow_extra_args(false);
   auto* mesh = app.add_option("--mesh", line.mesh, "Body mesh BODY.ply, taken as it is instead of a scan");
   auto* garment =
       app.add_option("--garment", line.garment, "Shipped garment (B1 ...) or FILE.yaml; none: measure only");
@@ -133,7 +137,7 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
     for (const CLI::Option* option : app.get_options())
       for (const std::string& value : option->results())
         if (value.empty()) throw CLI::ValidationError(option->get_name(), "is empty");
-    if (line.scan.empty() && line.mesh.empty()) throw CLI::RequiredError("--scan or --mesh");
+    if (line.scans.empty() && line.mesh.empty()) throw CLI::RequiredError("--scan or --mesh");
     for (const std::string& text : ratios) line.ratios.push_back(ratio_from(text));
     if (!band.empty()) line.band = band_from(band);
     if (!gravity.empty() && line.garment.empty() && !line.is_shape())

@@ -18,7 +18,8 @@ struct RatioRequest {
 };
 
 struct CommandLine {
-  std::string scan, mesh, garment, templates, tissue, control, fixed, out = "fit_out";
+  std::vector<std::string> scans;  ///< of one person, in one frame
+  std::string mesh, garment, templates, tissue, control, fixed, out = "fit_out";
   std::vector<RatioRequest> ratios;
   std::optional<tensegric::TensionLaw> band;
   geometry::Posture posture;

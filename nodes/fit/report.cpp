@@ -30,12 +30,9 @@ Json json_of(const Eigen::Isometry3d& pose) {
 
 Json stages_of(const StageTimes& times) {
   const auto ms = [](double value) { return Json{{"ms", value}}; };
-  return {{"reconstruction", ms(times.reconstruction)},
-          {"body_model", ms(times.body_model)},
-          {"landmarks", ms(times.landmarks)},
-          {"control_mesh", ms(times.control_mesh)},
-          {"tensegric", ms(times.tensegric)},
-          {"tffd", ms(times.tffd)}};
+  return {{"reconstruction", ms(times.reconstruction)}, {"body_model", ms(times.body_model)},
+          {"landmarks", ms(times.landmarks)},           {"control_mesh", ms(times.control_mesh)},
+          {"tensegric", ms(times.tensegric)},           {"tffd", ms(times.tffd)}};
 }
 
 Json model_of(const body_model::RegisteredBody& body) {
@@ -45,6 +42,10 @@ Json model_of(const body_model::RegisteredBody& body) {
   for (std::size_t g = 0; g < groups.size(); ++g) pose[groups[g].name] = json_of(kDegrees * turns[g]);
   const double up = std::atan2(body.vertical.head<2>().norm(), body.vertical.z());
   return {{"residual", body.residual},
+          {"misfit", body.evidence.misfit},
+          {"unexplained", body.evidence.unexplained},
+          {"shape_deviation", body.evidence.shape},
+          {"note", body.note},
           {"stature", body.stature()},
           {"shape", std::vector<double>(body.parameters.shape.begin(), body.parameters.shape.end())},
           {"pose", std::move(pose)},
@@ -128,6 +129,7 @@ Json report_of(const Source& source, const Body& body, const Fitting* fitting, c
                const Settings& settings, const StageTimes& times) {
   Json report;
   report["scan"] = {{"file", source.file},
+                    {"more_files", source.more},
                     {"points", source.points},
                     {"points_used", body.mesh.points_used},
                     {"body_from_scan", json_of(body.measures.body_from_scan)}};
@@ -148,13 +150,20 @@ Json report_of(const Source& source, const Body& body, const Fitting* fitting, c
                                            {"area", fracture.area},
                                            {"offset", fracture.offset}});
   if (body.model) report["body_model"] = model_of(*body.model);
+  report["unexplained"] = Json::array();
+  if (body.model)
+    for (const body_model::Unexplained& thing : body.model->unexplained)
+      report["unexplained"].push_back({{"centre", json_of(thing.centre)},
+                                       {"extent", thing.extent},
+                                       {"share", thing.share},
+                                       {"reason", thing.reason}});
   add_measures(body.measures, report);
   if (fit != nullptr) add_fit(body, *fitting, *fit, settings, times, report);
   return report;
 }
 
 Json report_of(const Source& source, const geometry::Refusal& refusal) {
-  return {{"scan", {{"file", source.file}, {"points", source.points}}},
+  return {{"scan", {{"file", source.file}, {"more_files", source.more}, {"points", source.points}}},
           {"status", "refused"},
           {"reason", {{"code", refusal.code()}, {"message", refusal.what()}}}};
 }

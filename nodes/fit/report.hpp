@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fit/chain.hpp"
 #include "geometry/status.hpp"
@@ -14,6 +15,7 @@ namespace tensegric_fit::fit {
 struct Source {
   std::string file;
   std::size_t points = 0;
+  std::vector<std::string> more = {};  ///< further files of the same scan
 };
 
 /// Body vertices whose area shrinks below this share are called over-constricted (P1 Fig. 8).

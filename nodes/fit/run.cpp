@@ -84,9 +84,12 @@ class Run {
           line_.is_shape() ? take_mesh(std::move(mesh)) : measure_mesh(std::move(mesh), settings_, times_);
       return;
     }
-    source_.file = line_.scan;
+    source_.file = line_.scans.front();
+    source_.more.assign(line_.scans.begin() + 1, line_.scans.end());
     say("reading the scan");
-    const geometry::PointCloud scan = geometry::points_of(booth::read_scan(line_.scan));
+    std::vector<geometry::PointCloud> parts;
+    for (const std::string& file : line_.scans) parts.push_back(geometry::points_of(booth::read_scan(file)));
+    const geometry::PointCloud scan = geometry::joined(parts);
     source_.points = scan.points.size();
     say("reconstruction, landmarks");
     body_ = measure_scan(scan, settings_, times_);
@@ -186,9 +189,9 @@ class Run {
 }  // namespace
 
 int run(const CommandLine& line) {
-  if (const std::string* input =
-          endangered_input({&line.scan, &line.mesh, &line.garment, &line.tissue, &line.control, &line.fixed},
-                           line.out, kResults)) {
+  std::vector<const std::string*> inputs{&line.mesh, &line.garment, &line.tissue, &line.control, &line.fixed};
+  for (const std::string& file : line.scans) inputs.push_back(&file);
+  if (const std::string* input = endangered_input(inputs, line.out, kResults)) {
     fmt::print(stderr, "--out: the results would overwrite the input {}\n", *input);
     return 2;
   }

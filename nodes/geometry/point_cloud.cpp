@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <optional>
+#include <string>
 
 #include "geometry/status.hpp"
 
@@ -110,6 +111,28 @@ PointCloud points_of(const pcl::PCLPointCloud2& cloud) {
   result.points = triples(cloud, *xyz);
   if (normals) result.normals = triples(cloud, *normals);
   if (const Field* sensor = find_sensor(cloud)) result.sensor = bytes(cloud, *sensor);
+  return result;
+}
+
+PointCloud joined(const std::vector<PointCloud>& clouds) {
+  if (clouds.size() == 1) return clouds.front();
+  const auto any = [&](const auto& has) { return std::any_of(clouds.begin(), clouds.end(), has); };
+  const bool normals = any([](const PointCloud& c) { return !c.normals.empty(); });
+  const bool sensors = any([](const PointCloud& c) { return !c.sensor.empty(); });
+  PointCloud result;
+  int first = 0;  // number of the next cloud's sensor 0
+  for (const PointCloud& cloud : clouds) {
+    if (cloud.points.empty())
+      throw Refusal(refusal::kEmptyCloud,
+                    "one of the " + std::to_string(clouds.size()) + " scans has no points");
+    result.points.insert(result.points.end(), cloud.points.begin(), cloud.points.end());
+    result.normals.insert(result.normals.end(), cloud.normals.begin(), cloud.normals.end());
+    if (normals) result.normals.resize(result.points.size(), Eigen::Vector3d::Zero());
+    for (const int sensor : cloud.sensor) result.sensor.push_back(sensor < 0 ? sensor : first + sensor);
+    if (sensors) result.sensor.resize(result.points.size(), -1);
+    if (!cloud.sensor.empty())
+      first += 1 + std::max(-1, *std::max_element(cloud.sensor.begin(), cloud.sensor.end()));
+  }
   return result;
 }
 

@@ -61,21 +61,25 @@ std::vector<int> without_stray(const Points& points) {
   return kept;
 }
 
+std::vector<std::vector<int>> things_in(const Points& points) {
+  const VoxelGrid grid(points, kLink);
+  const std::vector<int> cluster = clusters_of(grid);
+  std::vector<std::vector<int>> things(*std::max_element(cluster.begin(), cluster.end()) + 1);
+  std::vector<int> of_point(points.size());
+  for (int c = 0; c < grid.cell_count(); ++c)
+    for (int i = grid.begin(c); i < grid.end(c); ++i) of_point[grid.order()[i]] = cluster[c];
+  for (std::size_t i = 0; i < points.size(); ++i) things[of_point[i]].push_back(static_cast<int>(i));
+  std::stable_sort(things.begin(), things.end(),
+                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  return things;
+}
+
 std::vector<int> body_points(const Points& points) {
   if (points.empty()) return {};
   const std::vector<int> dense = without_stray(points);
   if (dense.empty()) return {};
-  const VoxelGrid grid(points_at(points, dense), kLink);
-  const std::vector<int> cluster = clusters_of(grid);
-  std::vector<int> size(*std::max_element(cluster.begin(), cluster.end()) + 1), of_point(dense.size());
-  for (int c = 0; c < grid.cell_count(); ++c) {
-    size[cluster[c]] += grid.end(c) - grid.begin(c);
-    for (int i = grid.begin(c); i < grid.end(c); ++i) of_point[grid.order()[i]] = cluster[c];
-  }
-  const int largest = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
-  std::vector<int> body;
-  for (std::size_t i = 0; i < dense.size(); ++i)
-    if (of_point[i] == largest) body.push_back(dense[i]);
+  std::vector<int> body = things_in(points_at(points, dense)).front();
+  for (int& i : body) i = dense[i];
   return body;
 }
 

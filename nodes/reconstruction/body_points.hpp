@@ -10,6 +10,10 @@ namespace tensegric_fit::reconstruction {
 /// point's does; spatially ordered. \pre not empty, finite points within a few metres
 std::vector<int> without_stray(const std::vector<Eigen::Vector3d>& points);
 
+/// Things that are some centimetres apart: indices of the points of each, those with the most points first.
+/// \pre not empty, finite points within a few metres
+std::vector<std::vector<int>> things_in(const std::vector<Eigen::Vector3d>& points);
+
 /// Indices of the largest thing in the scan, without stray points; spatially ordered, so that neighbours lie
 /// close in memory too. \pre finite points within a few metres, floor removed
 std::vector<int> body_points(const std::vector<Eigen::Vector3d>& points);

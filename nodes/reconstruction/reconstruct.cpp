@@ -6,11 +6,13 @@
 #include <future>
 
 #include "geometry/decimate.hpp"
+#include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
 #include "reconstruction/body_points.hpp"
 #include "reconstruction/floor.hpp"
 #include "reconstruction/fractures.hpp"
 #include "reconstruction/handles.hpp"
+#include "reconstruction/left_out.hpp"
 #include "reconstruction/mending.hpp"
 #include "reconstruction/normals.hpp"
 #include "reconstruction/pixel_columns.hpp"
@@ -77,6 +79,16 @@ PointCloud without_surplus(PointCloud scan, const Options& options) {
   return scan;
 }
 
+/// The indices from 0 to `count` - 1 that are not among those given.
+std::vector<int> all_but(const std::vector<int>& indices, std::size_t count) {
+  std::vector<char> given(count, 0);
+  for (const int i : indices) given[i] = 1;
+  std::vector<int> others;
+  for (std::size_t i = 0; i < count; ++i)
+    if (!given[i]) others.push_back(static_cast<int>(i));
+  return others;
+}
+
 double lowest_of(const std::vector<Eigen::Vector3d>& points) {
   return geometry::bounding_box(points)[0].z();
 }
@@ -95,8 +107,10 @@ double cell_width(const std::vector<Eigen::Vector3d>& points, int depth) {
   return std::ldexp(kRoom * (box[1] - box[0]).maxCoeff(), -depth);
 }
 
-/// The body's points, upright, the ground under the soles at z = 0; `from_scan` takes the scan to them.
-PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometry3d& from_scan, bool& on_floor) {
+/// The body's points, upright, the ground under the soles at z = 0; `from_scan` takes the scan to them. `left_out`: points
+/// above the ground that are not taken for hers.
+PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometry3d& from_scan, bool& on_floor,
+                         PointCloud& left_out) {
   const std::optional<Floor> floor = find_floor(pick(scan, without_stray(scan.points)).points);
   const Eigen::Vector3d middle = geometry::bounding_box(scan.points)[0];
   from_scan = floor ? level(floor->normal, floor->offset, middle)
@@ -109,7 +123,9 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
       if (scan.points[i].z() > cut) above.push_back(static_cast<int>(i));
     scan = pick(scan, above);
   }
-  PointCloud body = pick(scan, body_points(scan.points));
+  const std::vector<int> hers = body_points(scan.points);
+  PointCloud body = pick(scan, hers);
+  left_out = pick(scan, all_but(hers, scan.points.size()));
   const std::vector<int> on_surface = surface_points(body.points);
   if (on_surface.size() < body.points.size()) {
     body = pick(body, on_surface);
@@ -120,6 +136,7 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
   if (!on_floor) {
     const Eigen::Isometry3d down(Eigen::Translation3d(0, 0, -lowest_of(body.points)));
     transform(body, down);
+    transform(left_out, down);
     from_scan = down * from_scan;
   }
   return body;
@@ -128,6 +145,7 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
 /// What a scan shows of a person.
 struct Person {
   PointCloud cloud;                           ///< with outward normals, upright, the ground under the soles at z = 0
+  PointCloud left_out;                        ///< points beside her, in the cloud's frame
   Eigen::Isometry3d from_scan;                ///< takes the scan to the cloud's frame
   bool on_floor;                              ///< the floor was seen: z = 0 is it
   std::vector<geometry::Fracture> fractures;  ///< scan frame; mended in the cloud where it is known who saw what
@@ -139,7 +157,7 @@ Person find_person(const PointCloud& scan, const Options& options) {
   // sensor where the others see them.
   Person person;
   PointCloud& body = person.cloud;
-  body = standing_body(without_surplus(usable_points(scan, options), options), options, person.from_scan, person.on_floor);
+  body = standing_body(without_surplus(usable_points(scan, options), options), options, person.from_scan, person.on_floor, person.left_out);
   const Sightings sightings =
       body.sensor.empty() ? sightings_of(body.points) : Sightings{std::move(body.sensor), {}};
   body.sensor.clear();
@@ -164,6 +182,36 @@ body_model::Samples samples_of(const PointCloud& cloud) {
     samples.normals.push_back(means.normals[i]);
   }
   return samples;
+}
+
+constexpr std::size_t kFewest = 20;  // points; fewer show no limb
+constexpr int kRounds = 3;           // each finds the limb a little farther out
+
+/// Takes in what was left out of her limbs; whether there was anything.
+bool take_limbs(Person& person, const RegisteredBody& model) {
+  const std::vector<int> limbs = points_of_limbs(person.left_out.points, model);
+  if (limbs.size() < kFewest) return false;
+  const std::vector<Eigen::Vector3d> skin_normals =
+      geometry::vertex_normals(model.skin, model.model->triangles);
+  const geometry::PointTree skin(model.skin);
+  for (const int i : limbs) {
+    person.cloud.points.push_back(person.left_out.points[i]);
+    person.cloud.normals.push_back(skin_normals[skin.nearest(person.left_out.points[i])]);
+  }
+  person.cloud.normals = outward_normals(person.cloud.points, person.cloud.normals);
+  person.left_out = pick(person.left_out, all_but(limbs, person.left_out.points.size()));
+  return true;
+}
+
+/// The model on her, with limbs whose points are sparse.
+RegisteredBody registered(Person& person, const Anatomy& anatomy) {
+  RegisteredBody model = anatomy.registered(samples_of(person.cloud));
+  for (int round = 0; round < kRounds && take_limbs(person, model); ++round)
+    model = anatomy.registered(samples_of(person.cloud));
+  for (body_model::Unexplained& thing :
+       things_beside(person.left_out.points, model, person.cloud.points.size()))
+    model.unexplained.push_back(std::move(thing));
+  return model;
 }
 
 /// Up and the ground, now that it is known where her feet are.
@@ -212,7 +260,7 @@ BodyMesh surface_of(const Person& person, const Options& options, const Register
 
 Reconstruction reconstruct(const PointCloud& scan, const Options& options, const Anatomy& anatomy) {
   Person person = find_person(scan, options);
-  RegisteredBody model = anatomy.registered(samples_of(person.cloud));
+  RegisteredBody model = registered(person, anatomy);
   stand(person, model, anatomy.standing);
   Reconstruction result{surface_of(person, options, model), moved(model, person.from_scan.inverse())};
   return result;

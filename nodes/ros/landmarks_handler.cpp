@@ -2,6 +2,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "body_model/recognition.hpp"
 #include "body_model/registration.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/model_message.hpp"
@@ -49,11 +50,14 @@ LandmarksHandler::Output LandmarksHandler::handle(const Input& input) const {
   const body_model::RegisteredBody model = registered(output.mesh, std::get<1>(input));
   output.measures =
       landmarks::find_landmarks(output.mesh, filled_in(message), model, landmarks::shipped_precision());
+  for (geometry::Missing& part : body_model::missing_parts(model))
+    output.measures.missing.push_back(std::move(part));
   geometry::doubt_fractured(fractures_in(message), output.measures);
   output.landmarks = boost::make_shared<Landmarks>(to_message(tag_in(message), output.measures));
   output.body_frame = transform_to(body_frame_, message.header, output.measures.body_from_scan);
   output.facts = {{"landmarks", std::to_string(output.measures.landmarks.size())},
-                  {"body_model", std::get<1>(input) ? "came with the mesh" : "registered to the mesh"}};
+                  {"body_model", std::get<1>(input) ? "came with the mesh" : "registered to the mesh"},
+                  {"missing", std::to_string(output.measures.missing.size())}};
   return output;
 }
 

@@ -22,6 +22,12 @@ Hole to_message(const reconstruction::Hole& hole) {
   return message;
 }
 
+std::string words(const std::vector<body_model::Unexplained>& things) {
+  std::string text;
+  for (const body_model::Unexplained& thing : things) text += (text.empty() ? "" : "; ") + thing.reason;
+  return text;
+}
+
 }  // namespace
 
 reconstruction::Options reconstruction_options(Parameters& parameters) {
@@ -67,7 +73,9 @@ ReconstructionHandler::Output ReconstructionHandler::handle(const sensor_msgs::P
            {"triangles", std::to_string(body.mesh.triangles.size())},
            {"holes_closed", std::to_string(body.holes.size())},
            {"fractures", std::to_string(body.fractures.size())},
-           {"model_residual_mm", fmt::format("{:.2f}", 1e3 * result->model.residual)}}};
+           {"model_residual_mm", fmt::format("{:.2f}", 1e3 * result->model.residual)},
+           {"unexplained", words(result->model.unexplained)},
+           {"note", result->model.note}}};
 }
 
 }  // namespace tensegric_fit::node

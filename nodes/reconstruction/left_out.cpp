@@ -1,0 +1,72 @@
+#include "reconstruction/left_out.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "geometry/point_tree.hpp"
+#include "geometry/triangle_mesh.hpp"
+#include "reconstruction/body_points.hpp"
+
+namespace tensegric_fit::reconstruction {
+namespace {
+
+using Eigen::Vector3d;
+using Points = std::vector<Vector3d>;
+
+constexpr double kBare = 0.03;  // m of RegisteredBody::support: no points round that skin
+constexpr double kLimb = 0.04;  // m from the model's skin: half a forearm's breadth
+constexpr int kCompany = 5;  // points, of which one lies within kLimb / 2 of the next: single ones are stray
+constexpr double kBeside = 0.3;  // m; farther things are the booth's
+constexpr double kSmall = 0.005,
+                 kLarge = 0.25;     // of the body's points: less is stray; more is named wherever it is
+constexpr std::size_t kNamed = 10;  // things that are named at most
+
+}  // namespace
+
+std::vector<int> points_of_limbs(const Points& left_out, const body_model::RegisteredBody& body) {
+  if (left_out.empty()) return {};
+  const geometry::PointTree skin(body.skin), others(left_out);
+  std::vector<int> near, result;
+  for (std::size_t i = 0; i < left_out.size(); ++i) {
+    const int v = skin.nearest(left_out[i]);
+    if (body.support[v] < kBare || (body.skin[v] - left_out[i]).norm() > kLimb) continue;
+    others.nearest(left_out[i], kCompany, near);
+    if (near.size() == kCompany && (left_out[near.back()] - left_out[i]).norm() < kLimb / 2)
+      result.push_back(static_cast<int>(i));
+  }
+  return result;
+}
+
+std::vector<body_model::Unexplained> things_beside(const Points& left_out,
+                                                   const body_model::RegisteredBody& body,
+                                                   std::size_t body_points) {
+  std::vector<body_model::Unexplained> things;
+  if (left_out.empty()) return things;
+  const geometry::PointTree skin(body.skin);
+  for (const std::vector<int>& thing : things_in(left_out)) {
+    const double share = static_cast<double>(thing.size()) / static_cast<double>(body_points);
+    if (share < kSmall || things.size() == kNamed) break;
+    Points points;
+    for (const int i : thing) points.push_back(left_out[i]);
+    Vector3d centre = Vector3d::Zero();
+    double nearest = 1e9;
+    const char* part = "";
+    for (const Vector3d& p : points) {
+      centre += p / static_cast<double>(points.size());
+      const int v = skin.nearest(p);
+      if ((body.skin[v] - p).norm() >= nearest) continue;
+      nearest = (body.skin[v] - p).norm();
+      part = body.model->parts[body.model->part[v]].c_str();
+    }
+    if (nearest > kBeside && share < kLarge) continue;
+    const auto box = geometry::bounding_box(points);
+    things.push_back(
+        {centre, (box[1] - box[0]).norm(), share,
+         fmt::format("left out: {} points as a thing of its own, {:.0f} mm across, {:.0f} mm from {}",
+                     points.size(), 1e3 * (box[1] - box[0]).norm(), 1e3 * nearest, part)});
+  }
+  return things;
+}
+
+}  // namespace tensegric_fit::reconstruction
