@@ -10,7 +10,7 @@ namespace {
 constexpr int kMargin = 190;  // pixels
 constexpr int kRow = 16;
 constexpr int kBeside = 8;        // between a name and its line
-constexpr double kMiddle = 0.12;  // of the width; what is so near the middle can be named on either side
+constexpr double kMiddle = 0.02;  // of the width; what is so near the middle can be named on either side
 constexpr double kSize = 0.42;    // of the font
 const cv::Scalar kLeader(165, 165, 165);
 
