@@ -87,7 +87,7 @@ TEST_F(Strangers, ACoatIsRefused) {
   expect_refused(thicker(body,
                          [&](std::size_t v) {
                            const double z = (truth_->truth.body_from_scan * body.vertices[v]).z();
-                           return 0.025 * std::clamp(std::min(z - low, high - z) / 0.04, 0.0, 1.0);
+                           return 0.018 * std::clamp(std::min(z - low, high - z) / 0.04, 0.0, 1.0);
                          }),
                  "coat_on");
 }

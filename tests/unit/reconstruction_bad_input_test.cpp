@@ -6,12 +6,13 @@
 #include <ctime>
 #include <functional>
 #include <random>
+#include <set>
 
-#include "booth/virtual_body.hpp"
+#include "body_model/recognition.hpp"
+#include "booth/model_body.hpp"
 #include "booth/virtual_scanner.hpp"
 #include "geometry/status.hpp"
-#include "landmarks/find_landmarks.hpp"
-#include "reconstruction/reconstruct.hpp"
+#include "measured_body.hpp"
 
 namespace {
 
@@ -24,9 +25,10 @@ constexpr double kLargeGirth = 0.009, kHeight = 0.004;  // ISO 20685
 /// A woman who holds her arms out, so that a cut takes them off; she faces x.
 const booth::VirtualBody& woman() {
   static const booth::VirtualBody body = [] {
-    booth::BodyParameters parameters;
-    parameters.arm_angle = 1.35;
-    return booth::make_body(parameters);
+    booth::ModelBodyParameters parameters;
+    parameters.arms = {1.05, 1.05};
+    parameters.elbows = {0, 0};
+    return booth::make_body(booth::shipped_model(), parameters);
   }();
   return body;
 }
@@ -66,6 +68,7 @@ double girth_of(const geometry::BodyMeasures& measures, const std::string& name)
 struct Outcome {
   std::string refusal;
   geometry::BodyMeasures measures;
+  std::set<std::string> missing;  ///< parts of the body
 };
 
 Outcome measure(const Points& points) {
@@ -73,10 +76,13 @@ Outcome measure(const Points& points) {
   options.body_triangles = 20000;
   options.poisson_depth = 7;
   try {
-    const reconstruction::BodyMesh body = reconstruction::reconstruct({points, {}}, options);
-    return {"", landmarks::find_landmarks(body.mesh, body.filled, {})};
+    const reconstruction::Reconstruction scanned = test::reconstructed({points, {}}, options);
+    Outcome outcome{"", test::measured(scanned), {}};
+    for (const geometry::Missing& part : body_model::missing_parts(scanned.model))
+      outcome.missing.insert(part.name);
+    return outcome;
   } catch (const geometry::Refusal& refusal) {
-    return {refusal.code(), {}};
+    return {refusal.code(), {}, {}};
   }
 }
 
@@ -92,11 +98,25 @@ TEST(ReconstructionBadInput, AWholeBodyIsMeasured) {
   expect_measured_right(scan());
 }
 
-TEST(ReconstructionBadInput, PartsOfABodyAreRefused) {
+TEST(ReconstructionBadInput, OfPartsOfABodyTheRestIsNamed) {
   const Points body = body_alone();
-  EXPECT_EQ(measure(kept(body, [](const Vector3d& p) { return p.y() > 0; })).refusal, "not_a_body");
-  EXPECT_EQ(measure(kept(body, [](const Vector3d& p) { return p.z() > 0.95; })).refusal, "not_a_body");
-  EXPECT_EQ(measure(kept(body, [](const Vector3d& p) { return p.z() < 0.75; })).refusal, "not_a_body");
+  const auto expect_missing = [&](const char* what, const std::function<bool(const Vector3d&)>& keep,
+                                  const std::vector<std::string>& parts) {
+    const Outcome outcome = measure(kept(body, keep));
+    if (outcome.refusal == "not_a_body") return;
+    EXPECT_EQ(outcome.refusal, "") << what;
+    for (const std::string& part : parts) EXPECT_EQ(outcome.missing.count(part), 1u) << what << ": " << part;
+  };
+  expect_missing("left half", [](const Vector3d& p) { return p.y() > 0; },
+                 {"upper_arm_R", "forearm_R", "thigh_R", "shank_R"});
+  expect_missing("upper half", [](const Vector3d& p) { return p.z() > 0.95; },
+                 {"thigh_L", "thigh_R", "shank_L", "shank_R", "foot_L", "foot_R"});
+  expect_missing("legs", [](const Vector3d& p) { return p.z() < 0.75; },
+                 {"head", "trunk", "upper_arm_L", "upper_arm_R"});
+}
+
+TEST(ReconstructionBadInput, AWholeBodyLacksNothing) {
+  EXPECT_TRUE(measure(body_alone()).missing.empty());
 }
 
 TEST(ReconstructionBadInput, ABodyThatDoesNotStandIsRefused) {
