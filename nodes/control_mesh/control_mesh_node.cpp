@@ -1,4 +1,4 @@
-/// body/mesh + body/landmarks, and body/model where templates lie on it -> control/mesh
+/// body/mesh + body/landmarks + body/model -> control/mesh
 #include "inspect/markers.hpp"
 #include "ros/control_mesh_handler.hpp"
 #include "ros/display.hpp"
@@ -16,8 +16,7 @@ class ControlMeshNode {
         display_(private_node),
         stage_("control_mesh", node) {
     const ros::TransportHints prompt = ros::TransportHints().tcpNoDelay();
-    if (handler_.needs_model())
-      model_ = node.subscribe("body/model", 2, &ControlMeshNode::on_model, this, prompt);
+    model_ = node.subscribe("body/model", 2, &ControlMeshNode::on_model, this, prompt);
     mesh_ = node.subscribe("body/mesh", 2, &ControlMeshNode::on_mesh, this, prompt);
     landmarks_ = node.subscribe("body/landmarks", 2, &ControlMeshNode::on_landmarks, this, prompt);
   }

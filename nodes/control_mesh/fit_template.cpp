@@ -1,8 +1,10 @@
 #include "control_mesh/fit_template.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
+#include "body_model/parts.hpp"
 #include "control_mesh/grid.hpp"
 #include "control_mesh/inner_nodes.hpp"
 #include "control_mesh/match_skin.hpp"
@@ -46,12 +48,14 @@ std::vector<char> inside_rim(const geometry::ControlMesh& control) {
   return inside;
 }
 
-/// Nodes that the template leaves to be spread between others.
-std::vector<char> spreadable(const Template& pattern, const geometry::ControlMesh& control) {
+/// Nodes that the template leaves to be spread between others: those that it does not name.
+std::vector<char> spreadable(const Template& pattern, const geometry::ControlMesh& control, Layout layout) {
   std::vector<char> may_move = inside_rim(control);
   for (const Side side : {Side::left, Side::right})
     for (const TemplateNode& node : pattern.nodes)
-      may_move[node_at(pattern, node.row, node.column, side)] = 0;
+      if (!node.name.empty() || node.placing != TemplateNode::Placing::between_others ||
+          (layout == Layout::on_model && !node.or_on_model.empty()))
+        may_move[node_at(pattern, node.row, node.column, side)] = 0;
   return may_move;
 }
 
@@ -65,20 +69,29 @@ std::vector<char> liftable(const Template& pattern, const geometry::ControlMesh&
   return may_move;
 }
 
-std::vector<std::vector<int>> grid_neighbours(const Template& pattern) {
-  std::vector<std::vector<int>> around;
+/// All nodes but those at landmarks.
+std::vector<Slide> slidable(const Template& pattern, const geometry::ControlMesh& control) {
+  std::vector<Slide> slides(control.outer.size(), Slide::either_way);
+  for (int row = 0; row < pattern.rows; ++row)
+    if (const int node = node_at(pattern, row, pattern.middle(), Side::left); node >= 0)
+      slides[node] = Slide::along_column;
+  for (const Side side : {Side::left, Side::right})
+    for (const TemplateNode& node : pattern.nodes)
+      if (node.placing == TemplateNode::Placing::at_landmark)
+        slides[node_at(pattern, node.row, node.column, side)] = Slide::none;
+  return slides;
+}
+
+std::vector<GridNeighbours> grid_neighbours(const Template& pattern) {
+  std::vector<GridNeighbours> around;
   for (int row = 0; row < pattern.rows; ++row)
     for (int column = 0; column < pattern.columns; ++column) {
       const int place = row * pattern.columns + column;
       if (pattern.numbers[place] < 0) continue;
-      around.emplace_back();
-      const auto add = [&](bool inside, int neighbour) {
-        if (inside && pattern.numbers[neighbour] >= 0) around.back().push_back(pattern.numbers[neighbour]);
-      };
-      add(row > 0, place - pattern.columns);
-      add(row + 1 < pattern.rows, place + pattern.columns);
-      add(column > 0, place - 1);
-      add(column + 1 < pattern.columns, place + 1);
+      const auto at = [&](bool inside, int neighbour) { return inside ? pattern.numbers[neighbour] : -1; };
+      around.push_back({at(row > 0, place - pattern.columns),
+                        at(row + 1 < pattern.rows, place + pattern.columns), at(column > 0, place - 1),
+                        at(column + 1 < pattern.columns, place + 1)});
     }
   return around;
 }
@@ -105,6 +118,66 @@ void add_lines(const Template& pattern, geometry::ControlMesh& control) {
   }
 }
 
+/// Arms hide the trunk from rays and lie against its skin: what of them hangs below the armpits is left out.
+geometry::TriangleMesh without_arms(const geometry::TriangleMesh& body,
+                                    const body_model::RegisteredBody& model,
+                                    const geometry::BodyMeasures& measures) {
+  double armpits = std::numeric_limits<double>::infinity();
+  for (const char* name : {"axilla_L", "axilla_R"})
+    if (const geometry::Landmark* axilla = measures.find_landmark(name))
+      armpits = std::min(armpits, (measures.body_from_scan * axilla->position).z());
+  const std::vector<unsigned char> parts = body_model::parts_of(body, model);
+  const std::vector<std::string>& names = model.model->parts;
+  const auto is_arm = [&](int v) {
+    if (parts[v] == body_model::kUnknownPart || (measures.body_from_scan * body.vertices[v]).z() > armpits)
+      return false;
+    const std::string& name = names[parts[v]];
+    return name.rfind("upper_arm", 0) == 0 || name.rfind("forearm", 0) == 0 || name.rfind("hand", 0) == 0;
+  };
+  std::vector<char> keep;
+  for (const Eigen::Vector3i& t : body.triangles)
+    keep.push_back(!is_arm(t[0]) && !is_arm(t[1]) && !is_arm(t[2]));
+  const bool any = std::find(keep.begin(), keep.end(), 1) != keep.end();
+  return any ? geometry::submesh(body, keep) : body;
+}
+
+geometry::ControlMesh lay(const Template& pattern, const geometry::BodyMeasures& measures, const Skin& skin,
+                          const ModelSurface* model, Layout layout) {
+  geometry::ControlMesh laid = grid_of(pattern);
+  laid.outer = place_nodes(pattern, measures, skin, layout, model);
+  face_outward(laid, trunk_axis(pattern, measures));
+  const auto around = grid_neighbours(pattern);
+  relax_on_skin(laid, spreadable(pattern, laid, layout), around, skin);
+  turn_back(laid, slidable(pattern, laid), around, skin);
+  return laid;
+}
+
+/// As the template draws it, unless a triangle is turned or a landmark missing and another layout does
+/// better.
+geometry::ControlMesh laid_best(const Template& pattern, const geometry::BodyMeasures& measures,
+                                const Skin& skin, const ModelSurface* model) {
+  std::optional<geometry::ControlMesh> best;
+  std::optional<Refusal> refused;
+  int least = 0;
+  for (const Layout layout : {Layout::as_drawn, Layout::over_folds, Layout::on_model}) {
+    // A valley between breasts is no fold to be stepped over; without its landmarks neither way goes.
+    if (layout == Layout::over_folds && !best) continue;
+    if (layout == Layout::on_model && !(model && pattern.may_use_model())) continue;
+    try {
+      geometry::ControlMesh laid = lay(pattern, measures, skin, model, layout);
+      const int turned = count_turned(laid, skin);
+      if (best && turned >= least) continue;
+      best = std::move(laid);
+      least = turned;
+    } catch (const Refusal& refusal) {
+      if (!refused) refused = refusal;
+    }
+    if (best && least == 0) break;
+  }
+  if (!best) throw *refused;
+  return *best;
+}
+
 }  // namespace
 
 geometry::ControlMesh fit_template(const Template& pattern, const geometry::TriangleMesh& body,
@@ -127,22 +200,13 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
                       "or use a template that places its nodes by level and angle");
 
   // 1. Outer nodes on the skin, evenly spread between those that the template places.
-  const Skin skin(in_body_frame(body, measures.body_from_scan));
+  const Skin skin(
+      in_body_frame(model ? without_arms(body, *model, measures) : body, measures.body_from_scan));
   std::optional<ModelSurface> model_surface;
-  if (pattern.needs_model()) model_surface.emplace(*model, measures.body_from_scan);
-  const auto lay = [&](bool over_folds) {
-    geometry::ControlMesh laid = grid_of(pattern);
-    laid.outer = place_nodes(pattern, measures, skin, over_folds, model_surface ? &*model_surface : nullptr);
-    face_outward(laid, trunk_axis(pattern, measures));
-    const std::vector<char> may_move = spreadable(pattern, laid);
-    const auto around = grid_neighbours(pattern);
-    relax_on_skin(laid, may_move, around, skin);
-    turn_back(laid, may_move, around, skin);
-    return laid;
-  };
-  geometry::ControlMesh control = lay(false);  // a valley between breasts is no fold to be stepped over
-  if (const int turned = count_turned(control, skin); turned > 0)
-    if (auto over = lay(true); count_turned(over, skin) < turned) control = std::move(over);
+  if (model && (pattern.needs_model() || pattern.may_use_model()))
+    model_surface.emplace(*model, measures.body_from_scan);
+  geometry::ControlMesh control =
+      laid_best(pattern, measures, skin, model_surface ? &*model_surface : nullptr);
 
   // 2. Inner nodes below them, and constraining lines over them.
   std::vector<double> thickness = thickness_of(pattern, control.outer.size());

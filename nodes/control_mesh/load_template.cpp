@@ -55,8 +55,12 @@ std::vector<std::string> axis_from(const YAML::Node& map, const std::string& whe
 }
 
 /// [[vertex or name, share], ...]; shares are brought to the sum 1 exactly.
-std::vector<ModelPoint> model_points_from(const YAML::Node& list, const std::string& where) {
-  const auto refuse = [&](const std::string& what) { throw Refusal(kCode, where + ": 'on_model' " + what); };
+std::vector<ModelPoint> model_points_from(const YAML::Node& node, const std::string& key,
+                                          const std::string& where) {
+  const YAML::Node list = node[key];
+  const auto refuse = [&](const std::string& what) {
+    throw Refusal(kCode, where + ": '" + key + "' " + what);
+  };
   if (!list.IsSequence() || list.size() == 0)
     refuse("must be a list of pairs, each a vertex number or the name of a skin point, and its share");
   std::vector<ModelPoint> points;
@@ -87,7 +91,8 @@ std::vector<ModelPoint> model_points_from(const YAML::Node& list, const std::str
 }
 
 TemplateNode node_from(const YAML::Node& map, const Template& pattern, const std::string& where) {
-  check_keys(map, {"row", "column", "name", "landmark", "level", "angle", "axis", "on_model"}, where, kCode);
+  check_keys(map, {"row", "column", "name", "landmark", "level", "angle", "axis", "on_model", "or_on_model"},
+             where, kCode);
   TemplateNode node;
   node.row = whole_number(map, "row", 0, pattern.rows - 1, where);
   node.column = whole_number(map, "column", 0, pattern.middle(), where);
@@ -97,9 +102,9 @@ TemplateNode node_from(const YAML::Node& map, const Template& pattern, const std
     throw Refusal(kCode, where + ": 'name' must end in _L, and on the middle column must not");
   if (map["on_model"]) {
     node.placing = TemplateNode::Placing::on_model;
-    node.on_model = model_points_from(map["on_model"], where);
-    if (map["landmark"] || map["level"] || map["angle"])
-      throw Refusal(kCode, where + ": 'on_model' excludes 'landmark', 'level' and 'angle'");
+    node.on_model = model_points_from(map, "on_model", where);
+    for (const char* other : {"landmark", "level", "angle", "or_on_model"})
+      if (map[other]) throw Refusal(kCode, where + ": 'on_model' excludes '" + other + "'");
   } else if (map["landmark"]) {
     node.placing = TemplateNode::Placing::at_landmark;
     node.landmark = required<std::string>(map, "landmark", where, kCode);
@@ -110,9 +115,10 @@ TemplateNode node_from(const YAML::Node& map, const Template& pattern, const std
     if (!map["level"] || !map["angle"]) throw Refusal(kCode, where + ": 'level' and 'angle' go together");
     node.level = reference_from(map["level"], 0.5, where + ", level");
     node.angle = reference_from(map["angle"], 180, where + ", angle");
-  } else if (node.name.empty()) {
+  } else if (node.name.empty() && !map["or_on_model"]) {
     throw Refusal(kCode, where + ": neither a 'name' nor a place");
   }
+  if (map["or_on_model"]) node.or_on_model = model_points_from(map, "or_on_model", where);
   if (map["axis"]) {
     if (node.placing != TemplateNode::Placing::level_and_angle || on_middle)
       throw Refusal(kCode, where + ": 'axis' needs 'level' and 'angle', and a node off the middle column");
@@ -233,6 +239,11 @@ void check_lines(const Template& pattern, const std::string& path) {
 }
 
 }  // namespace
+
+bool Template::may_use_model() const {
+  return std::any_of(nodes.begin(), nodes.end(),
+                     [](const TemplateNode& node) { return !node.or_on_model.empty(); });
+}
 
 bool Template::needs_model() const {
   return std::any_of(nodes.begin(), nodes.end(), [](const TemplateNode& node) {

@@ -17,6 +17,7 @@ constexpr double kTrunkReach = 0.4;  // m from the axis; no trunk is wider
 /// Times the landmark's distance from the axis: beyond that the ray has run on into an arm that touches the
 /// trunk.
 constexpr double kBeyondLandmark = 1.35;
+constexpr double kHole = 0.06;        // m; half the thickness of an arm
 constexpr double kLevelStep = 0.002;  // m
 constexpr double kOverhang = 0.01;    // m in a step: no underside that shows from the front slopes so
 constexpr double kModelReach = 0.02;  // m; the model's skin lies nearer to the surface where there is one
@@ -58,13 +59,13 @@ class LeaningAxis {
 
 class Placer {
  public:
-  Placer(const Template& pattern, const geometry::BodyMeasures& measures, const Skin& skin, bool over_folds,
+  Placer(const Template& pattern, const geometry::BodyMeasures& measures, const Skin& skin, Layout layout,
          const ModelSurface* model)
       : pattern_(pattern),
         measures_(measures),
         skin_(skin),
         model_(model),
-        over_folds_(over_folds),
+        layout_(layout),
         axis_(pattern, measures) {
     positions_.resize(grid_of(pattern).outer.size(), Vector3d::Zero());
     known_.resize(positions_.size(), 0);
@@ -73,7 +74,7 @@ class Placer {
   std::vector<Vector3d> place() {
     for (const Side side : {Side::left, Side::right})
       for (const TemplateNode& node : pattern_.nodes)
-        if (node.placing != TemplateNode::Placing::between_others)
+        if (node.placing != TemplateNode::Placing::between_others || lies_elsewhere(node))
           set(node_at(pattern_, node.row, node.column, side), position(node, side));
     // Both sides' rows before any column: the columns fill the middle one, which belongs to both.
     for (const Side side : {Side::left, Side::right})
@@ -84,14 +85,21 @@ class Placer {
   }
 
  private:
+  bool lies_elsewhere(const TemplateNode& node) const {
+    if (layout_ != Layout::on_model || node.or_on_model.empty()) return false;
+    return node.placing != TemplateNode::Placing::at_landmark || !measures_.find_landmark(node.landmark) ||
+           !measures_.find_landmark(name_on(node.landmark, Side::right));
+  }
+
   /// On the middle column both sides' landmarks count alike.
   Vector3d position(const TemplateNode& node, Side side) const {
     const bool on_middle = node.column == pattern_.middle();
     const Side first = on_middle ? Side::left : side, second = on_middle ? Side::right : side;
+    if (lies_elsewhere(node)) return on_model(node, node.or_on_model, first, second);
     if (node.placing == TemplateNode::Placing::at_landmark)
       return skin_.nearest(0.5 * (in_body(measures_, name_on(node.landmark, first)) +
                                   in_body(measures_, name_on(node.landmark, second))));
-    if (node.placing == TemplateNode::Placing::on_model) return on_model(node, first, second);
+    if (node.placing == TemplateNode::Placing::on_model) return on_model(node, node.on_model, first, second);
     const double height = 0.5 * (level(node.level, first) + level(node.level, second));
     const auto axis = [&](double z) -> Vector3d {
       return node.axis.empty() ? axis_.at(z) : vertical_through(measures_, node.axis, side);
@@ -100,22 +108,24 @@ class Placer {
         (heading(node.angle, axis, first) + heading(node.angle, axis, second)).normalized();
     const Vector3d centre(axis(height).x(), axis(height).y(), height);
     const auto exit = on_its_side_of_fold(node.level, axis, height, direction);
-    if (!exit)
+    const double reach = 0.5 * (distance(node.angle, axis, first) + distance(node.angle, axis, second));
+    const Vector3d beside = skin_.nearest(centre + reach * direction);
+    // Where an arm was the skin has a hole.
+    if (!exit && (beside - centre - reach * direction).norm() > kHole)
       throw geometry::Refusal(geometry::refusal::kNotABody,
                               "there is no skin round the trunk where row " + std::to_string(node.row) +
                                   ", column " + std::to_string(node.column) + " of the template " +
                                   pattern_.name + " should lie");
-    const double reach = 0.5 * (distance(node.angle, axis, first) + distance(node.angle, axis, second));
-    if ((*exit - centre).norm() <= kBeyondLandmark * reach) return *exit;
-    return skin_.nearest(centre + reach * direction);
+    return exit && (*exit - centre).norm() <= kBeyondLandmark * reach ? *exit : beside;
   }
 
   /// On the skin over or under the model's: along the model's normal, so that a fold's other side stays out.
-  Vector3d on_model(const TemplateNode& node, Side first, Side second) const {
+  Vector3d on_model(const TemplateNode& node, const std::vector<ModelPoint>& points, Side first,
+                    Side second) const {
     const std::string where = "the template " + pattern_.name + ", row " + std::to_string(node.row) +
                               ", column " + std::to_string(node.column);
-    const ModelSurface::Place a = model_->place(node.on_model, first, where),
-                              b = model_->place(node.on_model, second, where);
+    const ModelSurface::Place a = model_->place(points, first, where),
+                              b = model_->place(points, second, where);
     const Vector3d middle = 0.5 * (a.point + b.point);
     const auto along = skin_.nearest_along(middle, (a.normal + b.normal).normalized(), kModelReach);
     return along ? *along : skin_.nearest(middle);
@@ -132,7 +142,7 @@ class Placer {
     };
     const auto exit = exit_at(height);
     const bool landmarks_own = level.towards.empty() && level.offset == 0;
-    const double up = !level.below.empty() ? -1 : over_folds_ && landmarks_own ? 1 : 0;
+    const double up = !level.below.empty() ? -1 : layout_ == Layout::over_folds && landmarks_own ? 1 : 0;
     auto before = exit;
     for (double step = kLevelStep; up != 0 && before && step <= kFoldSearch; step += kLevelStep) {
       const auto after = exit_at(height + up * step);
@@ -219,7 +229,7 @@ class Placer {
   const geometry::BodyMeasures& measures_;
   const Skin& skin_;
   const ModelSurface* model_;
-  const bool over_folds_;
+  const Layout layout_;
   LeaningAxis axis_;
   std::vector<Vector3d> positions_;
   std::vector<char> known_;
@@ -232,8 +242,8 @@ Vector3d trunk_axis(const Template& pattern, const geometry::BodyMeasures& measu
 }
 
 std::vector<Vector3d> place_nodes(const Template& pattern, const geometry::BodyMeasures& measures,
-                                  const Skin& skin, bool over_folds, const ModelSurface* model) {
-  return Placer(pattern, measures, skin, over_folds, model).place();
+                                  const Skin& skin, Layout layout, const ModelSurface* model) {
+  return Placer(pattern, measures, skin, layout, model).place();
 }
 
 }  // namespace tensegric_fit::control_mesh

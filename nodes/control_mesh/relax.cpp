@@ -9,6 +9,7 @@ namespace {
 using Eigen::Vector3d;
 constexpr int kRounds = 8;
 constexpr double kReach = 0.05;   // m; the mean of the neighbours lies no deeper below the skin
+constexpr int kTurnRounds = 24;   // neighbours take turns
 constexpr int kShares = 10;       // of the way between two nodes
 constexpr double kUpright = 0.2;  // cosine to the skin: nodes are still to be lifted by up to 3 mm
 constexpr double kTurned = 0.4;   // cosine between a triangle's normal and what it was at first
@@ -39,10 +40,31 @@ double cosine_to_skin(const geometry::ControlMesh& control, int triangle, int no
       .dot(below.stableNormalized());
 }
 
+/// Where a node could go, and the worst cosine of its triangles there.
+struct Move {
+  double before = 1, after = 1;
+  Vector3d place;
+  bool better() const { return after > before; }
+};
+
+std::vector<Vector3d> places_round(const geometry::ControlMesh& control, int node, Slide slide,
+                                   const GridNeighbours& around, const Skin& skin) {
+  std::array<Vector3d, 4> at;
+  for (int i = 0; i < 4; ++i) at[i] = control.outer[around[i] < 0 ? node : around[i]];
+  const auto& [up, down, left, right] = at;
+  std::vector<Vector3d> places;
+  if (around[0] >= 0 && around[1] >= 0) places = skin.between(up, down, kShares - 1, right - left);
+  if (slide == Slide::either_way && around[2] >= 0 && around[3] >= 0) {
+    const auto along_row = skin.between(left, right, kShares - 1, down - up);
+    places.insert(places.end(), along_row.begin(), along_row.end());
+  }
+  return places;
+}
+
 }  // namespace
 
 void relax_on_skin(geometry::ControlMesh& control, const std::vector<char>& may_move,
-                   const std::vector<std::vector<int>>& around, const Skin& skin) {
+                   const std::vector<GridNeighbours>& around, const Skin& skin) {
   std::vector<Vector3d> first;  // normals
   for (const Eigen::Vector3i& k : control.triangles)
     first.push_back(geometry::area_vector(control.outer[k[0]], control.outer[k[1]], control.outer[k[2]]));
@@ -66,42 +88,45 @@ int count_turned(const geometry::ControlMesh& control, const Skin& skin) {
   int turned = 0;
   for (int t = 0; t < static_cast<int>(control.triangles.size()); ++t) {
     const int corner = control.triangles[t][0];
-    turned += cosine_to_skin(control, t, corner, control.outer[corner], skin) <= 0;
+    turned += cosine_to_skin(control, t, corner, control.outer[corner], skin) <= kUpright;
   }
   return turned;
 }
 
-void turn_back(geometry::ControlMesh& control, const std::vector<char>& may_move,
-               const std::vector<std::vector<int>>& around, const Skin& skin) {
-  if (count_turned(control, skin) == 0) return;
+void turn_back(geometry::ControlMesh& control, const std::vector<Slide>& slides,
+               const std::vector<GridNeighbours>& around, const Skin& skin) {
   std::vector<std::vector<int>> triangles(control.outer.size());
   for (int t = 0; t < static_cast<int>(control.triangles.size()); ++t)
     for (int i = 0; i < 3; ++i) triangles[control.triangles[t][i]].push_back(t);
-  for (int round = 0; round < kRounds; ++round) {
-    std::vector<Vector3d> moved = control.outer;
-    for (int v = 0; v < static_cast<int>(moved.size()); ++v) {
-      if (!may_move[v]) continue;
-      const auto worst_at = [&](const Vector3d& place) {
-        double worst = 1;
-        for (int t : triangles[v]) worst = std::min(worst, cosine_to_skin(control, t, v, place, skin));
-        return worst;
-      };
-      double best = worst_at(control.outer[v]);
-      if (best > kUpright) continue;
-      const auto &up = control.outer[around[v][0]], &down = control.outer[around[v][1]],
-                 &left = control.outer[around[v][2]], &right = control.outer[around[v][3]];
-      auto places = skin.between(up, down, kShares - 1, right - left);
-      const auto along_row = skin.between(left, right, kShares - 1, down - up);
-      places.insert(places.end(), along_row.begin(), along_row.end());
-      for (const Vector3d& place : places) {
-        const double worst = worst_at(place);
-        if (worst <= best) continue;
-        best = worst;
-        moved[v] = place;
+  const auto worst_at = [&](int node, const Vector3d& place) {
+    double worst = 1;
+    for (int t : triangles[node]) worst = std::min(worst, cosine_to_skin(control, t, node, place, skin));
+    return worst;
+  };
+  const auto beside = geometry::neighbours_of(control.outer.size(), control.triangles);
+  for (int round = 0; round < kTurnRounds; ++round) {
+    std::vector<Move> moves(control.outer.size());
+    for (int v = 0; v < static_cast<int>(moves.size()); ++v) {
+      if (slides[v] == Slide::none) continue;
+      moves[v].before = moves[v].after = worst_at(v, control.outer[v]);
+      if (moves[v].before > kUpright) continue;
+      for (const Vector3d& place : places_round(control, v, slides[v], around[v], skin)) {
+        const double worst = worst_at(v, place);
+        if (worst <= moves[v].after) continue;
+        moves[v].after = worst;
+        moves[v].place = place;
       }
     }
-    if (moved == control.outer) return;
-    control.outer = moved;
+    bool still = true;
+    for (std::size_t v = 0; v < moves.size(); ++v) {
+      const bool first = std::all_of(beside[v].begin(), beside[v].end(), [&](int other) {
+        return !moves[other].better() || moves[v].before <= moves[other].before;
+      });
+      if (!moves[v].better() || !first) continue;
+      control.outer[v] = moves[v].place;
+      still = false;
+    }
+    if (still) return;
   }
 }
 

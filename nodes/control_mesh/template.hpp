@@ -35,8 +35,10 @@ struct TemplateNode {
   Placing placing = Placing::between_others;
   std::string landmark;  ///< at_landmark
   Reference level, angle;
-  std::vector<std::string> axis;     ///< what angles are seen from, such as a leg's; empty: the template's
-  std::vector<ModelPoint> on_model;  ///< on_model: shares sum to 1
+  std::vector<std::string> axis;        ///< what angles are seen from, such as a leg's; empty: the template's
+  std::vector<ModelPoint> on_model;     ///< on_model: shares sum to 1
+  std::vector<ModelPoint> or_on_model;  ///< where it lies if the others' places turn a triangle over, or its
+                                        ///< landmark is missing; empty: nowhere else
 };
 
 /// The block of grid cells between two rows and two columns (of the whole grid, both ends included).
@@ -75,6 +77,8 @@ struct Template {
   int middle() const { return columns / 2; }
   /// Does a node lie on the body model's skin? Then bodies need a registered model.
   bool needs_model() const;
+  /// Has a node another place there?
+  bool may_use_model() const;
 };
 
 /// \throw Refusal bad_template naming file and key

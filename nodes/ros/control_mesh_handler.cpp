@@ -2,7 +2,6 @@
 
 #include <boost/make_shared.hpp>
 
-#include <algorithm>
 #include <sstream>
 
 #include "body_model/registration.hpp"
@@ -12,6 +11,23 @@
 #include "ros/model_message.hpp"
 
 namespace tensegric_fit::node {
+namespace {
+
+std::optional<body_model::RegisteredBody> registered(const geometry::TriangleMesh& mesh,
+                                                     const BodyModel::ConstPtr& message,
+                                                     std::string& origin) {
+  const body_model::Registrar& registrar = body_model::shipped_registrar();
+  if (message) return registered_in(*message, registrar.shared_model());
+  try {
+    origin = "registered to the mesh";
+    return body_model::register_mesh(registrar, mesh);
+  } catch (const geometry::Refusal& refusal) {
+    origin = "none: " + refusal.code();
+    return std::nullopt;
+  }
+}
+
+}  // namespace
 
 ControlMeshHandler::ControlMeshHandler(Parameters parameters) {
   options_.control_triangles = parameters.integer("control_triangles", options_.control_triangles, 1, 100000);
@@ -24,11 +40,6 @@ ControlMeshHandler::ControlMeshHandler(Parameters parameters) {
     patterns_.push_back(
         control_mesh::load_template(geometry::yaml_file(folder, name, geometry::refusal::kBadTemplate)));
   if (patterns_.empty()) throw geometry::Refusal(geometry::refusal::kBadOption, "template is empty");
-}
-
-bool ControlMeshHandler::needs_model() const {
-  return std::any_of(patterns_.begin(), patterns_.end(),
-                     [](const control_mesh::Template& pattern) { return pattern.needs_model(); });
 }
 
 std::optional<ControlMeshHandler::Input> ControlMeshHandler::with_model(
@@ -46,12 +57,8 @@ ControlMeshHandler::Output ControlMeshHandler::handle(const Input& input) const 
   const geometry::BodyMeasures measures = measures_in(*landmarks);
   output.body_from_scan = measures.body_from_scan;
 
-  std::optional<body_model::RegisteredBody> model;
-  if (needs_model()) {
-    const body_model::Registrar& registrar = body_model::shipped_registrar();
-    model = model_message ? registered_in(*model_message, registrar.shared_model())
-                          : body_model::register_mesh(registrar, output.body);
-  }
+  std::string origin = "came with the mesh";
+  const std::optional<body_model::RegisteredBody> model = registered(output.body, model_message, origin);
 
   std::vector<geometry::ControlMesh> parts;
   std::optional<geometry::Refusal> first;
@@ -70,6 +77,7 @@ ControlMeshHandler::Output ControlMeshHandler::handle(const Input& input) const 
   output.control = boost::make_shared<ControlMesh>(to_message(tag_in(*mesh), output.control_mesh));
   output.facts = {{"nodes", std::to_string(output.control_mesh.outer.size())},
                   {"triangles", std::to_string(output.control_mesh.triangles.size())},
+                  {"body_model", origin},
                   {"left_out", output.left_out}};
   return output;
 }

@@ -1,4 +1,4 @@
-/// body/mesh + body/landmarks, and body/model where templates lie on it -> control/mesh
+/// body/mesh + body/landmarks + body/model -> control/mesh
 #pragma once
 
 #include <tensegric_fit/BodyModel.h>
@@ -22,11 +22,8 @@ class ControlMeshHandler {
   /// \throw Refusal bad_option, bad_template
   explicit ControlMeshHandler(Parameters parameters);
 
-  /// Does a template lie on the body model? Then `add` wants it, before the landmarks of the same scan, which
-  /// are found by it.
-  bool needs_model() const;
-
-  /// Landmarks and body of one scan, and its model; null where none came.
+  /// Landmarks and body of one scan, and its model, which comes before the landmarks that are found by it;
+  /// null where none came.
   struct Input {
     Landmarks::ConstPtr landmarks;
     TriangleMesh::ConstPtr mesh;
@@ -44,8 +41,8 @@ class ControlMeshHandler {
     std::string left_out;  ///< regions that this body lacks, each with the reason; empty: none
     Facts facts;
   };
-  /// A mesh that came without its model has one registered to it, where a template needs it.
-  /// \throw Refusal as fit_template: no region is left; as registered_in and register_mesh
+  /// A mesh that came without its model has one registered to it; a shape that refuses it goes without.
+  /// \throw Refusal as fit_template: no region is left; as registered_in
   Output handle(const Input& input) const;
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "body_model/parts.hpp"
 #include "control_mesh/fit_template.hpp"
 #include "control_mesh/skin.hpp"
 #include "geometry/point_tree.hpp"
@@ -16,6 +17,22 @@ using Eigen::Vector3d;
 
 Vector3d area_of(const std::vector<Vector3d>& nodes, const Eigen::Vector3i& t) {
   return geometry::area_vector(nodes[t[0]], nodes[t[1]], nodes[t[2]]);
+}
+
+/// Arms may lie against the trunk: their skin says nothing about a triangle on it.
+geometry::TriangleMesh trunk_of(const geometry::TriangleMesh& body, const body_model::RegisteredBody& model) {
+  const std::vector<unsigned char> parts = body_model::parts_of(body, model);
+  std::vector<char> keep;
+  for (const Eigen::Vector3i& t : body.triangles) {
+    bool arm = false;
+    for (int i = 0; i < 3; ++i) {
+      const std::string part =
+          parts[t[i]] == body_model::kUnknownPart ? std::string() : model.model->parts[parts[t[i]]];
+      arm = arm || part.find("arm") != std::string::npos || part.find("hand") != std::string::npos;
+    }
+    keep.push_back(!arm);
+  }
+  return geometry::submesh(body, keep);
 }
 
 /// Outer triangles that face against the skin nearest to them, inner ones that face against their outer one.
@@ -60,18 +77,20 @@ Figure information(const std::string& name, double error, double limit) {
 }  // namespace
 
 std::vector<Figure> control_figures(const control_mesh::Template& pattern, const geometry::TriangleMesh& body,
-                                    const geometry::BodyMeasures& measures) {
+                                    const geometry::BodyMeasures& measures,
+                                    const body_model::RegisteredBody& model) {
   const std::string name = "control " + pattern.name;
   try {
-    const geometry::ControlMesh control = control_mesh::fit_template(pattern, body, measures, {});
+    const geometry::ControlMesh control = control_mesh::fit_template(pattern, body, measures, {}, &model);
     control_mesh::Options options;
     options.control_triangles = 1920;  // 10 mm wide triangles stand for the skin
-    const geometry::ControlMesh fine = control_mesh::fit_template(pattern, body, measures, options);
+    const geometry::ControlMesh fine = control_mesh::fit_template(pattern, body, measures, options, &model);
     const Vector3d apex = geometry::region_apex(control, control.regions[0]);
     const double volume = geometry::cone_volume(control.outer, control.triangles, apex) /
                           geometry::cone_volume(fine.outer, fine.triangles, apex);
     return {information(name + " laid", 0, 0),
-            information(name + " folded", static_cast<double>(folded_triangles(control, body)), 0),
+            information(name + " folded",
+                        static_cast<double>(folded_triangles(control, trunk_of(body, model))), 0),
             information(name + " off skin", 1e3 * off_skin(control, body), 3.001),
             information(name + " volume %", 100 * (volume - 1), 2),
             information(name + " tips", 1e3 * off_landmarks(pattern, control, measures), 2)};

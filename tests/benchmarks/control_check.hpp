@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "body_model/registered_body.hpp"
 #include "control_mesh/template.hpp"
 #include "geometry/body_measures.hpp"
 #include "geometry/triangle_mesh.hpp"
@@ -11,12 +12,13 @@
 
 namespace tensegric_fit::population {
 
-/// Lays the template on the body: how many triangles are folded over (0 asked), how far nodes lie off the
-/// skin (3 mm), by how much its volume differs from the body's under it (2 %), how far nodes that stand for
-/// landmarks are off them (2 mm: on noisy skin landmarks lie up to that far off the mesh themselves). They do
-/// not count among a body's figures. One infinite error where the template cannot be laid, for want of a
-/// landmark for instance.
+/// Lays the template on the body: how many triangles are folded over against the skin of the trunk (0 asked),
+/// how far nodes lie off the skin (3 mm), by how much its volume differs from the body's under it (2 %), how
+/// far nodes that stand for landmarks are off them (2 mm: on noisy skin landmarks lie up to that far off the
+/// mesh themselves). They do not count among a body's figures. One infinite error where the template cannot
+/// be laid, for want of a landmark for instance.
 std::vector<Figure> control_figures(const control_mesh::Template& pattern, const geometry::TriangleMesh& body,
-                                    const geometry::BodyMeasures& measures);
+                                    const geometry::BodyMeasures& measures,
+                                    const body_model::RegisteredBody& model);
 
 }  // namespace tensegric_fit::population

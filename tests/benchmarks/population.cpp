@@ -47,7 +47,7 @@ Score score_of(const population::Family& family, const std::string& name, const 
     score.figures = population::figures_of(body.measures, subject.truth);
     for (const control_mesh::Template& pattern : patterns)
       for (const population::Figure& figure :
-           population::control_figures(pattern, body.mesh.mesh, body.measures))
+           population::control_figures(pattern, body.mesh.mesh, body.measures, *body.model))
         score.figures.push_back(figure);
   } catch (const geometry::Refusal& refusal) {
     score.refusal = fmt::format("{}: {}", refusal.code(), refusal.what());

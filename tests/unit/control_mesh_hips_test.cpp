@@ -151,7 +151,12 @@ TEST(HipsTemplate, RefusesWhatDoesNotFit) {
   EXPECT_NE(refusal_with(kHips, "'/////\\/'", "'/////\\x'").find("'diagonals'"), std::string::npos);
   EXPECT_NE(refusal_with(kHips, "{row: 4, column: 7,", "{row: 5, column: 7,").find("no cell"),
             std::string::npos);
-  EXPECT_NE(refusal_with(kHips, "{row: 6, column: 6,", "{row: 6, column: 4,").find("row 6, column 1"),
+  EXPECT_NE(refusal_with(
+                kHips,
+                "{row: 6, column: 6, axis: [hip_side_L, crotch], level: {landmark: gluteal_fold_L, offset: "
+                "-0.06}, angle: {landmark: hip_side_L, offset: 125},",
+                "{row: 6, column: 6,")
+                .find("row 6, column 1"),
             std::string::npos);
   EXPECT_NE(refusal_with(kHips, "axis: [hip_side_L, crotch]", "axis: []").find("'axis'"), std::string::npos);
   EXPECT_NE(

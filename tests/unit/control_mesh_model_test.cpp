@@ -13,14 +13,17 @@ using namespace tensegric_fit;
 using Eigen::Vector3d;
 
 /// Two rows of three nodes over the left bust point and the middle.
-control_mesh::Template small_template(const std::string& point) {
+control_mesh::Template small_template(const std::string& point,
+                                      const std::string& below = "on_model: [[underbust_L, 1]]") {
   const std::string path = testing::TempDir() + "on_model.yaml";
   std::ofstream(path) << "name: small\naxis: [axilla_L, axilla_R]\nrows: 2\ncolumns: 3\nnodes:\n"
                          "  - {row: 0, column: 0, name: tip_L, on_model: [["
                       << point
                       << ", 1]]}\n"
                          "  - {row: 0, column: 1, on_model: [[bust_point_L, 0.5], [neck_front, 0.5]]}\n"
-                         "  - {row: 1, column: 0, name: below_L, on_model: [[underbust_L, 1]]}\n"
+                         "  - {row: 1, column: 0, name: below_L, "
+                      << below
+                      << "}\n"
                          "  - {row: 1, column: 1, name: middle, on_model: [[navel, 0.7], [crotch, 0.3]]}\n"
                          "diagonals: ['\\']\nfixed: ['..', '..']\ninner_fixed: false\n"
                          "thickness: [[0.01, 0.01], [0.01, 0.01]]\n"
@@ -98,6 +101,24 @@ TEST(NodesOnTheModel, VerticesAreThoseOfTheModelAndMirrored) {
   EXPECT_LT(
       (control.outer[control.node("tip_R")] - posed.body.skin[tip].cwiseProduct(Vector3d(-1, 1, 1))).norm(),
       1e-4);  // m; components are kept as bytes
+}
+
+TEST(NodesOnTheModel, StandInForLandmarksThatAreMissing) {
+  Posed posed(0);
+  const auto pattern =
+      small_template("bust_point_L", "landmark: underbust_L, or_on_model: [[underbust_L, 1]]");
+  control_mesh::Options coarse;
+  coarse.control_triangles = 4;
+  const auto below = [&] {
+    const auto control = control_mesh::fit_template(pattern, posed.mesh, posed.measures, coarse, &posed.body);
+    return Vector3d(control.outer[control.node("below_L")]);
+  };
+  EXPECT_LT((below() - posed.body.skin_point("underbust_L")).norm(), 0.003);
+  const Vector3d left = posed.body.skin_point("underbust_L") + Vector3d(0.02, 0, 0);
+  const Vector3d right = posed.body.skin_point("underbust_R") - Vector3d(0.02, 0, 0);
+  posed.measures.landmarks.push_back({"underbust_L", left, 1, "", 0});
+  posed.measures.landmarks.push_back({"underbust_R", right, 1, "", 0});
+  EXPECT_GT((below() - posed.body.skin_point("underbust_L")).norm(), 0.01) << "the landmark comes first";
 }
 
 TEST(NodesOnTheModel, NeedAModelThatHasThem) {

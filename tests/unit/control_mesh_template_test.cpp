@@ -86,14 +86,21 @@ TEST(BustTemplate, RefusesWhatDoesNotFit) {
             std::string::npos);
   EXPECT_NE(refusal_with(kBust, "rows: [0, 6]", "rows: [0, 7]").find("'rows'"), std::string::npos);
   EXPECT_NE(refusal_with(kBust, "name: sternum", "name: sternum_L").find("'name'"), std::string::npos);
-  EXPECT_NE(refusal_with(kBust, "row: 0, column: 0", "row: 1, column: 2").find("row 0, column 0"),
+  EXPECT_NE(refusal_with(kBust,
+                         "level: {between: [bust_point_L, neck_front], at: 0.34}, angle: {between: "
+                         "[bust_point_L, axilla_L], at: 0.48}, ",
+                         "")
+                .find("row 0, column 0"),
             std::string::npos);
 }
 
 TEST(BustTemplate, MayLieOnTheBodyModel) {
   EXPECT_FALSE(control_mesh::load_template(kBust).needs_model());
-  const std::string place = "landmark: underbust_L}";
-  const auto refusal = [&](const std::string& by) { return refusal_with(kBust, place, by + "}"); };
+  EXPECT_TRUE(control_mesh::load_template(kBust).may_use_model());
+  const std::string place = "level: {landmark: bust_point_L}, angle: {landmark: axilla_L, offset: -5}, or_";
+  const auto refusal = [&](const std::string& by) {
+    return refusal_with(kBust, place, by + "}\n  # or_");  // the rest of the line becomes a comment
+  };
   EXPECT_EQ(refusal("on_model: [[8461, 0.48], [8453, 0.45], [8454, 0.07]]"), "");
   EXPECT_EQ(refusal("on_model: [[bust_point_L, 0.333], [8453, 0.333], [8454, 0.333]]"), "");  // rounded
   EXPECT_NE(refusal("on_model: [[8461, 0.48], [8453, 0.45]]").find("'on_model' has shares that sum to"),
@@ -107,6 +114,12 @@ TEST(BustTemplate, MayLieOnTheBodyModel) {
     EXPECT_NE(refusal(std::string("on_model: ") + list).find("'on_model' must be a list of pairs"),
               std::string::npos)
         << list;
+  EXPECT_NE(refusal("landmark: underbust_L, or_on_model: [[8461, 0.5]]").find("'or_on_model' has shares"),
+            std::string::npos);
+  EXPECT_EQ(refusal("landmark: underbust_L, or_on_model: [[8461, 1]]"), "");
+  EXPECT_NE(
+      refusal("on_model: [[8461, 1]], or_on_model: [[8461, 1]]").find("'on_model' excludes 'or_on_model'"),
+      std::string::npos);
   EXPECT_NE(refusal("landmark: underbust_L, on_model: [[8461, 1]]").find("'on_model' excludes"),
             std::string::npos);
 }
