@@ -48,6 +48,17 @@ Body body_of(unsigned seed) {
   return body;
 }
 
+/// Landmarks are read by a model that was registered to random samples: symmetric within half a millimetre
+/// only.
+void make_symmetric(geometry::BodyMeasures& measures, const Vector3d& mirror) {
+  measures.body_from_scan.setIdentity();  // the booth's body stands so
+  const std::vector<geometry::Landmark> found = measures.landmarks;
+  for (geometry::Landmark& landmark : measures.landmarks)
+    for (const geometry::Landmark& other : found)
+      if (other.name == control_mesh::name_on(landmark.name, control_mesh::Side::right))
+        landmark.position = 0.5 * (landmark.position + other.position.cwiseProduct(mirror));
+}
+
 geometry::ControlMesh fit(const Body& body, int triangles = 120) {
   control_mesh::Options options;
   options.control_triangles = triangles;
@@ -124,9 +135,10 @@ TEST_P(OnBooth, LiesOnTheSkinWithoutFoldsAndHoldsWhatIsBelow) {
 }
 
 TEST(HipsTemplate, SymmetricBodyGivesSymmetricControlMesh) {
-  const Body body = body_of(0);
-  const auto control = fit(body);
+  Body body = body_of(0);
   const Vector3d mirror(1, -1, 1);
+  make_symmetric(body.measures, mirror);
+  const auto control = fit(body);
   for (std::size_t v = 0; v < control.outer.size(); ++v) {
     const Vector3d outer = body.measures.body_from_scan * control.outer[v],
                    inner = body.measures.body_from_scan * control.inner[v];
