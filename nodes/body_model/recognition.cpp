@@ -26,10 +26,13 @@ constexpr double kUnexplained = 0.25;  // of the surface; women 0.02 at most, th
 constexpr double kShortest = 1.2, kTallest = 2.2;  // m, of grown-up people
 constexpr double kUnusual = 1.6;                   // women of the model's own kind 1.25 at most
 
-constexpr double kOff = 0.035;    // m from the skin: more than the model misses women by
-constexpr double kThere = 0.030;  // m of RegisteredBody::support: the samples lie all round, not beside it
-constexpr double kLeastOfPart =
-    0.5;  // of a part's skin; of women whose feet the floor took and whose crown no sensor saw 0.85 at least
+constexpr double kOff = 0.035;  // m from the skin: more than the model misses women by
+constexpr double kThere =
+    0.030;  // m of RegisteredBody::support and off: samples all round that face the same way
+constexpr double kInside = 0.005,
+                 kStraightIn = 0.7;  // m under other skin; cosine with its normal: beside it is not under it
+constexpr double kLeastOfPart = 0.55;  // of a part's skin: scans of women have 0.79 at least, an arm that has
+                                       // slid into the trunk 0.47 at most
 constexpr double kCrown = 0.03, kLeastOfCrown = 0.25;  // statures below the top; of its skin: no sensor looks
                                                        // down, scans have 0.54 at least
 constexpr int kSamples = 6000;                         // that are asked: 17 mm apart on a woman
@@ -62,15 +65,59 @@ std::size_t asked(const Samples& samples) {
   return std::min<std::size_t>(kSamples, samples.points.size());
 }
 
+/// Arm or leg that a part belongs to, "" for the others.
+std::string limb_of(const std::string& part) {
+  for (const char* arm : {"upper_arm", "forearm", "hand"})
+    if (part.rfind(arm, 0) == 0) return "arm" + part.substr(part.size() - 2);
+  for (const char* leg : {"thigh", "shank", "foot"})
+    if (part.rfind(leg, 0) == 0) return "leg" + part.substr(part.size() - 2);
+  return "";
+}
+
+/// Of each vertex: whether it lies inside another limb or the trunk, as a limb does for which there are no
+/// samples of its own.
+std::vector<char> run_into_others(const RegisteredBody& body) {
+  const Model& model = *body.model;
+  const std::vector<Vector3d> normals = geometry::vertex_normals(body.skin, model.triangles);
+  std::vector<char> inside(body.skin.size(), 0);
+  for (const char* limb : {"arm_L", "arm_R", "leg_L", "leg_R"}) {
+    std::vector<Vector3d> others;
+    std::vector<int> vertex, own;
+    for (std::size_t v = 0; v < body.skin.size(); ++v) {
+      if (limb_of(model.parts[model.part[v]]) == limb) {
+        own.push_back(static_cast<int>(v));
+        continue;
+      }
+      others.push_back(body.skin[v]);
+      vertex.push_back(static_cast<int>(v));
+    }
+    const geometry::PointTree tree(others);
+    for (const int v : own) {
+      const int other = vertex[tree.nearest(body.skin[v])];
+      const Vector3d off = body.skin[v] - body.skin[other];
+      const double depth = -off.dot(normals[other]);
+      inside[v] = static_cast<char>(depth > kInside && depth > kStraightIn * off.norm());
+    }
+  }
+  return inside;
+}
+
 /// Of each part: which share of its skin has samples.
 std::vector<double> shares_there(const RegisteredBody& body) {
   const Model& model = *body.model;
+  const std::vector<char> inside = run_into_others(body);
   std::vector<double> there(model.parts.size(), 0), whole(model.parts.size(), 0);
-  for (std::size_t i = 0; i < model.fit_points.size(); ++i) {
-    const int v = model.fit_points[i], part = model.part[v];
-    whole[part] += model.fit_weights[i];
-    if (body.support[v] < kThere) there[part] += model.fit_weights[i];
-  }
+  const auto count = [&](int v, double weight) {
+    whole[model.part[v]] += weight;
+    const bool beside =
+        body.off[v] > kThere && model.parts[model.part[v]].rfind("foot", 0) != 0;  // nobody sees soles
+    if (body.support[v] < kThere && !beside && !inside[v]) there[model.part[v]] += weight;
+  };
+  const auto is_hand = [&](int v) { return model.parts[model.part[v]].rfind("hand", 0) == 0; };
+  for (std::size_t i = 0; i < model.fit_points.size(); ++i)
+    if (!is_hand(model.fit_points[i])) count(model.fit_points[i], model.fit_weights[i]);
+  for (int v = 0; v < static_cast<int>(body.skin.size()); ++v)
+    if (is_hand(v)) count(v, 1);  // a hand has few fit points, and none on its fingers
   for (std::size_t p = 0; p < there.size(); ++p) there[p] = whole[p] > 0 ? there[p] / whole[p] : 1;
   return there;
 }

@@ -1,0 +1,232 @@
+// What is registered: persons are taken, things and two persons refused, missing limbs and foreign surface
+// named.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "body_model/recognition.hpp"
+#include "body_model/registration.hpp"
+#include "booth/model_body.hpp"
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::body_model {
+namespace {
+
+using Eigen::Vector3d;
+using geometry::TriangleMesh;
+
+constexpr double kDegree = M_PI / 180;
+
+const Model& model() {
+  return shipped_registrar().model();
+}
+
+/// A woman of the model's own make, m, z up, facing x, on the floor.
+TriangleMesh woman(double arms = 30 * kDegree) {
+  booth::ModelBodyParameters parameters;
+  parameters.shape = Eigen::VectorXd::Zero(model().components());
+  parameters.shape.head<4>() << 0.8, -0.5, 0.6, -0.9;
+  parameters.arms = {arms, arms};
+  parameters.elbows = {0.2, 0.2};
+  return {booth::stand(model(), parameters).vertices, model().triangles};
+}
+
+/// Without the triangles that have a corner for which `cut` holds (index, place).
+TriangleMesh without(const TriangleMesh& mesh, const std::function<bool(int, const Vector3d&)>& cut) {
+  TriangleMesh result;
+  std::vector<int> index(mesh.vertices.size(), -1);
+  for (std::size_t v = 0; v < index.size(); ++v) {
+    if (cut(static_cast<int>(v), mesh.vertices[v])) continue;
+    index[v] = static_cast<int>(result.vertices.size());
+    result.vertices.push_back(mesh.vertices[v]);
+  }
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    if (index[t[0]] >= 0 && index[t[1]] >= 0 && index[t[2]] >= 0)
+      result.triangles.emplace_back(index[t[0]], index[t[1]], index[t[2]]);
+  return result;
+}
+
+bool is_of(int vertex, const std::vector<std::string>& parts) {
+  const std::string& part = model().parts[model().part[vertex]];
+  return std::find(parts.begin(), parts.end(), part) != parts.end();
+}
+
+void add(TriangleMesh& mesh, const TriangleMesh& more) {
+  const int first = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
+  for (const Eigen::Vector3i& t : more.triangles) mesh.triangles.push_back(t.array() + first);
+}
+
+TriangleMesh moved(TriangleMesh mesh, const Eigen::Isometry3d& motion) {
+  for (Vector3d& v : mesh.vertices) v = motion * v;
+  return mesh;
+}
+
+/// A closed surface round the z axis: `half(z)` is the half breadths along x and y, at z from 0 to `height`;
+/// `corner` 2: ellipses, more: boxes with rounder and rounder corners less round.
+TriangleMesh turned(double height, const std::function<Eigen::Vector2d(double)>& half, double corner = 2) {
+  constexpr int kRound = 64, kHigh = 80;
+  TriangleMesh mesh;
+  for (int i = 0; i <= kHigh; ++i)
+    for (int k = 0; k < kRound; ++k) {
+      const double z = height * i / kHigh, angle = 2 * M_PI * k / kRound, c = std::cos(angle),
+                   s = std::sin(angle);
+      const Eigen::Vector2d r = half(z);
+      const auto power = [&](double x) { return std::copysign(std::pow(std::abs(x), 2 / corner), x); };
+      mesh.vertices.emplace_back(r.x() * power(c), r.y() * power(s), z);
+    }
+  for (int i = 0; i < kHigh; ++i)
+    for (int k = 0; k < kRound; ++k) {
+      const int a = i * kRound + k, b = i * kRound + (k + 1) % kRound;
+      mesh.triangles.emplace_back(a, b, b + kRound);
+      mesh.triangles.emplace_back(a, b + kRound, a + kRound);
+    }
+  for (const int end : {0, kHigh}) {
+    const int centre = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.emplace_back(0, 0, height * end / kHigh);
+    for (int k = 0; k < kRound; ++k) {
+      const int a = end * kRound + k, b = end * kRound + (k + 1) % kRound;
+      mesh.triangles.emplace_back(end > 0 ? a : b, end > 0 ? b : a, centre);
+    }
+  }
+  return mesh;
+}
+
+RegisteredBody registered(const TriangleMesh& mesh) {
+  return register_mesh(shipped_registrar(), mesh);
+}
+
+/// "" where it is taken for a person.
+std::string refusal_of(const TriangleMesh& mesh) {
+  try {
+    registered(mesh);
+  } catch (const geometry::Refusal& refusal) {
+    return refusal.code();
+  }
+  return "";
+}
+
+std::vector<std::string> names_of(const std::vector<geometry::Missing>& missing) {
+  std::vector<std::string> names;
+  for (const geometry::Missing& part : missing) names.push_back(part.name);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(Recognition, AWholeWomanLacksNothing) {
+  for (const double arms : {15.0, 45.0, 80.0}) {
+    const RegisteredBody body = registered(woman(arms * kDegree));
+    EXPECT_EQ(names_of(missing_parts(body)), Names()) << arms;
+    EXPECT_TRUE(body.unexplained.empty()) << arms;
+    EXPECT_TRUE(body.note.empty()) << body.note;
+    EXPECT_LT(body.evidence.misfit, 0.002);
+    EXPECT_LT(body.evidence.unexplained, 0.01);
+  }
+}
+
+TEST(Recognition, ThingsAreRefused) {
+  const auto round = [](double r) { return [r](double) { return Eigen::Vector2d(r, r); }; };
+  const auto ball = [](double z) {
+    return Eigen::Vector2d::Constant(std::sqrt(std::max(0.0, z * (1.6 - z))));
+  };
+  const auto cigar = [](double z) {
+    return Eigen::Vector2d::Constant(0.12 * std::sqrt(std::max(0.0, 1 - std::pow(z / 0.85 - 1, 2))));
+  };
+  const auto snowman = [](double z) {
+    const auto at = [z](double middle, double r) { return r * r - (z - middle) * (z - middle); };
+    return Eigen::Vector2d::Constant(std::sqrt(std::max({0.0, at(0.35, 0.35), at(0.9, 0.28), at(1.3, 0.2)})));
+  };
+  EXPECT_EQ(refusal_of(turned(
+                1.7, [](double) { return Eigen::Vector2d(0.25, 0.2); }, 20)),
+            "not_a_body")
+      << "box";
+  EXPECT_EQ(refusal_of(turned(1.6, ball)), "not_a_body") << "ball";
+  EXPECT_EQ(refusal_of(turned(1.5, round(0.18))), "not_a_body") << "cylinder";
+  EXPECT_EQ(refusal_of(turned(1.8, round(0.04))), "not_a_body") << "pole";
+  EXPECT_EQ(refusal_of(turned(1.7, cigar)), "not_a_body") << "cigar";
+  EXPECT_EQ(refusal_of(turned(1.5, snowman)), "not_a_body") << "snowman";
+  const Eigen::Isometry3d over(Eigen::Translation3d(0, 0, 1.65) * Eigen::AngleAxisd(M_PI, Vector3d::UnitX()));
+  EXPECT_EQ(refusal_of(moved(woman(), over)), "not_a_body") << "a woman upside down";
+}
+
+TEST(Recognition, TwoPersonsAreRefusedAndTheRefusalSaysWhy) {
+  for (const double yaw : {M_PI, 0.7}) {
+    TriangleMesh two = woman(15 * kDegree);
+    add(two, moved(two, Eigen::Translation3d(-0.5, 0, 0) * Eigen::AngleAxisd(yaw, Vector3d::UnitZ())));
+    try {
+      registered(two);
+      FAIL() << "two persons were taken for one";
+    } catch (const geometry::Refusal& refusal) {
+      EXPECT_EQ(refusal.code(), std::string(geometry::refusal::kNotABody));
+      EXPECT_NE(std::string(refusal.what()).find("more than one person"), std::string::npos)
+          << refusal.what();
+    }
+  }
+}
+
+TEST(Recognition, LimbsThatAreNotThereAreNamed) {
+  const TriangleMesh whole = woman();
+  const auto missing_without = [&](const Names& parts) {
+    return missing_parts(registered(without(whole, [&](int v, const Vector3d&) { return is_of(v, parts); })));
+  };
+  EXPECT_EQ(names_of(missing_without({"forearm_L", "hand_L"})), Names({"forearm_L"}));
+  EXPECT_EQ(names_of(missing_without({"hand_R"})), Names({"hand_R"}));
+  EXPECT_EQ(names_of(missing_without({"foot_L", "foot_R"})), Names({"foot_L", "foot_R"}));
+  EXPECT_EQ(names_of(missing_without({"head"})), Names({"head"}));
+  const auto arm = missing_without({"upper_arm_R", "forearm_R", "hand_R"});
+  ASSERT_EQ(names_of(arm), Names({"upper_arm_R"}));
+  for (const char* hangs_on_it : {"forearm_R", "hand_R"})
+    EXPECT_NE(arm.front().reason.find(hangs_on_it), std::string::npos) << arm.front().reason;
+}
+
+TEST(Recognition, HalvesOfAWomanAreRegisteredInHerSizeAndNamed) {
+  const TriangleMesh whole = woman();
+  struct Half {
+    const char* what;
+    double low, high;  ///< m, what is kept
+    Names missing;
+    double off;  ///< m, of the stature: the less of her the less it is known
+  };
+  for (const Half& half : {Half{"no legs", 0.72, 2, {"thigh_L", "thigh_R"}, 0.05},
+                           Half{"no shanks", 0.43, 2, {"shank_L", "shank_R"}, 0.03},
+                           Half{"no crown", 0, 1.57, {"crown"}, 0.02}}) {
+    SCOPED_TRACE(half.what);
+    const RegisteredBody body = registered(
+        without(whole, [&](int, const Vector3d& p) { return p.z() < half.low || p.z() > half.high; }));
+    EXPECT_EQ(names_of(missing_parts(body)), half.missing);
+    EXPECT_NEAR(body.stature(), 1.64, half.off);
+    EXPECT_LT(body.evidence.misfit, 0.003);
+  }
+}
+
+TEST(Recognition, WhatIsNotHersIsNamedWhereItIs) {
+  TriangleMesh mesh = woman();
+  // A bag, 0.24 x 0.16 x 0.30 m, behind her back.
+  add(mesh, moved(turned(
+                      0.30, [](double) { return Eigen::Vector2d(0.12, 0.08); }, 8),
+                  Eigen::Isometry3d(Eigen::Translation3d(-0.30, 0, 1.05))));
+  const RegisteredBody body = registered(mesh);
+  ASSERT_EQ(body.unexplained.size(), 1U);
+  EXPECT_LT((body.unexplained[0].centre - Vector3d(-0.30, 0, 1.20)).norm(), 0.1);
+  EXPECT_GT(body.unexplained[0].extent, 0.25);
+  EXPECT_NE(body.unexplained[0].reason.find("trunk"), std::string::npos) << body.unexplained[0].reason;
+  EXPECT_EQ(names_of(missing_parts(body)), Names());
+  const Eigen::Isometry3d motion(Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(1, Vector3d::UnitZ()));
+  EXPECT_LT((moved(body, motion).unexplained[0].centre - motion * body.unexplained[0].centre).norm(), 1e-12);
+}
+
+TEST(Recognition, AnUnusualShapeIsMeasuredWithAWord) {
+  booth::ModelBodyParameters parameters;
+  parameters.shape = Eigen::VectorXd::Zero(model().components());
+  for (int i = 0; i < model().components(); ++i) parameters.shape[i] = i % 2 == 0 ? 2.2 : -2.2;
+  parameters.arms = {0.8, 0.8};
+  const RegisteredBody body = registered({booth::stand(model(), parameters).vertices, model().triangles});
+  EXPECT_NE(body.note.find("unusual"), std::string::npos) << body.evidence.shape;
+}
+
+}  // namespace
+}  // namespace tensegric_fit::body_model
