@@ -100,6 +100,14 @@ void add_errors(const std::string& kind, const Measures& measured,
       if (known.name == measure.name) errors["error/" + kind + known.name] = measure.value - known.metres;
 }
 
+// Along a direction that the landmark's definition leaves open any place is right.
+double distance(const Eigen::Vector3d& found, const geometry::Landmark& truth, const booth::Doubts& doubts) {
+  Eigen::Vector3d off = found - truth.position;
+  for (const auto& [landmark, direction] : doubts.loose)
+    if (landmark == truth.name) off -= off.dot(direction.normalized()) * direction.normalized();
+  return off.norm();
+}
+
 }  // namespace
 
 Metrics metrics_of(const Recording& recording) {
@@ -141,7 +149,7 @@ Metrics errors_of(const Recording& recording, const Customer& customer) {
   for (const Landmark& landmark : recording.landmarks->points)
     if (const geometry::Landmark* known = truth.find_landmark(landmark.name))
       errors["error/landmark/" + landmark.name] =
-          (Eigen::Vector3d::Map(landmark.position.data()) - known->position).norm();
+          distance(Eigen::Vector3d::Map(landmark.position.data()), *known, customer.body.doubts);
   return errors;
 }
 
