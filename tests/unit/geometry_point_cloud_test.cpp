@@ -103,5 +103,30 @@ TEST(PointsOf, ManyRowsOfNothingAreNoPoints) {
   EXPECT_TRUE(points_of(organised.cloud).points.empty());
 }
 
+TEST(Joined, CloudsOfOnePersonKeepTheirSensorsApart) {
+  const PointCloud trunk{{{0, 0, 1}, {0, 0, 2}}, {}, {0, 2}}, arm{{{1, 0, 1}}, {{1, 0, 0}}, {0}},
+      leg{{{0, 1, 0}}, {}, {}};
+  const PointCloud all = joined({trunk, arm, leg});
+  ASSERT_EQ(all.points.size(), 4U);
+  EXPECT_EQ(all.points[2], arm.points[0]);
+  EXPECT_EQ(all.sensor, (std::vector<int>{0, 2, 3, -1}));
+  ASSERT_EQ(all.normals.size(), 4U);
+  EXPECT_EQ(all.normals[0], Eigen::Vector3d::Zero().eval());
+  EXPECT_EQ(all.normals[2], arm.normals[0]);
+  EXPECT_TRUE(joined({leg, leg}).sensor.empty());
+  EXPECT_TRUE(joined({leg, leg}).normals.empty());
+  EXPECT_EQ(joined({arm}).sensor, arm.sensor);
+}
+
+TEST(Joined, APartWithoutPointsIsRefused) {
+  const PointCloud arm{{{1, 0, 1}}, {}, {}};
+  try {
+    joined({arm, PointCloud()});
+    FAIL();
+  } catch (const Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), std::string(refusal::kEmptyCloud));
+  }
+}
+
 }  // namespace
 }  // namespace tensegric_fit::geometry
