@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -136,6 +137,43 @@ TEST_F(FitProgram, SaysTheSameTwice) {
     if (std::string(name) == "report.json") continue;  // holds times
     EXPECT_EQ(read_file(folder_ / "one" / name), read_file(folder_ / "two" / name)) << name;
   }
+}
+
+// A scan cut at the plane x = 0 in two files.
+std::array<std::string, 2> halves_of(const std::string& ply) {
+  const std::string element = "element vertex ", end = "end_header\n";
+  const std::size_t at = ply.find(element) + element.size(), line = ply.find('\n', at),
+                    start = ply.find(end) + end.size();
+  const std::size_t count = std::stoul(ply.substr(at, line - at)), stride = (ply.size() - start) / count;
+  std::array<std::string, 2> halves;
+  std::array<std::size_t, 2> counts{};
+  for (std::size_t i = start; i + stride <= ply.size(); i += stride) {
+    float x;
+    std::memcpy(&x, &ply[i], 4);
+    const int half = x < 0 ? 0 : 1;
+    halves[half].append(ply, i, stride);
+    ++counts[half];
+  }
+  for (int h = 0; h < 2; ++h)
+    halves[h] = ply.substr(0, at) + std::to_string(counts[h]) + ply.substr(line, start - line) + halves[h];
+  return halves;
+}
+
+TEST_F(FitProgram, TakesSeveralFilesOfOnePerson) {
+  const auto [left, right] = halves_of(read_file(kScans + "/a/scan.ply"));
+  ASSERT_EQ(fit("--scan " + kScans + "/a/scan.ply"), 0) << read_file(file("log"));
+  const json whole = report();
+  const std::string a = write("a.ply", left), b = write("b.ply", right);
+  ASSERT_EQ(fit("--scan " + a + " --scan " + b), 0) << read_file(file("log"));
+  const json both = report();
+  EXPECT_EQ(both["scan"]["points"], whole["scan"]["points"]);
+  EXPECT_EQ(both["scan"]["file"], a);
+  EXPECT_EQ(both["scan"]["more_files"], json::array({b}));
+  for (const char* girth : {"bust", "underbust", "waist", "hip"})  // the same points in another order
+    EXPECT_NEAR(both["girths"][girth].get<double>(), whole["girths"][girth].get<double>(), 0.002) << girth;
+  EXPECT_EQ(fit("--scan " + a + " " + b), 2) << "each file needs its --scan";
+  write("none.ply", ply_of(0, [](std::mt19937&) { return Eigen::Vector3f(); }));
+  expect_refused("--scan " + a + " --scan " + file("none.ply"), "empty_cloud");
 }
 
 TEST_F(FitProgram, MeasuresOnlyWithoutAGarmentAndTakesAMeshAsItIs) {
