@@ -42,6 +42,12 @@ TEST_P(OpenBody, MeasuresAgreeWithTruth) {
   }
   for (const geometry::Measure& girth : measures.girths) {
     if (girth.name == "waist" && !has_waist) continue;
+    if (girth.name ==
+        "neck") {  // there it was taken in the plane of its base, which is not where it is least
+      EXPECT_LT(girth.metres, truth["girths"]["neck"].get<double>() + 0.004);
+      EXPECT_GT(girth.metres, truth["girths"]["neck"].get<double>() - 0.030);
+      continue;
+    }
     EXPECT_NEAR(girth.metres, truth["girths"][girth.name].get<double>(), is_small(girth.name) ? 0.004 : 0.009)
         << girth.name;
   }
