@@ -193,6 +193,12 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
   geometry::check_mesh(body);
   if (body.triangles.empty()) throw Refusal(refusal::kNotABody, "the body mesh has no triangles");
 
+  for (const geometry::Missing& missing :
+       measures.missing)  // its landmarks are guesses then, with no skin there
+    if (missing.name == "trunk")
+      throw Refusal(std::string(refusal::kMissingPart) + ":trunk",
+                    "a control mesh lies on the trunk: " + missing.reason);
+
   if (pattern.needs_model() && !model)
     throw Refusal(std::string(refusal::kMissingPart) + ":body_model",
                   "the template " + pattern.name +
