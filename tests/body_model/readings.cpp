@@ -13,6 +13,7 @@
 #include "body_model/registration.hpp"
 #include "booth/scan_file.hpp"
 #include "geometry/ply.hpp"
+#include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
 #include "landmarks/find_landmarks.hpp"
 #include "reconstruction/reconstruct.hpp"
@@ -48,14 +49,13 @@ Json readings_of(const landmarks::Reading& reading, const body_model::Registered
   return result;
 }
 
-Json read_mesh(const std::string& path) {
+Json read_mesh(const std::string& path, const body_model::Registrar& registrar) {
   const geometry::TriangleMesh mesh = geometry::read_ply_mesh(path);
-  const body_model::RegisteredBody model = register_mesh(body_model::shipped_registrar(), mesh);
+  const body_model::RegisteredBody model = register_mesh(registrar, mesh);
   return readings_of(landmarks::read_figures(mesh, {}, model, landmarks::shipped_precision()), model);
 }
 
-Json read_scan(const std::string& path) {
-  const body_model::Registrar& registrar = body_model::shipped_registrar();
+Json read_scan(const std::string& path, const body_model::Registrar& registrar) {
   const auto [body, model] = reconstruction::reconstruct(geometry::points_of(booth::read_scan(path)), {},
                                                          {std::cref(registrar), registrar.standing()});
   return readings_of(landmarks::read_figures(body.mesh, body.filled, model, landmarks::shipped_precision()),
@@ -65,7 +65,8 @@ Json read_scan(const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string kind, folder, out, first, last = "~";
+  std::string kind, folder, out, first, last = "~",
+                                        model = geometry::shipped_folder("body_model") + "/women.tfb";
   CLI::App app("Readings of bodies with known truth");
   app.add_option("kind", kind, "mesh: NAME_body.ply; scan: NAME_scan.ply")
       ->required()
@@ -74,8 +75,13 @@ int main(int argc, char** argv) {
   app.add_option("--out", out, "lines are added to it")->required();
   app.add_option("--first", first, "name of the first body");
   app.add_option("--last", last, "name of the last body");
+  app.add_option("--model", model,
+                 "a model that was trained without these bodies: precision of those that it knows is none")
+      ->check(CLI::ExistingFile);
   CLI11_PARSE(app, argc, argv);
 
+  const body_model::Registrar registrar(body_model::load_model(model),
+                                        body_model::shipped_registrar().standing());
   std::set<std::string> known;
   std::ifstream before(out);
   for (std::string line; std::getline(before, line);) known.insert(Json::parse(line).at("name"));
@@ -90,7 +96,7 @@ int main(int argc, char** argv) {
   for (const std::string& name : names) {
     try {
       const std::string path = folder + "/" + name + ending;
-      Json readings = kind == "mesh" ? read_mesh(path) : read_scan(path);
+      Json readings = kind == "mesh" ? read_mesh(path, registrar) : read_scan(path, registrar);
       readings["name"] = name;
       std::ofstream(out, std::ios::app) << readings.dump() << "\n";
     } catch (const geometry::Refusal& refusal) {
