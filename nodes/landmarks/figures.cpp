@@ -82,7 +82,8 @@ Settled settle(const Figure& figure, const Precision& precision, bool scanned) {
   if (!figure.on_model) return {on_mesh, p.half_width * mesh, false};
   const Eigen::Vector3d on_model = unbiased(*figure.on_model, p.model), apart = on_mesh - on_model;
   // A web, a fold of the belly, an arm that was cut off elsewhere: the mesh then shows something else.
-  if (apart.norm() > std::max(kGross * std::hypot(mesh, model), kGrossLimits * limit_of(figure)))
+  if (!figure.seen &&
+      apart.norm() > std::max(kGross * std::hypot(mesh, model), kGrossLimits * limit_of(figure)))
     return {on_model, p.half_width * std::hypot(model, p.disagreement * kGross * model), true};
   const double share = model * model / (mesh * mesh + model * model);
   return {on_model + share * apart,

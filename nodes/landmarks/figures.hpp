@@ -44,6 +44,8 @@ struct Figure {
   double support = 0;                                ///< m: RegisteredBody::support there
   double misfit = 0;                                 ///< m: RegisteredBody::residual
   std::vector<Eigen::Vector3d> loop;                 ///< of a girth: the tape, body frame
+  bool seen =
+      false;  ///< the reading on the mesh lies on skin that the scan backs: it may be far from the model's
 };
 
 /// A settled figure.

@@ -30,7 +30,8 @@ constexpr double kArmReach = 0.055,
                  kThighReach = 0.12;  // statures: half of the thickest limb's breadth, and room
 constexpr double kUnderButtock = 0.13,
                  kFoldUnderButtock =
-                     0.065;  // statures (definition): back of the thigh, and a fold that does not show
+                     0.065;      // statures (definition): back of the thigh, and a fold that does not show
+constexpr double kSeen = 0.015;  // m round a place: skin that was seen there, or not
 constexpr double kPerineum = 0.015;   // m round the crotch
 constexpr double kFoldDepth = 0.003;  // m under the straight edge; less is noise
 constexpr double kLevelArm =
@@ -111,8 +112,9 @@ class Reader {
   void add(Kind kind, const std::string& name, std::optional<Vector3d> on_mesh,
            std::optional<Vector3d> on_model, double support, Tape loop = {}) {
     if (!on_mesh && !on_model) return;
-    figures_.push_back(
-        {kind, name, std::move(on_mesh), std::move(on_model), support, body_.residual, std::move(loop)});
+    const bool seen = kind == Kind::point && on_mesh && unseen_share(mesh_.surface, *on_mesh, kSeen) < 0.5;
+    figures_.push_back({kind, name, std::move(on_mesh), std::move(on_model), support, body_.residual,
+                        std::move(loop), seen});
   }
   const Figure* find(Kind kind, const std::string& name) const {
     const auto found = std::find_if(figures_.begin(), figures_.end(),

@@ -74,6 +74,8 @@ TEST(Settle, AReadingGrosslyOffIsLeftOut) {
     point.on_mesh = *point.on_model + Vector3d(0, 0, off);
     EXPECT_EQ(settle(point, precision(), false).value == *point.on_model, left_out) << off;
   }
+  point.seen = true;  // skin that the scan backs is hers, however far off the model is
+  EXPECT_FALSE(settle(point, precision(), false).rests_on_model);
 }
 
 TEST(Settle, WhatReadingsAreOffOnAverageIsTakenOff) {
@@ -136,7 +138,8 @@ class PrecisionFile : public testing::Test {
 };
 
 const std::string kFigure =
-    "{mesh: {bias: -0.002, base: 0.001, support: 0.1}, model: {bias: 0, base: 1, support: 0.2}, disagreement: "
+    "{mesh: {bias: -0.002, base: 0.001, support: 0.1}, model: {bias: 0, base: 1, support: 0.2}, "
+    "disagreement: "
     "0.1, half_width: 2}";
 
 std::string file_with(const std::string& of_bust) {
