@@ -13,10 +13,12 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr char kMagic[] = "tensegric_fit bones 1";
-constexpr double kByte = 255;  // bytes of weights sum to it
-constexpr double kArm = 0.5;   // of what carries a vertex: more is arm
-constexpr double kLeastStep = 0.0005,
-                 kMostPressed = 0.15;  // m; of a step, and in all: half the depth of a trunk
+constexpr double kByte = 255;  // definition of the format: weights are shares in 255ths
+constexpr double kArm = 0.5;   // definition: an arm carries more than half of a vertex
+constexpr double
+    kLeastStep = 0.0005,
+    kMostPressed =
+        0.15;  // m; tolerance of the last step, a tenth of kThinnestTissue; in all: half the depth of a trunk
 
 BoneShape shape_in(const ArrayFile& file, const std::string& name, const Model& model, const Check& check) {
   BoneShape shape;

@@ -20,9 +20,12 @@ using Eigen::VectorXd;
 constexpr double kDegree = M_PI / 180;
 constexpr double kTilt =
     10 * kDegree;  // of the pelvis: 15 degrees of the scan, 25 of a stoop are within 2.5 deviations
-constexpr double kStature = 0.15;  // of its logarithm: 1.45 to 1.95 m
-constexpr double kNoisePerScale = .06,
-                 kLeastNoise = 0.002;  // what a match may be off, and m that the model always is
+constexpr double kStartOff =
+    0.15;  // of the stature's logarithm: a fit begins with the scan's height, however she stoops
+// What a match may be off, as a share of the scale that matches are looked for in, and m that the model
+// always is. Tolerance, not fitted: with a share of 0.15 the prior keeps bodies far from the mean in a wrong
+// shape while matches are coarse.
+constexpr double kNoisePerScale = 0.06, kLeastNoise = 0.002;
 constexpr double
     kPiece = 180,
     kMisfit = 0.002;  // pieces of a woman's skin, 10 cm wide, that misfit each on its own; m, by how much
@@ -42,7 +45,7 @@ Prior prior_of(const Model& model, const Parameters& p, double stature) {
   prior.off.head<2>() = Vector3d::UnitZ().cross(up).head<2>();
   prior.precision.head<2>().setConstant(1 / (kTilt * kTilt));
   prior.off[Parameters::kScale] = p.log_scale - stature;
-  prior.precision[Parameters::kScale] = 1 / (kStature * kStature);
+  prior.precision[Parameters::kScale] = 1 / (kStartOff * kStartOff);
   for (std::size_t g = 0; g < p.turns.size(); ++g) {
     const int at = Parameters::kTurns + 3 * static_cast<int>(g);
     prior.off.segment<3>(at) = p.turns[g];

@@ -11,8 +11,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kReach =
-    0.05;  // m that a normal turned by 60 degrees counts like: skin of the other side of an arm is farther
 constexpr double kFarthest = 2.5;  // scales
 constexpr double kAstray = 0.5;  // scales from the sample's own model point: half counts at two thirds of it
 constexpr double kSameSide = 0.5;  // cosine between two normals of one skin
@@ -42,15 +40,14 @@ void in_parallel(std::size_t count, const Work& work) {
 
 }  // namespace
 
-Matcher::Matcher(const Samples& samples)
-    : samples_(samples), tree_(samples.points, samples.normals, kReach) {}
+Matcher::Matcher(const Samples& samples) : samples_(samples), tree_(samples.points, samples.normals) {}
 Matcher::~Matcher() = default;
 
 Matching Matcher::match(const ModelSkin& skin, double scale, int samples) const {
   const std::size_t count = skin.points.size();
   Matching result{std::vector<Pull>(count), std::vector<double>(count), {}};
   const double sideways = kSideways * scale * scale;
-  const OrientedTree model(skin.points, skin.normals, kReach);
+  const OrientedTree model(skin.points, skin.normals);
   in_parallel(count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const int s = tree_.nearest(skin.points[i], skin.normals[i]);

@@ -7,11 +7,14 @@
 
 namespace tensegric_fit::body_model {
 
-/// A kd-tree over (point, reach * normal): a normal that is turned by 60 degrees counts like `reach` metres.
+/// A kd-tree over (point, reach * normal): a normal that is turned by 60 degrees counts like `reach` metres:
+/// skin of the other side of an arm is farther than kReach.
 class OrientedTree {
  public:
+  static constexpr double kReach = 0.05;  ///< m
   /// \pre not empty, of one size, all finite
-  OrientedTree(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3d>& normals, double reach);
+  OrientedTree(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3d>& normals,
+               double reach = kReach);
   ~OrientedTree();
   /// Index of the nearest.
   int nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;

@@ -5,15 +5,9 @@
 #include "geometry/halves.hpp"
 
 namespace tensegric_fit::body_model {
-namespace {
-
-constexpr double kReach = 0.05;  // m that a normal turned by 60 degrees counts like
-
-}  // namespace
-
 std::vector<int> nearest_skin(const geometry::TriangleMesh& mesh, const RegisteredBody& body) {
   const std::vector<Eigen::Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
-  const OrientedTree tree(body.skin, geometry::vertex_normals(body.skin, body.model->triangles), kReach);
+  const OrientedTree tree(body.skin, geometry::vertex_normals(body.skin, body.model->triangles));
   std::vector<int> nearest(mesh.vertices.size());
   geometry::in_halves(nearest.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t v = begin; v < end; ++v) nearest[v] = tree.nearest(mesh.vertices[v], normals[v]);

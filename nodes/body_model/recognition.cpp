@@ -39,10 +39,9 @@ constexpr int kSamples = 6000;                         // that are asked: 17 mm 
 constexpr double kTogether = 0.06;                     // m; nearer ones are one thing
 constexpr double kLeastThing = 0.004;  // of the surface, 70 cm^2: more than fingers that are bent otherwise
 constexpr double kArmsLength = 0.3;    // m: so far a limb may have turned away from where the model has it
-constexpr double kReach = 0.05;  // m that a normal turned by 60 degrees counts like, as in the registration
-constexpr double kTurned = 0.5;  // cosine between two normals of one skin
+constexpr double kTurned = 0.5;        // cosine between two normals of one skin
 
-/// Each part of whom it hangs on another; head and limbs from the trunk outwards.
+/// Head and limbs from the trunk outwards, each with the part that it hangs on.
 struct Limb {
   const char *part, *on;
 };
@@ -173,7 +172,7 @@ double share_off(const Off& off) {
 /// m, of the samples that are hers from the posed skin, along its normal.
 double misfit_of(const RegisteredBody& body, const Samples& samples, const Off& off) {
   const std::vector<Vector3d> normals = geometry::vertex_normals(body.posed, body.model->triangles);
-  const OrientedTree tree(body.posed, normals, kReach);
+  const OrientedTree tree(body.posed, normals);
   std::vector<double> distances(off.distances.size(), -1);
   geometry::in_halves(distances.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t s = begin; s < end; ++s) {

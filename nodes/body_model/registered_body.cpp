@@ -5,10 +5,8 @@
 
 namespace tensegric_fit::body_model {
 
-namespace {
-
-Eigen::Vector3d point_of(const Model& model, const std::string& name,
-                         const std::vector<Eigen::Vector3d>& skin) {
+Eigen::Vector3d skin_point(const Model& model, const std::vector<Eigen::Vector3d>& skin,
+                           const std::string& name) {
   for (const SkinPoint& point : model.skin_points) {
     if (point.name != name) continue;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -18,13 +16,11 @@ Eigen::Vector3d point_of(const Model& model, const std::string& name,
   throw std::out_of_range("the body model has no skin point " + name);
 }
 
-}  // namespace
-
 Eigen::Vector3d RegisteredBody::skin_point(const std::string& name) const {
-  return point_of(*model, name, skin);
+  return body_model::skin_point(*model, skin, name);
 }
 Eigen::Vector3d RegisteredBody::posed_point(const std::string& name) const {
-  return point_of(*model, name, posed);
+  return body_model::skin_point(*model, posed, name);
 }
 
 Eigen::Vector3d RegisteredBody::bone_point(const std::string& name) const {

@@ -55,6 +55,11 @@ struct RegisteredBody {
   double stature() const;  ///< m, of the model in this size, standing straight
 };
 
+/// A named point of the skin; `skin`: the model's vertices in any pose, others may follow. \throw
+/// std::out_of_range: there is none of that name
+Eigen::Vector3d skin_point(const Model& model, const std::vector<Eigen::Vector3d>& skin,
+                           const std::string& name);
+
 /// The same in another frame.
 RegisteredBody moved(const RegisteredBody& body, const Eigen::Isometry3d& motion);
 

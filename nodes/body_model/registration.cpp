@@ -28,13 +28,13 @@ constexpr std::size_t kFewest = 500;   // samples
 constexpr int kSamplesOfMesh = 40000;  // 7 mm apart on a woman
 constexpr int kAround = 12;            // samples: two rings of neighbours
 
-/// Where a person may stand of whom a scan shows all or a part.
+/// Stature and soles of a person; the scan may show only a part of her.
 struct Stand {
   double stature, soles;  ///< m
 };
 constexpr double kShortest = 1.30, kTallest = 2.15;  // m, of women who stand or stoop
 constexpr double kShort = 1.45;  // m; of 100 women one is shorter: it may be a part of a taller one
-constexpr double kUsual = 1.65;  // m, of women and men of whom only a part is seen
+constexpr double kUsual = 1.65;  // m, of women and men when a scan shows only a part
 constexpr double kLeast = 0.5;   // m; less of a person is too little to know her by
 constexpr double kKnee = 0.27, kCrotch = 0.46, kChin = 0.87;  // statures above the soles
 

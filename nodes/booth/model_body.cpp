@@ -151,16 +151,6 @@ int bone_named(const Model& model, const std::string& name) {
   throw std::out_of_range("the body model has no bone " + name);
 }
 
-Vector3d skin_point(const Model& model, const std::vector<Vector3d>& vertices, const std::string& name) {
-  for (const body_model::SkinPoint& point : model.skin_points) {
-    if (point.name != name) continue;
-    Vector3d sum = Vector3d::Zero();
-    for (const auto& [vertex, share] : point.vertices) sum += share * vertices[vertex];
-    return sum;
-  }
-  throw std::out_of_range("the body model has no skin point " + name);
-}
-
 const Model& shipped_model() {
   static const Model model = body_model::load_model(geometry::shipped_folder("body_model") + "/women.tfb");
   return model;

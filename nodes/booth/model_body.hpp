@@ -52,11 +52,6 @@ VirtualBody make_body(const body_model::Model& model, const ModelBodyParameters&
 /// Index into the model's bones. \throw std::out_of_range: it has none of that name
 int bone_named(const body_model::Model& model, const std::string& name);
 
-/// A named point of the skin; `vertices`: the model's, others may follow. \throw std::out_of_range: there is
-/// none of that name
-Eigen::Vector3d skin_point(const body_model::Model& model, const std::vector<Eigen::Vector3d>& vertices,
-                           const std::string& name);
-
 /// The shipped model, loaded once. \throw Refusal broken_file
 const body_model::Model& shipped_model();
 

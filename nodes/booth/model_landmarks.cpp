@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "body_model/registered_body.hpp"
 #include "booth/model_body.hpp"
 #include "booth/skin_measures.hpp"
 #include "geometry/status.hpp"
@@ -121,7 +122,7 @@ class ModelTruth {
   }
 
   Vector3d skin_point(const std::string& name) const {
-    return booth::skin_point(model_, skin_.mesh().vertices, name);
+    return body_model::skin_point(model_, skin_.mesh().vertices, name);
   }
   Vector3d bone_point(const std::string& name) const {
     for (std::size_t i = 0; i < model_.bone_points.size(); ++i)

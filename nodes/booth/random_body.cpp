@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "body_model/registered_body.hpp"
 #include "booth/random.hpp"
 #include "booth/sagittal.hpp"
 #include "geometry/status.hpp"
@@ -42,7 +43,7 @@ bool is_womans_size(const body_model::Model& model, const ModelBodyParameters& b
   const Skin skin({stand(model, body).vertices, model.triangles}, model.arm);
   double height = 0;
   for (const char* name : {"bust_point_L", "bust_point_R"})
-    height += skin_point(model, skin.mesh().vertices, name).z() / 2;
+    height += body_model::skin_point(model, skin.mesh().vertices, name).z() / 2;
   const double bust = girth(skin.round_trunk(height));
   return bust > 0.70 && bust < 1.42;  // m
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/section.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::booth {
@@ -43,22 +44,6 @@ Line even(const Line& line, double length) {
   return result;
 }
 
-/// The ends count as often as the window wants them.
-Line smoothed(const Line& line) {
-  const int reach = static_cast<int>(4 * kSmoothing), last = static_cast<int>(line.size()) - 1;
-  Line result(line.size(), Vector3d::Zero());
-  for (int i = 0; i <= last; ++i) {
-    double sum = 0;
-    for (int k = -reach; k <= reach; ++k) {
-      const double w = std::exp(-0.5 * k * k / (kSmoothing * kSmoothing));
-      result[i] += w * line[std::clamp(i + k, 0, last)];
-      sum += w;
-    }
-    result[i] /= sum;
-  }
-  return result;
-}
-
 /// The trunk's profile from the place nearest to `start` down the front.
 Line profile_down(const Skin& skin, const Vector3d& start) {
   Line loop = skin.sagittal(start, Part::trunk).points;
@@ -71,7 +56,7 @@ Line profile_down(const Skin& skin, const Vector3d& start) {
   std::reverse(back.begin() + 1, back.end());
   const auto height = [](const Line& way) { return middle_of(even(way, kWay)).z(); };
   if (height(back) < height(loop)) loop = back;
-  return smoothed(even(loop, kReach + kBeyond));
+  return geometry::smoothed(even(loop, kReach + kBeyond), kSmoothing, static_cast<int>(4 * kSmoothing));
 }
 
 /// Positive where the profile of a front that is followed downwards is hollow.

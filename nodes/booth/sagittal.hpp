@@ -6,13 +6,16 @@
 #include <vector>
 
 #include "booth/skin.hpp"
+#include "geometry/side.hpp"
 
 namespace tensegric_fit::booth {
 
-enum Side { kLeft = 0, kRight = 1 };
-inline constexpr Side kSides[2] = {kLeft, kRight};
-inline constexpr double kSign[2] = {1, -1};  ///< of y
-inline constexpr const char* kSuffix[2] = {"_L", "_R"};
+using geometry::kLeft;
+using geometry::kRight;
+using geometry::kSides;
+using geometry::kSign;
+using geometry::kSuffix;
+using geometry::Side;
 
 /// The fold under a breast.
 struct Fold {

@@ -18,9 +18,9 @@ struct PointCloud {
 
 /// The x, y, z (and normal_x, normal_y, normal_z or nx, ny, nz where all three are there) of a cloud, float32
 /// or float64, in either byte order, whatever other fields, padding or organisation it has. Nothing is
-/// dropped: NaN stay NaN. A field `sensor` of type uint8 tells who saw each point. \throw Refusal
-/// wrong_fields: no x, y, z of a floating type; broken_file: the data are shorter or longer than the layout
-/// says
+/// dropped: NaN stay NaN. A field `sensor` of type uint8 is the number of the sensor that saw each point.
+/// \throw Refusal wrong_fields: no x, y, z of a floating type; broken_file: the data are shorter or longer
+/// than the layout says
 PointCloud points_of(const pcl::PCLPointCloud2& cloud);
 
 /// Clouds of one person in one frame as one. Normals of a cloud without any are zero where others have some,

@@ -1,5 +1,7 @@
 #include "geometry/section.hpp"
 
+#include <cmath>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
@@ -83,6 +85,21 @@ std::vector<SectionLoop> plane_section(const TriangleMesh& mesh, const Eigen::Ve
     loops.push_back(std::move(loop));
   }
   return loops;
+}
+
+std::vector<Eigen::Vector3d> smoothed(const std::vector<Eigen::Vector3d>& line, double deviation, int reach) {
+  const int last = static_cast<int>(line.size()) - 1;
+  std::vector<Eigen::Vector3d> result(line.size(), Eigen::Vector3d::Zero());
+  for (int i = 0; i <= last; ++i) {
+    double sum = 0;
+    for (int k = -reach; k <= reach; ++k) {
+      const double w = std::exp(-0.5 * k * k / (deviation * deviation));
+      result[i] += w * line[std::clamp(i + k, 0, last)];
+      sum += w;
+    }
+    result[i] /= sum;
+  }
+  return result;
 }
 
 double length_of(const std::vector<Eigen::Vector3d>& points, bool closed) {

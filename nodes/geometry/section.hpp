@@ -25,6 +25,10 @@ std::vector<SectionLoop> plane_section(const TriangleMesh& mesh, const Eigen::Ve
 /// Length of a polyline, with the closing segment if closed. Metres.
 double length_of(const std::vector<Eigen::Vector3d>& points, bool closed);
 
+/// A line in even steps, each point the mean of its neighbours by a Gaussian of `deviation` steps that is cut
+/// off at `reach` steps; the ends count as often as the window wants them.
+std::vector<Eigen::Vector3d> smoothed(const std::vector<Eigen::Vector3d>& line, double deviation, int reach);
+
 /// Convex hull in a plane, counter-clockwise, without collinear points.
 std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points);
 

@@ -44,21 +44,6 @@ double width_of(const SectionLoop& loop) {
   return (box[1] - box[0]).sum();
 }
 
-std::vector<Vector3d> smoothed(const std::vector<Vector3d>& line) {
-  const int reach = static_cast<int>(3 * kSmoothing), last = static_cast<int>(line.size()) - 1;
-  std::vector<Vector3d> result(line.size(), Vector3d::Zero());
-  for (int i = 0; i <= last; ++i) {
-    double sum = 0;
-    for (int k = -reach; k <= reach; ++k) {
-      const double w = std::exp(-0.5 * k * k / (kSmoothing * kSmoothing));
-      result[i] += w * line[std::clamp(i + k, 0, last)];
-      sum += w;
-    }
-    result[i] /= sum;
-  }
-  return result;
-}
-
 }  // namespace
 
 std::vector<Vector3d> even_steps(const std::vector<Vector3d>& line, double step, double length) {
@@ -168,7 +153,8 @@ Profile profile_down(const Trunk& trunk, const Vector3d& start, double length) {
   }
   Profile profile;
   if (line.size() < 3) return profile;
-  profile.points = smoothed(even_steps(line, Profile::kStep, length));
+  profile.points = geometry::smoothed(even_steps(line, Profile::kStep, length), kSmoothing,
+                                      static_cast<int>(3 * kSmoothing));
   const int last = static_cast<int>(profile.points.size()) - 1;
   profile.curvature.assign(profile.points.size(), 0);
   for (int i = 1; i < last; ++i) {

@@ -7,14 +7,17 @@
 #include <vector>
 
 #include "geometry/section.hpp"
+#include "geometry/side.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::landmarks {
 
-enum Side { kLeft = 0, kRight = 1 };
-inline constexpr Side kSides[2] = {kLeft, kRight};
-inline constexpr double kSign[2] = {1, -1};  ///< of y
-inline constexpr const char* kSuffix[2] = {"_L", "_R"};
+using geometry::kLeft;
+using geometry::kRight;
+using geometry::kSides;
+using geometry::kSign;
+using geometry::kSuffix;
+using geometry::Side;
 
 /// x forward, y left, z up, the ground at z = 0; metres.
 struct Surface {

@@ -1,4 +1,4 @@
-/// Whom `population` measures: random customers of the virtual booth, or bodies in a folder.
+/// The bodies that `population` measures: random customers of the virtual booth, or bodies in a folder.
 #pragma once
 
 #include <memory>
