@@ -12,15 +12,18 @@ namespace {
 
 constexpr const char* kCode = geometry::refusal::kBrokenFile;
 constexpr double kLargest = 100;  // of any coefficient
+constexpr double kSteepest = 10;  // power of the misfit
 constexpr double kSure = 1.5;     // of ISO 20685's limits: on training scans 2 % of the figures within it are
                                   // off by more than the limit
 constexpr double kGrossLimits = 3;  // of ISO 20685: less is no gross error, however sure both are
+constexpr double kUnit = 0.002;     // m of misfit, about that of a scanned woman: Spread::base is for it
 constexpr double kGross = 4;  // spreads between two readings of one thing: with Gaussian errors 1 in 16,000
 
 Spread spread_in(const YAML::Node& node, const std::string& where) {
-  geometry::check_keys(node, {"bias", "base", "support"}, where, kCode);
+  geometry::check_keys(node, {"bias", "base", "growth", "support"}, where, kCode);
   return {geometry::number_in(node, "bias", -kLargest, kLargest, where, kCode),
           geometry::number_in(node, "base", 0, kLargest, where, kCode),
+          geometry::number_in(node, "growth", 0, kSteepest, where, kCode),
           geometry::number_in(node, "support", 0, kLargest, where, kCode)};
 }
 
@@ -48,7 +51,16 @@ std::string key_of(const Figure& figure) {
 }
 
 double deviation(const Spread& spread, double misfit, double support) {
-  return std::hypot(spread.base * misfit, spread.support * support);
+  return std::hypot(spread.base * std::pow(misfit / kUnit, spread.growth), spread.support * support);
+}
+
+const FigurePrecision& precision_of(const Figure& figure, const Precision& precision, bool scanned) {
+  const auto& of_source = scanned ? precision.of_scan : precision.of_mesh;
+  const auto found = of_source.find(key_of(figure));
+  if (found == of_source.end())
+    throw geometry::Refusal(
+        kCode, "the precision of '" + key_of(figure) + "' is not known: the file does not fit this version");
+  return found->second;
 }
 
 }  // namespace
@@ -65,14 +77,13 @@ const Precision& shipped_precision() {
   return precision;
 }
 
+double spread_of_model(const Figure& figure, const Precision& precision, bool scanned) {
+  return deviation(precision_of(figure, precision, scanned).model, figure.misfit, figure.support);
+}
+
 Settled settle(const Figure& figure, const Precision& precision, bool scanned) {
-  const auto& of_source = scanned ? precision.of_scan : precision.of_mesh;
-  const auto found = of_source.find(key_of(figure));
-  if (found == of_source.end())
-    throw geometry::Refusal(
-        kCode, "the precision of '" + key_of(figure) + "' is not known: the file does not fit this version");
-  const FigurePrecision& p = found->second;
-  const double mesh = deviation(p.mesh, 1, figure.support),
+  const FigurePrecision& p = precision_of(figure, precision, scanned);
+  const double mesh = deviation(p.mesh, figure.misfit, figure.support),
                model = deviation(p.model, figure.misfit, figure.support);
   const auto unbiased = [](const Eigen::Vector3d& reading, const Spread& spread) {
     return Eigen::Vector3d(reading - spread.bias * Eigen::Vector3d::UnitX());

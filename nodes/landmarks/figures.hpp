@@ -10,10 +10,10 @@
 namespace tensegric_fit::landmarks {
 
 /// How far off a reading is, m, on bodies whose truth is known: on average by `bias` (of heights and girths;
-/// of points 0), round that by the root of base^2 (of a model: (base * Figure::misfit)^2) and (support *
-/// Figure::support)^2.
+/// of points 0), round that by the root of (base * (Figure::misfit / 2 mm)^growth)^2 and (support *
+/// Figure::support)^2. Readings on the mesh may grow with misfit, too: some are looked for near the model's.
 struct Spread {
-  double bias, base, support;
+  double bias, base, growth, support;
 };
 
 /// Of one figure.
@@ -54,6 +54,9 @@ struct Settled {
   double half_width;    ///< m, of the 95 % interval; of a point, the radius
   bool rests_on_model;  ///< the mesh does not show it, or shows something else
 };
+
+/// How far off the model's reading of a figure may be, m; its values are not read.
+double spread_of_model(const Figure& figure, const Precision& precision, bool scanned);
 
 /// Mesh and model weighted by how far off each may be.
 Settled settle(const Figure& figure, const Precision& precision, bool scanned);

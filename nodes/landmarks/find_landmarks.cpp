@@ -20,7 +20,8 @@ using Tape = std::vector<Vector3d>;
 constexpr double kUnderbustBelowFold = 0.003;  // m: the tape lies just under the fold (definition)
 constexpr double kWaistAboveHip = 0.10, kWaistBelowUnderbust = 0.005;  // m: the least girth is in between
 constexpr double kBreast = 0.045;  // m round the bust point: skin that says where the breast points
-constexpr double kMisfits = 2.5;   // of the model: deviation of a nipple from where the model has it
+constexpr double kNippleSpreads = 2,
+                 kFoldSpreads = 4;  // of the model: how far off it a place on the mesh is looked for
 constexpr double kFoldOfModel = 0.040,
                  kFoldOfMesh = 0.025;  // m from where folds usually are on the model, and from where hers is
 constexpr double kSeat = 0.02, kBelowWaist = 0.04;  // m: buttocks from below the crotch to below the navel
@@ -32,6 +33,7 @@ constexpr double kUnderButtock = 0.13,
                  kFoldUnderButtock =
                      0.065;      // statures (definition): back of the thigh, and a fold that does not show
 constexpr double kSeen = 0.015;  // m round a place: skin that was seen there, or not
+constexpr double kGap = 0.05;    // of a tape's corners: a bridge over less hardly changes its length
 constexpr double kPerineum = 0.015;   // m round the crotch
 constexpr double kFoldDepth = 0.003;  // m under the straight edge; less is noise
 constexpr double kLevelArm =
@@ -110,11 +112,25 @@ class Reader {
   }
 
   void add(Kind kind, const std::string& name, std::optional<Vector3d> on_mesh,
-           std::optional<Vector3d> on_model, double support, Tape loop = {}) {
+           std::optional<Vector3d> on_model, double support, bool seen, Tape loop = {}) {
     if (!on_mesh && !on_model) return;
-    const bool seen = kind == Kind::point && on_mesh && unseen_share(mesh_.surface, *on_mesh, kSeen) < 0.5;
     figures_.push_back({kind, name, std::move(on_mesh), std::move(on_model), support, body_.residual,
                         std::move(loop), seen});
+  }
+  void add_point(const std::string& name, const std::optional<Vector3d>& on_mesh,
+                 const std::optional<Vector3d>& on_model, double support) {
+    add(Kind::point, name, on_mesh, on_model, support, is_seen(on_mesh));
+  }
+  bool is_seen(const std::optional<Vector3d>& on_mesh) const {
+    return on_mesh && unseen_share(mesh_.surface, *on_mesh, kSeen) < 0.5;
+  }
+  /// Nearly everywhere.
+  bool is_seen(const Tape& tape) const {
+    if (mesh_.surface.unseen.empty()) return true;
+    const auto unseen = std::count_if(tape.begin(), tape.end(), [&](const Vector3d& p) {
+      return unseen_share(mesh_.surface, p, kSeen) > 0.5;
+    });
+    return static_cast<double>(unseen) < kGap * static_cast<double>(tape.size());
   }
   const Figure* find(Kind kind, const std::string& name) const {
     const auto found = std::find_if(figures_.begin(), figures_.end(),
@@ -128,6 +144,11 @@ class Reader {
     return settle(*find(Kind::height, name), precision_, body_.scanned).value.x();
   }
 
+  double spread_of_model(const std::string& point, double support) const {
+    return landmarks::spread_of_model({Kind::point, point, {}, {}, support, body_.residual, {}, false},
+                                      precision_, body_.scanned);
+  }
+
   void bust_point(Side side) {
     const std::string name = std::string("bust_point") + kSuffix[side];
     const Vector3d there = expected(name);
@@ -135,29 +156,31 @@ class Reader {
     for (std::size_t v = 0; v < normals_.size(); ++v)
       if ((skin_.surface.mesh.vertices[v] - there).norm() < kBreast && skin_.surface.arm[v] < 0.5)
         outward += normals_[v];
-    add(Kind::point, name, find_nipple(mesh_.surface, there, kMisfits * body_.residual, outward.normalized()),
-        there, support_at(there));
+    const double deviation = kNippleSpreads * spread_of_model(name, support_at(there));
+    add_point(name, find_nipple(mesh_.surface, there, deviation, outward.normalized()), there,
+              support_at(there));
   }
 
   void fold(Side side) {
+    const std::string name = std::string("underbust") + kSuffix[side];
     const Vector3d tip = point(std::string("bust_point") + kSuffix[side]);
-    const Fold on_model =
-        find_fold(shape_.trunk, tip, side, {shaped(std::string("underbust") + kSuffix[side])}, kFoldOfModel);
-    const Fold on_mesh = find_fold(mesh_.trunk, tip, side, on_model.places, kFoldOfMesh);
+    const Fold on_model = find_fold(shape_.trunk, tip, side, {shaped(name)}, kFoldOfModel);
+    const double reach = std::max(kFoldOfMesh, kFoldSpreads * spread_of_model(name, 0));
+    const Fold on_mesh = find_fold(mesh_.trunk, tip, side, on_model.places, reach);
     lowest_[0][side] = on_mesh.places.empty() ? std::nullopt : std::optional<Vector3d>(on_mesh.lowest);
     lowest_[1][side] = on_model.places.empty() ? std::nullopt : std::optional<Vector3d>(on_model.lowest);
     const auto first = [](const Fold& f) {
       return f.places.empty() ? std::nullopt : std::optional<Vector3d>(f.places.front());
     };
     if (!on_model.places.empty())
-      add(Kind::point, std::string("underbust") + kSuffix[side], first(on_mesh), first(on_model),
-          support_at(on_model.places.front()));
+      add_point(name, first(on_mesh), first(on_model), support_at(on_model.places.front()));
   }
 
   /// The mean height of points.
   void level(const std::string& name, const std::vector<std::string>& points) {
     std::optional<double> on_mesh = 0.0, on_model = 0.0;
     double support = 0;
+    bool seen = true;
     for (const std::string& p : points) {
       const Figure* figure = find(Kind::point, p);
       if (figure == nullptr) return;
@@ -170,8 +193,9 @@ class Reader {
       take(on_mesh, figure->on_mesh);
       take(on_model, figure->on_model);
       support = std::max(support, figure->support);
+      seen = seen && figure->seen;
     }
-    add(Kind::height, name, as_figure(on_mesh), as_figure(on_model), support);
+    add(Kind::height, name, as_figure(on_mesh), as_figure(on_model), support, seen);
   }
 
   void level_of_folds() {
@@ -181,7 +205,8 @@ class Reader {
       if (lowest_[s][0] && lowest_[s][1]) lowest[s] = std::min(lowest_[s][0]->z(), lowest_[s][1]->z());
     for (const Side side : kSides)
       if (lowest_[1][side]) support = std::max(support, support_at(*lowest_[1][side]));
-    add(Kind::height, "underbust", as_figure(lowest[0]), as_figure(lowest[1]), support);
+    add(Kind::height, "underbust", as_figure(lowest[0]), as_figure(lowest[1]), support,
+        is_seen(lowest_[0][kLeft]) && is_seen(lowest_[0][kRight]));
   }
 
   void crotch() {
@@ -189,9 +214,8 @@ class Reader {
     auto on_mesh = find_crotch(mesh_.surface, there);
     if (on_mesh && unseen_share(mesh_.surface, *on_mesh, kPerineum) > 0.5)
       on_mesh.reset();  // a filled gap has its own lowest place
-    add(Kind::point, "crotch", on_mesh, there, support_at(there));
-    add(Kind::height, "crotch", as_figure(on_mesh ? std::optional<double>(on_mesh->z()) : std::nullopt),
-        Vector3d(there.z(), 0, 0), support_at(there));
+    add_point("crotch", on_mesh, there, support_at(there));
+    level("crotch", {"crotch"});
   }
 
   void buttock(Side side) {
@@ -205,8 +229,8 @@ class Reader {
       if (rearmost == nullptr || p.x() < rearmost->x()) rearmost = &p;
     }
     if (rearmost == nullptr) return;
-    add(Kind::point, std::string("buttock") + kSuffix[side], find_buttock(mesh_.trunk, *rearmost),
-        find_buttock(skin_.trunk, *rearmost), support_at(*rearmost));
+    add_point(std::string("buttock") + kSuffix[side], find_buttock(mesh_.trunk, *rearmost),
+              find_buttock(skin_.trunk, *rearmost), support_at(*rearmost));
   }
   double expected_crotch_y() const { return expected("crotch").y(); }
 
@@ -216,9 +240,9 @@ class Reader {
     const auto on_mesh = find_waist(mesh_.trunk, low, high), on_model = find_waist(skin_.trunk, low, high);
     if (on_mesh && on_model) {
       add(Kind::height, "waist", as_figure(on_mesh), as_figure(on_model),
-          support_along(skin_.trunk.tape_of_torso(*on_model)));
+          support_along(skin_.trunk.tape_of_torso(*on_model)), is_seen(mesh_.trunk.tape_of_torso(*on_mesh)));
     } else {
-      add(Kind::height, "waist", std::nullopt, Vector3d(expected("navel").z(), 0, 0), kWorst);
+      add(Kind::height, "waist", std::nullopt, Vector3d(expected("navel").z(), 0, 0), kWorst, false);
     }
   }
 
@@ -233,28 +257,29 @@ class Reader {
         if (lowest_[s][side]) level = std::min(level, lowest_[s][side]->z());
       tapes[s] = (s == 0 ? mesh_ : shape_).trunk.tape_of_torso(level - kUnderbustBelowFold);
     }
-    girth_of("underbust", tapes[0], tapes[1]);
+    girth_of("underbust", tapes[0], tapes[1], find(Kind::height, "underbust")->seen);
   }
 
   template <typename TapeOf>
   void girth(const std::string& name, const TapeOf& tape_of) {
     if (find(Kind::height, name) == nullptr) return;
-    girth_of(name, tape_of(mesh_.trunk), tape_of(skin_.trunk));
+    girth_of(name, tape_of(mesh_.trunk), tape_of(skin_.trunk), find(Kind::height, name)->seen);
   }
-  void girth_of(const std::string& name, Tape on_mesh, Tape on_model) {
+  /// `level_seen`: it is known where on the mesh the tape lies.
+  void girth_of(const std::string& name, Tape on_mesh, Tape on_model, bool level_seen = true) {
     if (on_mesh.size() < 3 && on_model.size() < 3) return;
     const auto value = [](const Tape& t) {
       return t.size() < 3 ? std::nullopt : std::optional<double>(length(t));
     };
     const double support = support_along(on_model.size() < 3 ? on_mesh : on_model);
     add(Kind::girth, name, as_figure(value(on_mesh)), as_figure(value(on_model)), support,
-        on_mesh.size() < 3 ? on_model : on_mesh);
+        level_seen && is_seen(on_mesh), on_mesh.size() < 3 ? on_model : on_mesh);
   }
 
   void shoulder(Side side) {
     const Vector3d bone = frame_ * body_.bone_point(std::string("acromion") + kSuffix[side]);
-    add(Kind::point, std::string("shoulder") + kSuffix[side], skin_above(mesh_.surface, bone),
-        skin_above(skin_.surface, bone), support_at(bone));
+    add_point(std::string("shoulder") + kSuffix[side], skin_above(mesh_.surface, bone),
+              skin_above(skin_.surface, bone), support_at(bone));
   }
 
   void axilla(Side side) {
@@ -270,8 +295,8 @@ class Reader {
         find_axilla(mesh_.surface, side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
     const auto on_model =
         find_axilla(skin_.surface, side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
-    add(Kind::point, std::string("axilla") + kSuffix[side], on_mesh, on_model,
-        support_at(on_model ? *on_model : bone));
+    add_point(std::string("axilla") + kSuffix[side], on_mesh, on_model,
+              support_at(on_model ? *on_model : bone));
   }
 
   void upper_arm(Side side) {
@@ -321,16 +346,16 @@ class Reader {
     const double far = kUnderButtock * body_.stature();
     std::optional<Vector3d> on_model = find_gluteal_fold(skin_.trunk, seat, far, 0);
     if (!on_model) on_model = seat - kFoldUnderButtock * body_.stature() * Vector3d::UnitZ();
-    add(Kind::point, std::string("gluteal_fold") + kSuffix[side],
-        find_gluteal_fold(mesh_.trunk, seat, far, kFoldDepth), on_model, support_at(*on_model));
+    add_point(std::string("gluteal_fold") + kSuffix[side],
+              find_gluteal_fold(mesh_.trunk, seat, far, kFoldDepth), on_model, support_at(*on_model));
   }
 
   void farthest(const std::string& level, Side side) {
     if (find(Kind::height, level) == nullptr) return;
     const auto on_model = find_side(skin_.trunk, side, height(level));
     if (on_model)
-      add(Kind::point, level + "_side" + kSuffix[side], find_side(mesh_.trunk, side, height(level)), on_model,
-          support_at(*on_model));
+      add_point(level + "_side" + kSuffix[side], find_side(mesh_.trunk, side, height(level)), on_model,
+                support_at(*on_model));
   }
 
   void neck() {
@@ -339,9 +364,9 @@ class Reader {
     const Vector3d base = (front + back + left + right) / 4,
                    along = (front - back).cross(left - right).normalized();
     girth_of("neck", find_neck(mesh_.surface, base, along), find_neck(shape_.surface, base, along));
-    add(Kind::height, "neck", std::nullopt, Vector3d(base.z(), 0, 0), support_at(front));
+    add(Kind::height, "neck", std::nullopt, Vector3d(base.z(), 0, 0), support_at(front), false);
     for (const char* name : {"neck_front", "neck_back", "neck_side_L", "neck_side_R", "navel"})
-      add(Kind::point, name, std::nullopt, expected(name), support_at(expected(name)));
+      add_point(name, std::nullopt, expected(name), support_at(expected(name)));
   }
 
   void stature() {
@@ -350,7 +375,7 @@ class Reader {
     for (const Vector3d& p : skin_.surface.mesh.vertices)
       if (p.z() > crown.z()) crown = p;
     add(Kind::height, "stature", Vector3d(top(mesh_.surface), 0, 0), Vector3d(crown.z(), 0, 0),
-        support_at(crown));
+        support_at(crown), false);
   }
 
   static constexpr double kWorst = 0.1;  // m; support is no worse than that

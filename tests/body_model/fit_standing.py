@@ -12,6 +12,8 @@ import sys
 
 import numpy as np
 
+CLEARLY = 2.5                                        # deviations: as in nodes/body_model/standing.cpp
+
 
 def of_body(r, truth, old):
     """Lean forwards and to the left (degrees), soles and lowest points above the ground (m), the latter None where a floor was seen."""
@@ -29,7 +31,10 @@ def of_body(r, truth, old):
 
 
 def fit(rows):
-    return dict(forwards=rows[:, 0].mean(), sideways=rows[:, 1].std(), along=rows[:, 0].std(), seen=np.nanmean(rows[:, 3]), soles=rows[:, 2].mean())
+    forwards, along, sideways = rows[:, 0].mean(), rows[:, 0].std(), rows[:, 1].std()
+    # Leans have longer tails than a normal distribution: deviations such that one woman in 100 is CLEARLY off.
+    wider = max(1, np.quantile(np.hypot((rows[:, 0] - forwards) / along, rows[:, 1] / sideways), .99) / CLEARLY)
+    return dict(forwards=forwards, sideways=wider * sideways, along=wider * along, seen=np.nanmean(rows[:, 3]), soles=rows[:, 2].mean())
 
 
 def main():

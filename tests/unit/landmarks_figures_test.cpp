@@ -16,13 +16,14 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kSupport = 0.003, kMisfit = 0.005;  // m
-/// The mesh is 3 mm off there, hypot(0.0018, 0.8 * 0.003); the model 5 mm, hypot(0.8 * 0.005, 1 * 0.003).
+/// The mesh is 3 mm off there, hypot(0.0018, 0.8 * 0.003); the model 5 mm, hypot(0.00064 * (5 mm / 2 mm)^2, 1
+/// * 0.003).
 constexpr double kOfMesh = 0.003, kOfModel = 0.005, kHalfWidth = 2, kDisagreement = 0.1;
 
 Precision precision() {
-  const FigurePrecision p{{0, 0.0018, 0.8}, {0, 0.8, 1}, kDisagreement, kHalfWidth};
+  const FigurePrecision p{{0, 0.0018, 0, 0.8}, {0, 0.00064, 2, 1}, kDisagreement, kHalfWidth};
   return {{{"girth bust", p}, {"point bust_point", p}},
-          {{"girth bust", {{0, 0.0018, 0.8}, {0, 0.8, 1}, kDisagreement, 2 * kHalfWidth}}}};
+          {{"girth bust", {{0, 0.0018, 0, 0.8}, {0, 0.00064, 2, 1}, kDisagreement, 2 * kHalfWidth}}}};
 }
 
 Figure girth(std::optional<double> on_mesh, std::optional<double> on_model) {
@@ -138,7 +139,7 @@ class PrecisionFile : public testing::Test {
 };
 
 const std::string kFigure =
-    "{mesh: {bias: -0.002, base: 0.001, support: 0.1}, model: {bias: 0, base: 1, support: 0.2}, "
+    "{mesh: {bias: -0.002, base: 0.001, growth: 0, support: 0.1}, model: {bias: 0, base: 1, growth: 1.5, support: 0.2}, "
     "disagreement: "
     "0.1, half_width: 2}";
 
@@ -161,6 +162,7 @@ TEST_F(PrecisionFile, IsReadAsWritten) {
   EXPECT_EQ(bust.mesh.base, 0.001);
   EXPECT_EQ(bust.mesh.support, 0.1);
   EXPECT_EQ(bust.model.base, 1);
+  EXPECT_EQ(bust.model.growth, 1.5);
   EXPECT_EQ(bust.model.support, 0.2);
   EXPECT_EQ(bust.disagreement, 0.1);
   EXPECT_EQ(bust.half_width, 2);
@@ -171,6 +173,7 @@ TEST_F(PrecisionFile, IsRefusedByTheNameOfWhatIsWrong) {
     EXPECT_NE(refusal_of(text).find(word), std::string::npos) << refusal_of(text);
   };
   expect_named(file_with(replaced(kFigure, "half_width", "width")), "width");
+  expect_named(file_with(replaced(kFigure, "growth: 1.5", "growth: 11")), "growth");
   expect_named(file_with(replaced(kFigure, "support: 0.1", "slope: 0.1")), "slope");
   expect_named(file_with(replaced(kFigure, "half_width: 2", "half_width: -2")), "half_width");
   expect_named(file_with(replaced(kFigure, "base: 0.001", "base: .nan")), "base");
