@@ -33,7 +33,6 @@ constexpr double kUnderButtock = 0.13,
                  kFoldUnderButtock =
                      0.065;      // statures (definition): back of the thigh, and a fold that does not show
 constexpr double kSeen = 0.015;  // m round a place: skin that was seen there, or not
-constexpr double kGap = 0.05;    // of a tape's corners: a bridge over less hardly changes its length
 constexpr double kPerineum = 0.015;   // m round the crotch
 constexpr double kFoldDepth = 0.003;  // m under the straight edge; less is noise
 constexpr double kLevelArm =
@@ -123,14 +122,6 @@ class Reader {
   }
   bool is_seen(const std::optional<Vector3d>& on_mesh) const {
     return on_mesh && unseen_share(mesh_.surface, *on_mesh, kSeen) < 0.5;
-  }
-  /// Nearly everywhere.
-  bool is_seen(const Tape& tape) const {
-    if (mesh_.surface.unseen.empty()) return true;
-    const auto unseen = std::count_if(tape.begin(), tape.end(), [&](const Vector3d& p) {
-      return unseen_share(mesh_.surface, p, kSeen) > 0.5;
-    });
-    return static_cast<double>(unseen) < kGap * static_cast<double>(tape.size());
   }
   const Figure* find(Kind kind, const std::string& name) const {
     const auto found = std::find_if(figures_.begin(), figures_.end(),
@@ -240,7 +231,7 @@ class Reader {
     const auto on_mesh = find_waist(mesh_.trunk, low, high), on_model = find_waist(skin_.trunk, low, high);
     if (on_mesh && on_model) {
       add(Kind::height, "waist", as_figure(on_mesh), as_figure(on_model),
-          support_along(skin_.trunk.tape_of_torso(*on_model)), is_seen(mesh_.trunk.tape_of_torso(*on_mesh)));
+          support_along(skin_.trunk.tape_of_torso(*on_model)), false);
     } else {
       add(Kind::height, "waist", std::nullopt, Vector3d(expected("navel").z(), 0, 0), kWorst, false);
     }
@@ -257,23 +248,23 @@ class Reader {
         if (lowest_[s][side]) level = std::min(level, lowest_[s][side]->z());
       tapes[s] = (s == 0 ? mesh_ : shape_).trunk.tape_of_torso(level - kUnderbustBelowFold);
     }
-    girth_of("underbust", tapes[0], tapes[1], find(Kind::height, "underbust")->seen);
+    girth_of("underbust", tapes[0], tapes[1]);
   }
 
   template <typename TapeOf>
   void girth(const std::string& name, const TapeOf& tape_of) {
     if (find(Kind::height, name) == nullptr) return;
-    girth_of(name, tape_of(mesh_.trunk), tape_of(skin_.trunk), find(Kind::height, name)->seen);
+    girth_of(name, tape_of(mesh_.trunk), tape_of(skin_.trunk));
   }
-  /// `level_seen`: it is known where on the mesh the tape lies.
-  void girth_of(const std::string& name, Tape on_mesh, Tape on_model, bool level_seen = true) {
+  /// Never taken for seen: what is taken for arms may be missing from a tape.
+  void girth_of(const std::string& name, Tape on_mesh, Tape on_model) {
     if (on_mesh.size() < 3 && on_model.size() < 3) return;
     const auto value = [](const Tape& t) {
       return t.size() < 3 ? std::nullopt : std::optional<double>(length(t));
     };
     const double support = support_along(on_model.size() < 3 ? on_mesh : on_model);
-    add(Kind::girth, name, as_figure(value(on_mesh)), as_figure(value(on_model)), support,
-        level_seen && is_seen(on_mesh), on_mesh.size() < 3 ? on_model : on_mesh);
+    add(Kind::girth, name, as_figure(value(on_mesh)), as_figure(value(on_model)), support, false,
+        on_mesh.size() < 3 ? on_model : on_mesh);
   }
 
   void shoulder(Side side) {
@@ -345,7 +336,8 @@ class Reader {
     const Vector3d seat = point(std::string("buttock") + kSuffix[side]);
     const double far = kUnderButtock * body_.stature();
     std::optional<Vector3d> on_model = find_gluteal_fold(skin_.trunk, seat, far, 0);
-    if (!on_model) on_model = seat - kFoldUnderButtock * body_.stature() * Vector3d::UnitZ();
+    if (!on_model) on_model = skin_under(skin_.trunk, seat, kFoldUnderButtock * body_.stature());
+    if (!on_model) return;
     add_point(std::string("gluteal_fold") + kSuffix[side],
               find_gluteal_fold(mesh_.trunk, seat, far, kFoldDepth), on_model, support_at(*on_model));
   }

@@ -38,6 +38,9 @@ std::optional<Vector3d> find_buttock(const Trunk& trunk, const Vector3d& expecte
 std::optional<Vector3d> find_gluteal_fold(const Trunk& trunk, const Vector3d& buttock, double length,
                                           double depth);
 
+/// Where the sagittal profile from `start` has gone down by `down` (m); nothing where it ends before.
+std::optional<Vector3d> skin_under(const Trunk& trunk, const Vector3d& start, double down);
+
 /// The trunk's farthest skin to one side at a height, in the middle of what is flat.
 std::optional<Vector3d> find_side(const Trunk& trunk, Side side, double height);
 

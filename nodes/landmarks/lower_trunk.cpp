@@ -105,6 +105,13 @@ std::optional<Vector3d> find_gluteal_fold(const Trunk& trunk, const Vector3d& bu
   return deepest;
 }
 
+std::optional<Vector3d> skin_under(const Trunk& trunk, const Vector3d& start, double down) {
+  const Profile profile = profile_down(trunk, start, 2 * down);
+  const auto there = std::find_if(profile.points.begin(), profile.points.end(),
+                                  [&](const Vector3d& p) { return p.z() < start.z() - down; });
+  return there == profile.points.end() ? std::nullopt : std::optional<Vector3d>(*there);
+}
+
 std::optional<Vector3d> find_side(const Trunk& trunk, Side side, double height) {
   std::vector<Vector3d> points;
   for (const geometry::SectionLoop& loop : trunk.level(height))
