@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "geometry/halves.hpp"
-#include "geometry/point_tree.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -39,8 +38,8 @@ double distance_from_points(const Eigen::Vector3d& p, const Eigen::Vector3d& nor
 
 }  // namespace
 
-void fit_to_points(geometry::TriangleMesh& mesh, const geometry::PointCloud& cloud) {
-  const geometry::PointTree tree(cloud.points);
+void fit_to_points(geometry::TriangleMesh& mesh, const geometry::PointCloud& cloud,
+                   const geometry::PointTree& tree) {
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<Eigen::Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
     geometry::in_halves(mesh.vertices.size(), [&](std::size_t begin, std::size_t end, int) {

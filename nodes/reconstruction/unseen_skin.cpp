@@ -1,9 +1,11 @@
 #include "reconstruction/unseen_skin.hpp"
 
 #include <algorithm>
+#include <array>
+#include <memory>
 
-#include "body_model/oriented_tree.hpp"
 #include "body_model/samples.hpp"
+#include "geometry/halves.hpp"
 #include "geometry/point_tree.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -29,22 +31,40 @@ geometry::PointCloud unseen_skin(const body_model::RegisteredBody& body, const g
     area += geometry::area_vector(body.skin[t[0]], body.skin[t[1]], body.skin[t[2]]).norm() / 2;
   }
   const body_model::Samples samples = body_model::sample_surface(skin, {}, static_cast<int>(area / (kSpacing * kSpacing)));
-  const geometry::PointTree own(samples.points), tree(seen.points);
-  const body_model::OrientedTree oriented(seen.points, seen.normals, kReach);
+  std::array<std::unique_ptr<const geometry::PointTree>, 2> trees;
+  geometry::in_halves(2, [&](std::size_t, std::size_t, int half) {
+    trees[half] = std::make_unique<const geometry::PointTree>(half == 0 ? samples.points : seen.points);
+  });
+  const geometry::PointTree &own = *trees[0], &tree = *trees[1];
+  std::array<std::vector<int>, 2> found;
+  geometry::in_halves(samples.points.size(), [&](std::size_t begin, std::size_t end, int half) {
+    std::vector<int> near;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Vector3d &p = samples.points[i], &n = samples.normals[i];
+      const auto is_seen = [&](int j) {
+        return (seen.points[j] - p).squaredNorm() + kReach * kReach * (seen.normals[j] - n).squaredNorm() <
+               kUnseen * kUnseen;
+      };
+      if (tree.any_within(p, kUnseen, is_seen)) continue;
+      if (!tree.any_within(p, kBeyond, [](int) { return true; })) continue;
+      // What lies under skin that faces the other way has run into it.
+      const auto over = [&](int j) {
+        return n.dot(samples.normals[j]) < -0.3 && samples.normals[j].dot(p - samples.points[j]) < 0 &&
+               (p - samples.points[j]).norm() < kInside;
+      };
+      if (own.any_within(p, kInside, over)) {  // few are: only for these the nearest are looked for
+        own.nearest(p, kAround, near);
+        if (std::any_of(near.begin(), near.end(), over)) continue;
+      }
+      found[half].push_back(static_cast<int>(i));
+    }
+  });
   geometry::PointCloud unseen;
-  std::vector<int> near;
-  for (std::size_t i = 0; i < samples.points.size(); ++i) {
-    const Eigen::Vector3d &p = samples.points[i], &n = samples.normals[i];
-    if (oriented.distance(p, n) < kUnseen || tree.distance(p) > kBeyond) continue;
-    // What lies under skin that faces the other way has run into it.
-    own.nearest(p, kAround, near);
-    const bool inside = std::any_of(near.begin(), near.end(), [&](int j) {
-      return n.dot(samples.normals[j]) < -0.3 && samples.normals[j].dot(p - samples.points[j]) < 0 && (p - samples.points[j]).norm() < kInside;
-    });
-    if (inside) continue;
-    unseen.points.push_back(p);
-    unseen.normals.push_back(n);
-  }
+  for (const std::vector<int>& half : found)
+    for (const int i : half) {
+      unseen.points.push_back(samples.points[i]);
+      unseen.normals.push_back(samples.normals[i]);
+    }
   return unseen;
 }
 
