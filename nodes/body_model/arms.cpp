@@ -1,6 +1,7 @@
 #include "body_model/arms.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/triangle_mesh.hpp"
 
@@ -38,10 +39,12 @@ Arm arm_of(const Model& model, const Parameters& p, const std::string& side) {
   return arm;
 }
 
-double distance(const Model& model, const Matcher& matcher, const Parameters& p, const Arm& arm) {
+/// m, of all its points from the samples; counted no further than to `enough`.
+double distance(const Model& model, const Matcher& matcher, const Parameters& p, const Arm& arm,
+                double enough) {
   const PosedModel posed(model, p);
   double sum = 0;
-  for (std::size_t i = 0; i < arm.vertices.size(); ++i) {
+  for (std::size_t i = 0; i < arm.vertices.size() && sum < enough; ++i) {
     const int v = arm.vertices[i];
     sum += std::min(matcher.distance(posed.vertex(v), (posed.blend(v) * arm.normals[i]).normalized()), kFarthest);
   }
@@ -57,7 +60,7 @@ Parameters with_arms_placed(const Model& model, const Matcher& matcher, const Pa
     const int arm = model.group_named("arm" + side), forearm = model.group_named("forearm" + side);
     const Arm points = arm_of(model, best, side);
     if (arm < 0 || forearm < 0 || points.vertices.empty()) continue;
-    double least = distance(model, matcher, best, points);
+    double least = distance(model, matcher, best, points, HUGE_VAL);
     Parameters chosen = best;
     for (const double raised : kRaised)
       for (const double forwards : kForwards)
@@ -65,7 +68,7 @@ Parameters with_arms_placed(const Model& model, const Matcher& matcher, const Pa
           Parameters p = best;
           p.turns[arm] = Vector3d(-forwards, -sign * raised, 0) * kDegree;
           p.turns[forearm] = Vector3d(bent, 0, 0) * kDegree;
-          const double d = distance(model, matcher, p, points);
+          const double d = distance(model, matcher, p, points, least);
           if (d >= least) continue;
           least = d;
           chosen = p;

@@ -112,7 +112,7 @@ double surprise_of(const Matching& matching, const Prior& prior, double log_scal
 /// Normal equations of the matches, in the first `active` parameters. A pull is nearly one of a plane: its
 /// largest direction stands for it where `planes`, all three otherwise.
 void normal_equations(const PosedModel& posed, const std::vector<int>& vertices,
-                      const std::vector<Pull>& pulls, int count, int active, bool planes, MatrixXd& matrix,
+                      const std::vector<Pull>& pulls, int active, bool planes, MatrixXd& matrix,
                       VectorXd& gradient) {
   const int rows_each = planes ? 1 : 3, points = static_cast<int>(vertices.size());
   std::array<MatrixXd, 2> matrices{MatrixXd::Zero(active, active), MatrixXd::Zero(active, active)};
@@ -120,7 +120,7 @@ void normal_equations(const PosedModel& posed, const std::vector<int>& vertices,
   const auto accumulate = [&](std::size_t begin, std::size_t end, int half) {
     MatrixXd rows(active, rows_each * static_cast<int>(end - begin));
     VectorXd off(rows.cols());
-    Eigen::Matrix3Xd derivative(3, count);
+    Eigen::Matrix3Xd derivative(3, active);
     Eigen::SelfAdjointEigenSolver<Matrix3d> axes;
     for (std::size_t i = begin; i < end; ++i) {
       axes.computeDirect(pulls[i].information);
@@ -129,7 +129,7 @@ void normal_equations(const PosedModel& posed, const std::vector<int>& vertices,
         const double root = std::sqrt(std::max(axes.eigenvalues()[2 - r], 0.0));
         const Vector3d axis = axes.eigenvectors().col(2 - r);
         const auto at = static_cast<Eigen::Index>(rows_each * (i - begin) + r);
-        rows.col(at).noalias() = root * (derivative.leftCols(active).transpose() * axis);
+        rows.col(at).noalias() = root * (derivative.transpose() * axis);
         off[at] = root > 0 ? axis.dot(pulls[i].pull) / root : 0;
       }
     }
@@ -163,7 +163,7 @@ Fitted fit_stage(const Model& model, const Matcher& matcher, Parameters start, c
     fitted.residual = residual_of(matching, skin.weights);
     MatrixXd matrix;
     VectorXd gradient;
-    normal_equations(posed, points.vertices(), matching.pulls, p.count(), active, scale <= 0.02, matrix,
+    normal_equations(posed, points.vertices(), matching.pulls, active, scale <= 0.02, matrix,
                      gradient);
     const Prior prior = prior_of(model, p, stature);
     fitted.surprise = surprise_of(matching, prior, p.log_scale);

@@ -44,8 +44,8 @@ void take_arrays(const ArrayFile& file, const Check& check, Model& model) {
   const std::size_t components = step.size();
   const std::vector<double> basis = array("basis", {components, vertices, 3});
   model.basis.resize(static_cast<Eigen::Index>(components), static_cast<Eigen::Index>(3 * vertices));
-  for (std::size_t k = 0; k < components; ++k)
-    for (std::size_t i = 0; i < 3 * vertices; ++i)
+  for (std::size_t i = 0; i < 3 * vertices; ++i)
+    for (std::size_t k = 0; k < components; ++k)
       model.basis(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = static_cast<float>(step[k] * basis[k * 3 * vertices + i]);
 
   const std::size_t inner = model.bones.size() + model.bone_points.size();

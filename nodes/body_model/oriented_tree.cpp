@@ -11,8 +11,22 @@ struct OrientedTree::Tree {
   using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Tree>, Tree, 6, int>;
 
   std::vector<Place> places;
+  std::vector<int> order;
   float reach;
   std::unique_ptr<Index> index;
+
+  void build() {
+    index = std::make_unique<Index>(6, *this);
+    index->buildIndex();
+    // Points in the order of the leaves: those of a leaf are read in one go.
+    order = index->vAcc;
+    std::vector<Place> ordered(places.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      ordered[i] = places[order[i]];
+      index->vAcc[i] = static_cast<int>(i);
+    }
+    places = std::move(ordered);
+  }
 
   Place place(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const {
     const Eigen::Vector3f p = point.cast<float>(), n = reach * normal.cast<float>();
@@ -31,9 +45,9 @@ struct OrientedTree::Tree {
 OrientedTree::OrientedTree(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3d>& normals, double reach)
     : tree_(std::make_unique<Tree>()) {
   tree_->reach = static_cast<float>(reach);
+  tree_->places.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) tree_->places.push_back(tree_->place(points[i], normals[i]));
-  tree_->index = std::make_unique<Tree::Index>(6, *tree_);
-  tree_->index->buildIndex();
+  tree_->build();
 }
 
 OrientedTree::~OrientedTree() = default;
@@ -43,7 +57,7 @@ int OrientedTree::nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& n
   int index = 0;
   float squared = 0;
   tree_->index->knnSearch(query.data(), 1, &index, &squared);
-  return index;
+  return tree_->order[index];
 }
 
 double OrientedTree::distance(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const {

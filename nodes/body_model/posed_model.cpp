@@ -125,7 +125,7 @@ void PosedModel::derivative(int v, Eigen::Ref<Eigen::Matrix3Xd> into) const {
   into.setZero();
   Matrix3d blend = Matrix3d::Zero();
   Vector3d here = Vector3d::Zero();
-  auto by_shape = into.rightCols(parameters_.shape.size());
+  auto by_shape = into.rightCols(into.cols() - parameters_.shape_at());
   for (int j = 0; j < Model::kWeights; ++j) {
     const double w = model_.weights[v][j];
     if (w <= 0) continue;
@@ -133,11 +133,11 @@ void PosedModel::derivative(int v, Eigen::Ref<Eigen::Matrix3Xd> into) const {
     const Vector3d carried = bones_[b] * rest;
     here += w * carried;
     blend += w * bones_[b].linear();
-    by_shape += w * shift_by_shape_[b];
+    by_shape += w * shift_by_shape_[b].leftCols(by_shape.cols());
     for (const Turn& turn : turns_of_[b])
       into.middleCols<3>(Parameters::kTurns + 3 * turn.group) -= w * cross(carried - turn.joint) * turn.axes;
   }
-  by_shape += blend * model_.basis.middleCols<3>(3 * v).transpose().cast<double>();
+  by_shape += blend * model_.basis.middleCols<3>(3 * v).topRows(by_shape.cols()).transpose().cast<double>();
   into.leftCols<3>() = -cross(here - parameters_.position);
   into.middleCols<3>(3).setIdentity();
   into.col(Parameters::kScale) = here - parameters_.position;

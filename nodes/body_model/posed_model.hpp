@@ -48,7 +48,7 @@ class PosedModel {
   /// Rest -> scan frame, of one bone (with the scale).
   const Eigen::Affine3d& bone(int bone) const { return bones_[bone]; }
 
-  /// d vertex / d parameters: 3 x count().
+  /// d vertex / d parameters, the first of them: 3 x at least Parameters::shape_at(), at most count().
   void derivative(int v, Eigen::Ref<Eigen::Matrix3Xd> into) const;
 
  private:

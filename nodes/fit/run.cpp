@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <future>
 #include <opencv2/imgcodecs.hpp>
 
 #include "body_model/parts.hpp"
+#include "body_model/registration.hpp"
 #include "booth/scan_file.hpp"
 #include "control_mesh/shape_control.hpp"
 #include "fit/report.hpp"
@@ -75,6 +77,8 @@ class Run {
   }
 
   void load_body() {
+    std::future<void> loading;  // of the body model, while files are read; a broken one is refused at its use
+    if (!line_.is_shape()) loading = std::async(std::launch::async, [] { body_model::shipped_registrar(); });
     if (!line_.mesh.empty()) {
       source_.file = line_.mesh;
       say("reading the mesh");

@@ -9,30 +9,30 @@
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::geometry {
-namespace {
 
-struct HalfEdge {
-  int low, high;
-  bool forward;  // runs from low to high
-  int triangle;
-};
-
-std::vector<HalfEdge> sorted_half_edges(const TriangleMesh& mesh) {
-  std::vector<HalfEdge> halves;
-  halves.reserve(3 * mesh.triangles.size());
+std::vector<TriangleSide> sorted_sides(const TriangleMesh& mesh) {
+  int highest = 0;
+  for (const Eigen::Vector3i& t : mesh.triangles) highest = std::max(highest, t.maxCoeff());
+  std::vector<std::size_t> begin(highest + 2, 0);  // of the sides of each low vertex
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) ++begin[std::min(t[k], t[(k + 1) % 3]) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<TriangleSide> sides(3 * mesh.triangles.size());
+  std::vector<std::size_t> next = begin;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
-      halves.push_back({std::min(a, b), std::max(a, b), a < b, static_cast<int>(t)});
+      sides[next[std::min(a, b)]++] = {std::min(a, b), std::max(a, b), static_cast<int>(3 * t) + k, a < b};
     }
   }
-  std::sort(halves.begin(), halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-  });
-  return halves;
+  for (std::size_t v = 0; v + 1 < begin.size(); ++v)
+    std::sort(sides.begin() + static_cast<std::ptrdiff_t>(begin[v]),
+              sides.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]),
+              [](const TriangleSide& l, const TriangleSide& r) {
+                return std::tie(l.high, l.number) < std::tie(r.high, r.number);
+              });
+  return sides;
 }
-
-}  // namespace
 
 void check_mesh(const TriangleMesh& mesh) {
   for (const Eigen::Vector3d& v : mesh.vertices)
@@ -69,19 +69,19 @@ double cone_volume(const std::vector<Eigen::Vector3d>& vertices,
 }
 
 std::vector<Edge> edges_of(const TriangleMesh& mesh) {
-  const std::vector<HalfEdge> halves = sorted_half_edges(mesh);
+  const std::vector<TriangleSide> sides = sorted_sides(mesh);
   std::vector<Edge> edges;
-  edges.reserve(halves.size() / 2 + 1);
-  for (std::size_t i = 0; i < halves.size();) {
-    const HalfEdge& h = halves[i];
+  edges.reserve(sides.size() / 2 + 1);
+  for (std::size_t i = 0; i < sides.size();) {
+    const TriangleSide& h = sides[i];
     std::size_t end = i + 1;
-    while (end < halves.size() && halves[end].low == h.low && halves[end].high == h.high) ++end;
+    while (end < sides.size() && sides[end].low == h.low && sides[end].high == h.high) ++end;
     if (end - i > 2) throw Refusal(refusal::kBadMesh, "an edge of the mesh has more than two triangles");
-    if (end - i == 2 && h.forward == halves[i + 1].forward)
+    if (end - i == 2 && h.forward == sides[i + 1].forward)
       throw Refusal(refusal::kBadMesh,
                     "two neighbouring triangles of the mesh are oriented against each other");
     Edge edge{h.low, h.high, -1, -1};
-    for (std::size_t j = i; j < end; ++j) (halves[j].forward ? edge.left : edge.right) = halves[j].triangle;
+    for (std::size_t j = i; j < end; ++j) (sides[j].forward ? edge.left : edge.right) = sides[j].triangle();
     if (edge.left < 0)
       std::swap(edge.left, edge.right);  // a boundary edge that its triangle runs from high to low
     edges.push_back(edge);
@@ -91,12 +91,12 @@ std::vector<Edge> edges_of(const TriangleMesh& mesh) {
 }
 
 bool is_closed(const TriangleMesh& mesh) {
-  const std::vector<HalfEdge> halves = sorted_half_edges(mesh);
-  if (halves.empty() || halves.size() % 2 != 0) return false;
-  for (std::size_t i = 0; i < halves.size(); i += 2) {
-    const HalfEdge &a = halves[i], &b = halves[i + 1];
+  const std::vector<TriangleSide> sides = sorted_sides(mesh);
+  if (sides.empty() || sides.size() % 2 != 0) return false;
+  for (std::size_t i = 0; i < sides.size(); i += 2) {
+    const TriangleSide &a = sides[i], &b = sides[i + 1];
     if (a.low != b.low || a.high != b.high || a.forward == b.forward) return false;
-    if (i + 2 < halves.size() && halves[i + 2].low == a.low && halves[i + 2].high == a.high) return false;
+    if (i + 2 < sides.size() && sides[i + 2].low == a.low && sides[i + 2].high == a.high) return false;
   }
   return true;
 }

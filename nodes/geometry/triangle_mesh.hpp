@@ -33,6 +33,18 @@ double cone_volume(const std::vector<Eigen::Vector3d>& vertices,
                    const std::vector<Eigen::Vector3i>& triangles,
                    const Eigen::Vector3d& apex = Eigen::Vector3d::Zero());
 
+/// A side of a triangle: it runs from the triangle's corner number % 3 to the next one.
+struct TriangleSide {
+  int low, high;  ///< its vertices, low < high
+  int number;     ///< 3 * triangle + corner
+  bool forward;   ///< from low to high
+
+  int triangle() const { return number / 3; }
+};
+
+/// All sides by (low, high, number): those of one edge stand together.
+std::vector<TriangleSide> sorted_sides(const TriangleMesh& mesh);
+
 /// An undirected edge (first < second) with the triangles on it: `left` runs it from first to second, `right`
 /// back. On a boundary `left` is the only triangle, whichever way it runs, and `right` is -1.
 struct Edge {

@@ -27,16 +27,17 @@ bool more_certain(const Link& l, const Link& r) {
   return std::tie(r.agreement, l.a, l.b) < std::tie(l.agreement, r.a, r.b);
 }
 
-/// Unsigned normals of the points from `begin` to `end`, and links from each to its nearest neighbours.
+/// Unsigned normals of the points from `begin` to `end` in the tree's order, and links from each to its nearest neighbours.
 void plane_normals(const std::vector<Eigen::Vector3d>& points, const geometry::PointTree& tree,
                    std::size_t begin, std::size_t end, std::vector<Eigen::Vector3d>& normals,
                    std::vector<Link>& links) {
   std::vector<int> near;
-  for (std::size_t i = begin; i < end; ++i) {
+  for (std::size_t at = begin; at < end; ++at) {
+    const int i = tree.order()[at];
     tree.nearest(points[i], kNeighbours, near);
     normals[i] = geometry::local_plane(points, near).normal;
     for (int k = 0; k < std::min<int>(kLinks + 1, static_cast<int>(near.size())); ++k)
-      if (near[k] > static_cast<int>(i) || k == kLinks) links.push_back({0, static_cast<int>(i), near[k]});
+      if (near[k] > i || k == kLinks) links.push_back({0, i, near[k]});
   }
 }
 

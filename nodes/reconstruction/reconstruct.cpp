@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <future>
+#include <memory>
 
 #include "geometry/decimate.hpp"
 #include "geometry/point_tree.hpp"
@@ -148,7 +150,8 @@ struct Person {
   PointCloud left_out;                        ///< points beside her, in the cloud's frame
   Eigen::Isometry3d from_scan;                ///< takes the scan to the cloud's frame
   bool on_floor;                              ///< the floor was seen: z = 0 is it
-  std::vector<geometry::Fracture> fractures;  ///< scan frame; mended in the cloud where it is known who saw what
+  /// Finds fractures, scan frame; in the cloud they are mended where it is known who saw what.
+  std::function<std::vector<geometry::Fracture>()> fractures;
 };
 
 Person find_person(const PointCloud& scan, const Options& options) {
@@ -165,10 +168,13 @@ Person find_person(const PointCloud& scan, const Options& options) {
   // 3. Normals, and fractures mended.
   const std::vector<Eigen::Vector3d> hints = body.normals.empty() ? sightings.towards : body.normals;
   body.normals = outward_normals(body.points, hints);
-  person.fractures = find_fractures(body);
+  person.fractures = [torn = body, to_scan = Eigen::Isometry3d(person.from_scan.inverse())] {
+    std::vector<geometry::Fracture> found = find_fractures(torn);
+    for (geometry::Fracture& fracture : found) fracture.centre = to_scan * fracture.centre;
+    return found;
+  };
   if (mend_fractures(body.points, body.normals, sightings.sensor))
     body.normals = outward_normals(body.points, hints);
-  for (geometry::Fracture& fracture : person.fractures) fracture.centre = person.from_scan.inverse() * fracture.centre;
   return person;
 }
 
@@ -230,25 +236,28 @@ BodyMesh surface_of(const Person& person, const Options& options, const Register
   const std::size_t seen = body.points.size();
   // 1. Skin where no sensor sees but the shape is known.
   append(body, unseen_skin(model, body));
-  // 2. One closed surface on the points and above the ground.
+  // 2. One closed surface on the points and above the ground; beside it, what does not need that.
+  BodyMesh result;
+  auto beside = std::async(std::launch::async, [&] {
+    result.fractures = person.fractures();
+    return std::make_unique<const geometry::PointTree>(body.points);
+  });
   TriangleMesh mesh = one_closed_surface(
       poisson_surface(thinned(body, fine_heights(body.points, options)), options.poisson_depth));
   mesh = without_handles(mesh, kLongestLoop);
   if (const double cell = cell_width(body.points, options.poisson_depth); cell < kFineCell)
     mesh = geometry::without_short_edges(mesh, kSliver * cell);
   // 3. As many triangles as asked for, on the points; what of the surface nobody saw.
-  BodyMesh result;
   mesh = geometry::with_triangles(mesh, static_cast<int>((1 - kBeltShare) * options.body_triangles));
   const double height = geometry::bounding_box(mesh.vertices)[1].z();
   result.mesh =
       geometry::with_finer_belt(mesh, options.body_triangles, kBeltLow * height, kBeltHigh * height);
-  fit_to_points(result.mesh, body);
+  const std::unique_ptr<const geometry::PointTree> tree = beside.get();
+  fit_to_points(result.mesh, body, *tree);
   for (Eigen::Vector3d& v : result.mesh.vertices) v.z() = std::max(v.z(), 0.0);  // soles end on the ground
   result.points_used = seen;
-  body.points.resize(seen);
-  result.filled = filled_vertices(result.mesh, body.points, options.support_distance);
+  result.filled = filled_vertices(result.mesh, *tree, seen, options.support_distance);
   result.holes = holes_of(result.mesh, result.filled);
-  result.fractures = person.fractures;
   // 4. Back to the scan's frame.
   const Eigen::Isometry3d to_scan = person.from_scan.inverse();
   for (Eigen::Vector3d& v : result.mesh.vertices) v = to_scan * v;

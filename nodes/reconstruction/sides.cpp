@@ -2,38 +2,13 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 
 namespace tensegric_fit::reconstruction {
 
 using geometry::TriangleMesh;
 
-namespace {
-
-struct Side {
-  int low, high, number;
-  bool forward;
-};
-
-std::vector<Side> sorted_sides(const TriangleMesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(3 * t) + k, a < b});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.number) < std::tie(b.low, b.high, b.number);
-  });
-  return sides;
-}
-
-}  // namespace
-
 std::vector<int> sides_across(const TriangleMesh& mesh) {
-  const std::vector<Side> sides = sorted_sides(mesh);
+  const std::vector<geometry::TriangleSide> sides = geometry::sorted_sides(mesh);
   std::vector<int> across(sides.size(), -1);
   for (std::size_t i = 0, end; i < sides.size(); i = end) {
     for (end = i + 1;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/point_tree.hpp"
+#include "geometry/halves.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -16,12 +16,14 @@ double confidence_of(double area) {
 
 }  // namespace
 
-std::vector<char> filled_vertices(const geometry::TriangleMesh& mesh,
-                                  const std::vector<Eigen::Vector3d>& points, double distance) {
-  const geometry::PointTree tree(points);
+std::vector<char> filled_vertices(const geometry::TriangleMesh& mesh, const geometry::PointTree& points,
+                                  std::size_t seen, double distance) {
   std::vector<char> filled(mesh.vertices.size());
-  std::transform(mesh.vertices.begin(), mesh.vertices.end(), filled.begin(),
-                 [&](const Eigen::Vector3d& v) { return tree.distance(v) > distance; });
+  geometry::in_halves(filled.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t v = begin; v < end; ++v)
+      filled[v] = !points.any_within(mesh.vertices[v], distance,
+                                     [seen](int i) { return static_cast<std::size_t>(i) < seen; });
+  });
   return filled;
 }
 

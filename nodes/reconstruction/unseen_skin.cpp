@@ -1,20 +1,26 @@
 #include "reconstruction/unseen_skin.hpp"
 
 #include <algorithm>
+#include <array>
+#include <memory>
 
-#include "body_model/oriented_tree.hpp"
 #include "body_model/samples.hpp"
+#include "geometry/halves.hpp"
 #include "geometry/point_tree.hpp"
+#include "reconstruction/voxel_grid.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
 
-constexpr double kUnseen = 0.008;    // m from every point that faces the same way: sparse scans leave 5 between two
-constexpr double kReach = 0.02;      // m that a normal turned by 60 degrees counts like: the other wall of a pocket is no neighbour
-constexpr double kBeyond = 0.10;     // m; skin that far from every point is a part that was not scanned, and is not made up
-constexpr double kSpacing = 0.004;   // m
-constexpr double kInside = 0.03;     // m under other skin that faces the other way: parts that touch
-constexpr int kAround = 100;         // samples within that
+constexpr double kUnseen =
+    0.008;  // m from every point that faces the same way: sparse scans leave 5 between two
+constexpr double kReach =
+    0.02;  // m that a normal turned by 60 degrees counts like: the other wall of a pocket is no neighbour
+constexpr double kBeyond =
+    0.10;  // m; skin that far from every point is a part that was not scanned, and is not made up
+constexpr double kSpacing = 0.004;  // m
+constexpr double kInside = 0.03;    // m under other skin that faces the other way: parts that touch
+constexpr int kAround = 100;        // samples within that
 
 }  // namespace
 
@@ -28,22 +34,47 @@ geometry::PointCloud unseen_skin(const body_model::RegisteredBody& body, const g
     skin.triangles.push_back(t);
     area += geometry::area_vector(body.skin[t[0]], body.skin[t[1]], body.skin[t[2]]).norm() / 2;
   }
-  const body_model::Samples samples = body_model::sample_surface(skin, {}, static_cast<int>(area / (kSpacing * kSpacing)));
-  const geometry::PointTree own(samples.points), tree(seen.points);
-  const body_model::OrientedTree oriented(seen.points, seen.normals, kReach);
+  const body_model::Samples spread =
+      body_model::sample_surface(skin, {}, static_cast<int>(area / (kSpacing * kSpacing)));
+  const VoxelGrid grid(spread.points, kInside);
+  body_model::Samples samples;  // those beside each other stand beside each other in memory
+  for (const int i : grid.order()) {
+    samples.points.push_back(spread.points[i]);
+    samples.normals.push_back(spread.normals[i]);
+  }
+  std::array<std::unique_ptr<const geometry::PointTree>, 2> trees;
+  geometry::in_halves(2, [&](std::size_t, std::size_t, int half) {
+    trees[half] = std::make_unique<const geometry::PointTree>(half == 0 ? samples.points : seen.points);
+  });
+  const geometry::PointTree &own = *trees[0], &tree = *trees[1];
+  std::vector<char> is_unseen(samples.points.size(), 0);
+  geometry::in_halves(samples.points.size(), [&](std::size_t begin, std::size_t end, int) {
+    std::vector<int> near;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Vector3d &p = samples.points[i], &n = samples.normals[i];
+      const auto is_seen = [&](int j) {
+        return (seen.points[j] - p).squaredNorm() + kReach * kReach * (seen.normals[j] - n).squaredNorm() <
+               kUnseen * kUnseen;
+      };
+      if (tree.any_within(p, kUnseen, is_seen)) continue;
+      if (!tree.any_within(p, kBeyond, [](int) { return true; })) continue;
+      // What lies under skin that faces the other way has run into it.
+      const auto over = [&](int j) {
+        return n.dot(samples.normals[j]) < -0.3 && samples.normals[j].dot(p - samples.points[j]) < 0 &&
+               (p - samples.points[j]).norm() < kInside;
+      };
+      if (own.any_within(p, kInside, over)) {  // few are: only for these the nearest are looked for
+        own.nearest(p, kAround, near);
+        if (std::any_of(near.begin(), near.end(), over)) continue;
+      }
+      is_unseen[grid.order()[i]] = 1;
+    }
+  });
   geometry::PointCloud unseen;
-  std::vector<int> near;
-  for (std::size_t i = 0; i < samples.points.size(); ++i) {
-    const Eigen::Vector3d &p = samples.points[i], &n = samples.normals[i];
-    if (oriented.distance(p, n) < kUnseen || tree.distance(p) > kBeyond) continue;
-    // What lies under skin that faces the other way has run into it.
-    own.nearest(p, kAround, near);
-    const bool inside = std::any_of(near.begin(), near.end(), [&](int j) {
-      return n.dot(samples.normals[j]) < -0.3 && samples.normals[j].dot(p - samples.points[j]) < 0 && (p - samples.points[j]).norm() < kInside;
-    });
-    if (inside) continue;
-    unseen.points.push_back(p);
-    unseen.normals.push_back(n);
+  for (std::size_t i = 0; i < is_unseen.size(); ++i) {
+    if (!is_unseen[i]) continue;
+    unseen.points.push_back(spread.points[i]);
+    unseen.normals.push_back(spread.normals[i]);
   }
   return unseen;
 }

@@ -1,11 +1,34 @@
 #include "reconstruction/voxel_grid.hpp"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <utility>
 
 #include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::reconstruction {
+namespace {
+
+using Cell = std::pair<std::int64_t, int>;  // key, point
+
+/// By key, those of one key in the order they have: some digits of the key after the others.
+void sort_by_key(std::vector<Cell>& cells) {
+  constexpr int kBits = 11;
+  constexpr std::int64_t kDigit = (1 << kBits) - 1;
+  std::int64_t highest = 0;
+  for (const Cell& cell : cells) highest = std::max(highest, cell.first);
+  std::vector<Cell> sorted(cells.size());
+  for (int shift = 0; shift < 63 && highest >> shift > 0; shift += kBits) {
+    std::array<std::size_t, kDigit + 2> begin{};
+    for (const Cell& cell : cells) ++begin[(cell.first >> shift & kDigit) + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    for (const Cell& cell : cells) sorted[begin[cell.first >> shift & kDigit]++] = cell;
+    cells.swap(sorted);
+  }
+}
+
+}  // namespace
 
 VoxelGrid::VoxelGrid(const std::vector<Eigen::Vector3d>& points, double cell_size) {
   const auto box = geometry::bounding_box(points);
@@ -14,12 +37,12 @@ VoxelGrid::VoxelGrid(const std::vector<Eigen::Vector3d>& points, double cell_siz
   };
   row_ = index(box[1], 0) + 2;
   layer_ = row_ * (index(box[1], 1) + 2);
-  std::vector<std::pair<std::int64_t, int>> cells(points.size());
+  std::vector<Cell> cells(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d& p = points[i];
     cells[i] = {index(p, 2) * layer_ + index(p, 1) * row_ + index(p, 0), static_cast<int>(i)};
   }
-  std::sort(cells.begin(), cells.end());
+  sort_by_key(cells);
   order_.reserve(cells.size());
   for (const auto& [key, point] : cells) {
     if (keys_.empty() || keys_.back() != key) {

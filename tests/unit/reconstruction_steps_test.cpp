@@ -232,7 +232,7 @@ TEST(ReconstructionSteps, AFingerKeepsItsThickness) {
   }
   TriangleMesh mesh = sphere({0, 0, 0}, 1000);
   for (Eigen::Vector3d& v : mesh.vertices) v *= kRadius + 0.0015;
-  fit_to_points(mesh, cloud);
+  fit_to_points(mesh, cloud, geometry::PointTree(cloud.points));
   double sum = 0;
   for (const Eigen::Vector3d& v : mesh.vertices) sum += v.norm() / static_cast<double>(mesh.vertices.size());
   // Along the points' own normals the mean would lie bandwidth^2 / radius = 1.1 mm too far out.
