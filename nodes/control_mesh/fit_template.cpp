@@ -152,30 +152,36 @@ geometry::ControlMesh lay(const Template& pattern, const geometry::BodyMeasures&
   return laid;
 }
 
-/// As the template draws it, unless a triangle is turned or a landmark missing and another layout does
-/// better.
+/// As the template draws it, unless a triangle lies badly or a landmark is missing and another layout does
+/// better. Where none does well, nodes of the best may lie where the others have them.
 geometry::ControlMesh laid_best(const Template& pattern, const geometry::BodyMeasures& measures,
                                 const Skin& skin, const ModelSurface* model) {
-  std::optional<geometry::ControlMesh> best;
+  std::vector<geometry::ControlMesh> laid;
+  std::size_t best = 0;
+  Badly least;
   std::optional<Refusal> refused;
-  int least = 0;
   for (const Layout layout : {Layout::as_drawn, Layout::over_folds, Layout::on_model}) {
     // A valley between breasts is no fold to be stepped over; without its landmarks neither way goes.
-    if (layout == Layout::over_folds && !best) continue;
+    if (layout == Layout::over_folds && laid.empty()) continue;
     if (layout == Layout::on_model && !(model && pattern.may_use_model())) continue;
     try {
-      geometry::ControlMesh laid = lay(pattern, measures, skin, model, layout);
-      const int turned = count_turned(laid, skin);
-      if (best && turned >= least) continue;
-      best = std::move(laid);
-      least = turned;
+      laid.push_back(lay(pattern, measures, skin, model, layout));
     } catch (const Refusal& refusal) {
       if (!refused) refused = refusal;
+      continue;
     }
-    if (best && least == 0) break;
+    const Badly badly = count_badly_laid(laid.back(), skin);
+    if (laid.size() > 1 && !(badly < least)) continue;
+    best = laid.size() - 1;
+    least = badly;
+    if (least.none()) return laid[best];
   }
-  if (!best) throw *refused;
-  return *best;
+  if (laid.empty()) throw *refused;
+  std::vector<std::vector<Vector3d>> elsewhere;
+  for (const geometry::ControlMesh& other : laid) elsewhere.push_back(other.outer);
+  geometry::ControlMesh mended = laid[best];
+  turn_back(mended, slidable(pattern, mended), grid_neighbours(pattern), skin, elsewhere);
+  return count_badly_laid(mended, skin) < least ? mended : laid[best];
 }
 
 }  // namespace

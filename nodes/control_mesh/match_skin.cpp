@@ -11,6 +11,8 @@ constexpr int kRounds = 3, kSpreadRounds = 6;
 constexpr int kSamples = 3;          // triangles are sampled in kSamples^2 equal parts
 constexpr double kReach = 0.03;      // m; skin farther from a triangle is not the skin below it
 constexpr double kMostMove = 0.003;  // m
+constexpr double kLeastShare = 0.5;  // of a triangle's area, as it was on the skin
+constexpr int kHalvings = 5;
 
 /// Barycentric coordinates of the centres of kSamples^2 equal parts of a triangle.
 std::vector<Vector3d> sample_places() {
@@ -59,6 +61,24 @@ double missing_height(const Gaps& gap, const std::vector<char>& may_move, const 
   return area > 0 ? volume / area : 0;
 }
 
+/// Nodes of a fold have their normals against each other, and nodes near each other cross: they go back
+/// halfway, in the end all the way.
+void undo_turns(const std::vector<Vector3d>& on_skin, geometry::ControlMesh& control) {
+  for (int round = 0; round <= kHalvings; ++round) {
+    std::vector<char> turned(on_skin.size(), 0);
+    for (const Eigen::Vector3i& k : control.triangles) {
+      const Vector3d before = geometry::area_vector(on_skin[k[0]], on_skin[k[1]], on_skin[k[2]]);
+      const Vector3d after =
+          geometry::area_vector(control.outer[k[0]], control.outer[k[1]], control.outer[k[2]]);
+      if (after.dot(before) >= kLeastShare * before.squaredNorm()) continue;
+      for (int i = 0; i < 3; ++i) turned[k[i]] = 1;
+    }
+    const double kept = round < kHalvings ? 0.5 : 0;
+    for (std::size_t v = 0; v < turned.size(); ++v)
+      if (turned[v]) control.outer[v] = on_skin[v] + kept * (control.outer[v] - on_skin[v]);
+  }
+}
+
 }  // namespace
 
 void match_skin(geometry::ControlMesh& control, const std::vector<char>& may_move, const Skin& skin) {
@@ -80,6 +100,7 @@ void match_skin(geometry::ControlMesh& control, const std::vector<char>& may_mov
     for (std::size_t v = 0; v < on_skin.size(); ++v)
       if (may_move[v]) move(v, height);
   }
+  undo_turns(on_skin, control);
 }
 
 }  // namespace tensegric_fit::control_mesh

@@ -25,7 +25,8 @@ int mirrored(const body_model::Model& model, int vertex) {
 ModelSurface::ModelSurface(const body_model::RegisteredBody& model, const Eigen::Isometry3d& body_from_scan)
     : model_(model),
       body_from_scan_(body_from_scan),
-      normals_(geometry::vertex_normals(model.skin, model.model->triangles)) {}
+      normals_(geometry::vertex_normals(model.skin, model.model->triangles)),
+      tree_(model.skin, normals_) {}
 
 std::vector<std::pair<int, double>> ModelSurface::vertices_of(const ModelPoint& point, Side side,
                                                               const std::string& where) const {
@@ -54,6 +55,12 @@ ModelSurface::Place ModelSurface::place(const std::vector<ModelPoint>& points, S
   place.point = body_from_scan_ * place.point;
   place.normal = (body_from_scan_.linear() * place.normal).normalized();
   return place;
+}
+
+bool ModelSurface::on_breast(const Vector3d& point, const Vector3d& normal) const {
+  const Eigen::Isometry3d scan_from_body = body_from_scan_.inverse();
+  const int vertex = tree_.nearest(scan_from_body * point, scan_from_body.linear() * normal);
+  return model_.model->parts[model_.model->part[vertex]].rfind("breast", 0) == 0;
 }
 
 }  // namespace tensegric_fit::control_mesh

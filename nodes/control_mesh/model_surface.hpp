@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "body_model/oriented_tree.hpp"
 #include "body_model/registered_body.hpp"
 #include "control_mesh/grid.hpp"
 #include "control_mesh/template.hpp"
@@ -24,12 +25,16 @@ class ModelSurface {
   /// \throw Refusal bad_template: a vertex or a name that the model does not have; `where` is said first
   Place place(const std::vector<ModelPoint>& points, Side side, const std::string& where) const;
 
+  /// Is the skin there, which faces along `normal`, part of a breast?
+  bool on_breast(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
+
  private:
   std::vector<std::pair<int, double>> vertices_of(const ModelPoint& point, Side side,
                                                   const std::string& where) const;
   const body_model::RegisteredBody& model_;
   Eigen::Isometry3d body_from_scan_;
   std::vector<Eigen::Vector3d> normals_;
+  body_model::OrientedTree tree_;
 };
 
 }  // namespace tensegric_fit::control_mesh

@@ -20,6 +20,7 @@ constexpr double kBeyondLandmark = 1.35;
 constexpr double kHole = 0.06;        // m; half the thickness of an arm
 constexpr double kLevelStep = 0.002;  // m
 constexpr double kOverhang = 0.01;    // m in a step: no underside that shows from the front slopes so
+constexpr double kHangSearch = 0.15;  // m; no breast hangs lower under a level that its fold has
 constexpr double kModelReach = 0.02;  // m; the model's skin lies nearer to the surface where there is one
 constexpr double kFoldSearch = 0.03;  // m; a fold rises or falls no more from its landmark to a node
 
@@ -100,12 +101,14 @@ class Placer {
       return skin_.nearest(0.5 * (in_body(measures_, name_on(node.landmark, first)) +
                                   in_body(measures_, name_on(node.landmark, second))));
     if (node.placing == TemplateNode::Placing::on_model) return on_model(node, node.on_model, first, second);
-    const double height = 0.5 * (level(node.level, first) + level(node.level, second));
     const auto axis = [&](double z) -> Vector3d {
       return node.axis.empty() ? axis_.at(z) : vertical_through(measures_, node.axis, side);
     };
     const Vector3d direction =
         (heading(node.angle, axis, first) + heading(node.angle, axis, second)).normalized();
+    double height = 0.5 * (level(node.level, first) + level(node.level, second));
+    if (layout_ == Layout::over_folds && model_ && !node.level.below.empty())
+      height -= hang(axis, height - node.level.offset, direction);
     const Vector3d centre(axis(height).x(), axis(height).y(), height);
     const auto exit = on_its_side_of_fold(node.level, axis, height, direction);
     const double reach = 0.5 * (distance(node.angle, axis, first) + distance(node.angle, axis, second));
@@ -150,6 +153,17 @@ class Placer {
       before = after;
     }
     return exit;
+  }
+
+  /// How far below that height the breasts end that hang there.
+  template <typename Axis>
+  double hang(const Axis& axis, double height, const Vector3d& direction) const {
+    for (double down = 0; down <= kHangSearch; down += kLevelStep) {
+      const double z = height - down;
+      const auto exit = skin_.first_exit({axis(z).x(), axis(z).y(), z}, direction, kTrunkReach);
+      if (!exit || !model_->on_breast(*exit, skin_.normal_near(*exit))) return down;
+    }
+    return 0;
   }
 
   double level(const Reference& reference, Side side) const {

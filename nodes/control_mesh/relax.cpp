@@ -8,11 +8,12 @@ namespace {
 
 using Eigen::Vector3d;
 constexpr int kRounds = 8;
-constexpr double kReach = 0.05;   // m; the mean of the neighbours lies no deeper below the skin
-constexpr int kTurnRounds = 24;   // neighbours take turns
-constexpr int kShares = 10;       // of the way between two nodes
-constexpr double kUpright = 0.2;  // cosine to the skin: nodes are still to be lifted by up to 3 mm
-constexpr double kTurned = 0.4;   // cosine between a triangle's normal and what it was at first
+constexpr double kReach = 0.05;  // m; the mean of the neighbours lies no deeper below the skin
+constexpr int kTurnRounds = 24;  // neighbours take turns
+constexpr int kShares = 10;      // of the way between two nodes
+constexpr double kLeast = 0.2;   // of lies(): 78 degrees off the skin, corners of 11.5 degrees; nodes are
+                                 // still to be lifted by up to 3 mm
+constexpr double kTurned = 0.4;  // cosine between a triangle's normal and what it was at first
 
 /// Nodes go back where a triangle of theirs has turned too far: in folds means are soon on the other side.
 void undo_turns(geometry::ControlMesh& control, const std::vector<Vector3d>& before,
@@ -26,21 +27,37 @@ void undo_turns(geometry::ControlMesh& control, const std::vector<Vector3d>& bef
   }
 }
 
-/// Between the triangle's normal, with `node` moved to `place`, and that of the skin below it.
-double cosine_to_skin(const geometry::ControlMesh& control, int triangle, int node, const Vector3d& place,
-                      const Skin& skin) {
+/// Sine of the sharpest corner.
+double sharpest(const std::array<Vector3d, 3>& corners, double twice_area) {
+  double least = 1;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d u = corners[(i + 1) % 3] - corners[i], v = corners[(i + 2) % 3] - corners[i];
+    const double sides = u.norm() * v.norm();
+    least = std::min(least, sides > 0 ? twice_area / sides : 0.0);
+  }
+  return least;
+}
+
+/// How well a triangle lies.
+struct Lies {
+  double cosine;    ///< between its normal and those of the skin nearest to it, the mean of four places
+  double sharpest;  ///< sine of its sharpest corner
+};
+
+/// With `node` moved to `place`.
+Lies lies(const geometry::ControlMesh& control, int triangle, int node, const Vector3d& place,
+          const Skin& skin) {
   const Eigen::Vector3i& k = control.triangles[triangle];
   std::array<Vector3d, 3> corners;
   for (int i = 0; i < 3; ++i) corners[i] = k[i] == node ? place : control.outer[k[i]];
   const Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3;
   Vector3d below = skin.normal_near(middle);
   for (const Vector3d& corner : corners) below += skin.normal_near(0.5 * (middle + corner));
-  return geometry::area_vector(corners[0], corners[1], corners[2])
-      .stableNormalized()
-      .dot(below.stableNormalized());
+  const Vector3d area = geometry::area_vector(corners[0], corners[1], corners[2]);
+  return {area.stableNormalized().dot(below) / 4, sharpest(corners, area.norm())};
 }
 
-/// Where a node could go, and the worst cosine of its triangles there.
+/// Where a node could go, and how well the worst of its triangles lies there.
 struct Move {
   double before = 1, after = 1;
   Vector3d place;
@@ -84,23 +101,29 @@ void relax_on_skin(geometry::ControlMesh& control, const std::vector<char>& may_
   }
 }
 
-int count_turned(const geometry::ControlMesh& control, const Skin& skin) {
-  int turned = 0;
+Badly count_badly_laid(const geometry::ControlMesh& control, const Skin& skin) {
+  Badly badly;
   for (int t = 0; t < static_cast<int>(control.triangles.size()); ++t) {
     const int corner = control.triangles[t][0];
-    turned += cosine_to_skin(control, t, corner, control.outer[corner], skin) <= kUpright;
+    const Lies how = lies(control, t, corner, control.outer[corner], skin);
+    badly.turned += how.cosine <= kLeast;
+    badly.sharp += how.sharpest <= kLeast;
   }
-  return turned;
+  return badly;
 }
 
 void turn_back(geometry::ControlMesh& control, const std::vector<Slide>& slides,
-               const std::vector<GridNeighbours>& around, const Skin& skin) {
+               const std::vector<GridNeighbours>& around, const Skin& skin,
+               const std::vector<std::vector<Vector3d>>& elsewhere) {
   std::vector<std::vector<int>> triangles(control.outer.size());
   for (int t = 0; t < static_cast<int>(control.triangles.size()); ++t)
     for (int i = 0; i < 3; ++i) triangles[control.triangles[t][i]].push_back(t);
   const auto worst_at = [&](int node, const Vector3d& place) {
     double worst = 1;
-    for (int t : triangles[node]) worst = std::min(worst, cosine_to_skin(control, t, node, place, skin));
+    for (int t : triangles[node]) {
+      const Lies how = lies(control, t, node, place, skin);
+      worst = std::min({worst, how.cosine, how.sharpest});
+    }
     return worst;
   };
   const auto beside = geometry::neighbours_of(control.outer.size(), control.triangles);
@@ -109,8 +132,10 @@ void turn_back(geometry::ControlMesh& control, const std::vector<Slide>& slides,
     for (int v = 0; v < static_cast<int>(moves.size()); ++v) {
       if (slides[v] == Slide::none) continue;
       moves[v].before = moves[v].after = worst_at(v, control.outer[v]);
-      if (moves[v].before > kUpright) continue;
-      for (const Vector3d& place : places_round(control, v, slides[v], around[v], skin)) {
+      if (moves[v].before > kLeast) continue;
+      std::vector<Vector3d> places = places_round(control, v, slides[v], around[v], skin);
+      for (const std::vector<Vector3d>& other : elsewhere) places.push_back(other[v]);
+      for (const Vector3d& place : places) {
         const double worst = worst_at(v, place);
         if (worst <= moves[v].after) continue;
         moves[v].after = worst;

@@ -17,16 +17,26 @@ using GridNeighbours = std::array<int, 4>;
 void relax_on_skin(geometry::ControlMesh& control, const std::vector<char>& may_move,
                    const std::vector<GridNeighbours>& around, const Skin& skin);
 
-/// Triangles that face against the skin below them, or nearly across it.
-int count_turned(const geometry::ControlMesh& control, const Skin& skin);
+/// Triangles that lie badly: their normals more than 78 degrees off the skin's below them, or with a corner
+/// under 11.5 degrees.
+struct Badly {
+  int turned = 0, sharp = 0;
+  bool none() const { return turned == 0 && sharp == 0; }
+  bool operator<(const Badly& other) const {
+    return turned != other.turned ? turned < other.turned : sharp < other.sharp;
+  }
+};
+Badly count_badly_laid(const geometry::ControlMesh& control, const Skin& skin);
 
 /// How a node may slide over the skin. Those of the mid-plane stay on it.
 enum class Slide : char { none, along_column, either_way };
 
-/// Where a triangle is turned, or nearly: slides nodes along the skin between their upper and lower or their
-/// left and right neighbours, those that there are, to where their triangles lie best on it. Half way may be
-/// inside a fold. Of neighbours that would move the worse goes first, so that no order shows.
+/// Where a triangle lies badly: slides nodes along the skin between their upper and lower or their left and
+/// right neighbours, those that there are, or moves them to their places in `elsewhere` (the same nodes, laid
+/// in other ways), to where their triangles lie best. Half way may be inside a fold. Of neighbours that would
+/// move the worse goes first, so that no order shows.
 void turn_back(geometry::ControlMesh& control, const std::vector<Slide>& slides,
-               const std::vector<GridNeighbours>& around, const Skin& skin);
+               const std::vector<GridNeighbours>& around, const Skin& skin,
+               const std::vector<std::vector<Eigen::Vector3d>>& elsewhere = {});
 
 }  // namespace tensegric_fit::control_mesh

@@ -2,9 +2,46 @@
 
 #include <map>
 
+#include "control_mesh/relax.hpp"
+
 namespace tensegric_fit::control_mesh {
 
+namespace {
+
 using Eigen::Vector3d;
+constexpr double kLeastShare = 0.5;  // of a quarter of its triangle, as that one's normal sees it
+constexpr int kHalvings = 5;
+
+/// The middles of a triangle's edges: opposite to its first corner, its second, its third.
+using Middles = Eigen::Vector3i;
+
+/// In a fold the skin over an edge's middle may be that of the other side, or far along: such nodes go back
+/// towards the middle, where quarters are as well shaped as their triangle.
+void flatten_turned(const std::vector<Eigen::Vector3i>& triangles, const std::vector<Middles>& middles,
+                    const std::vector<Vector3d>& flat, std::vector<Vector3d>& nodes) {
+  for (int round = 0;; ++round) {
+    std::vector<char> turned(nodes.size(), 0);
+    bool any = false;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const Eigen::Vector3i &k = triangles[t], &m = middles[t];
+      const Vector3d whole = geometry::area_vector(nodes[k[0]], nodes[k[1]], nodes[k[2]]);
+      const auto well = [&](int a, int b, int c) {
+        return geometry::area_vector(nodes[a], nodes[b], nodes[c]).dot(whole) >=
+               kLeastShare / 4 * whole.squaredNorm();
+      };
+      if (well(k[0], m[2], m[1]) && well(m[2], k[1], m[0]) && well(m[1], m[0], k[2]) &&
+          well(m[2], m[0], m[1]))
+        continue;
+      any = true;
+      for (int i = 0; i < 3; ++i) turned[m[i]] = 1;
+    }
+    if (!any) return;
+    for (std::size_t v = 0; v < nodes.size(); ++v)
+      if (turned[v]) nodes[v] = round < kHalvings ? Vector3d(0.5 * (nodes[v] + flat[v])) : flat[v];
+  }
+}
+
+}  // namespace
 
 geometry::ControlMesh subdivide(const geometry::ControlMesh& control, const Skin& skin) {
   geometry::ControlMesh fine = control;
@@ -15,6 +52,7 @@ geometry::ControlMesh subdivide(const geometry::ControlMesh& control, const Skin
   for (const geometry::Edge& edge : edges)
     if (edge.right < 0) on_rim[edge.first] = on_rim[edge.second] = 1;
   std::map<std::pair<int, int>, int> middle_of;
+  std::vector<Vector3d> flat = control.outer;
   for (const geometry::Edge& edge : edges) {
     const int a = edge.first, b = edge.second;
     middle_of[{a, b}] = static_cast<int>(fine.outer.size());
@@ -22,6 +60,7 @@ geometry::ControlMesh subdivide(const geometry::ControlMesh& control, const Skin
     const Vector3d normal = (normals[a] + normals[b]).normalized();
     const auto above = skin.nearest_along(middle, normal, 0.5 * (control.outer[b] - control.outer[a]).norm());
     fine.outer.push_back(above ? *above : skin.nearest(middle));
+    flat.push_back(middle);
     fine.inner.push_back(0.5 * (control.inner[a] + control.inner[b]));
     const bool across = edge.right >= 0 && on_rim[a] && on_rim[b];  // from rim to rim over free skin
     fine.outer_fixed.push_back(!across && control.outer_fixed[a] && control.outer_fixed[b]);
@@ -30,6 +69,9 @@ geometry::ControlMesh subdivide(const geometry::ControlMesh& control, const Skin
   }
 
   const auto middle = [&middle_of](int a, int b) { return middle_of.at({std::min(a, b), std::max(a, b)}); };
+  std::vector<Middles> middles;
+  for (const Eigen::Vector3i& k : control.triangles)
+    middles.emplace_back(middle(k[1], k[2]), middle(k[2], k[0]), middle(k[0], k[1]));
   for (const Eigen::Vector3i& k : control.triangles) {
     const int ab = middle(k[0], k[1]), bc = middle(k[1], k[2]), ca = middle(k[2], k[0]);
     fine.triangles.emplace_back(k[0], ab, ca);
@@ -37,6 +79,15 @@ geometry::ControlMesh subdivide(const geometry::ControlMesh& control, const Skin
     fine.triangles.emplace_back(ca, bc, k[2]);
     fine.triangles.emplace_back(ab, bc, ca);
   }
+  // In a fold the skin over a middle may be that of the other side.
+  std::vector<Slide> slides(control.outer.size(), Slide::none);
+  std::vector<GridNeighbours> ends(control.outer.size(), {-1, -1, -1, -1});
+  for (const geometry::Edge& edge : edges) {
+    slides.push_back(edge.right < 0 ? Slide::none : Slide::along_column);
+    ends.push_back({edge.first, edge.second, -1, -1});
+  }
+  turn_back(fine, slides, ends, skin, {flat});
+  flatten_turned(control.triangles, middles, flat, fine.outer);
   for (geometry::ControlRegion& region : fine.regions) {
     std::vector<int> quarters;
     for (int t : region.triangles)

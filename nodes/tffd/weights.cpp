@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tensegric_fit::tffd {
 namespace {
@@ -11,6 +12,12 @@ namespace {
 constexpr double kGlobal = 0.05;
 // It sets in where no triangle is nearer than this part of its reach.
 constexpr double kGlobalFrom = 0.5;
+
+// Of a vertex over the middle of well shaped triangles the absolute weights sum to 1 + 2 height / thickness,
+// of one at the rim to some more; more than this only by extrapolation from slivers.
+constexpr double kMostStretch = 3;
+constexpr double kFirstPower = 0.5, kMostPower = 64;
+constexpr int kBisections = 30;
 
 double square(double x) {
   return x * x;
@@ -22,6 +29,7 @@ struct Near {
   double z;                     // distance from the triangle in multiples of its reach
   Eigen::Vector3d barycentric;  // of its closest point
   double k = 0;                 // its share of the vertex
+  double stretch = 0;           // what it alone would make of the vertex: sum of the absolute weights
 };
 
 Near seen_from(const Eigen::Vector3d& q, int triangle, const Frame& frame, double beta) {
@@ -71,6 +79,19 @@ void weigh(const std::vector<Frame>& frames, double truncation, std::vector<Near
   for (Near& triangle : near) triangle.k /= sum;
 }
 
+// What a triangle alone makes of a vertex: its weights of the outer corners, and of the inner ones.
+struct Carried {
+  double outer[3];
+  double inner;  // each
+};
+
+Carried carried_by(const Frame& frame, const Eigen::Vector3d& q, const Eigen::Vector3d* foot) {
+  // Of a tied vertex here only the height over its foot: an offset, not a point.
+  const Eigen::Vector3d uvw = foot ? frame.local_from_offset * (q - *foot) : frame.local(q);
+  const double w = uvw[2] / 3;
+  return {{(foot ? 0 : 1) - uvw[0] - uvw[1] + w, uvw[0] + w, uvw[1] + w}, -w};
+}
+
 // A row of a sparse matrix that is gathered in any order.
 class Row {
  public:
@@ -82,15 +103,22 @@ class Row {
     used_[column] = 1;
   }
 
+  double absolute() const {
+    double sum = 0;
+    for (const int column : columns_) sum += std::abs(sums_[column]);
+    return sum;
+  }
+
+  void clear() {
+    for (const int column : columns_) sums_[column] = 0, used_[column] = 0;
+    columns_.clear();
+  }
+
   // Appends the row, times `factor`, and starts a new one.
   void append_to(SparseRows& matrix, Eigen::Index row, double factor) {
     std::sort(columns_.begin(), columns_.end());
-    for (const int column : columns_) {
-      matrix.insertBack(row, column) = factor * sums_[column];
-      sums_[column] = 0;
-      used_[column] = 0;
-    }
-    columns_.clear();
+    for (const int column : columns_) matrix.insertBack(row, column) = factor * sums_[column];
+    clear();
   }
 
  private:
@@ -98,6 +126,41 @@ class Row {
   std::vector<char> used_;
   std::vector<int> columns_;
 };
+
+// Multiplies each triangle's share by (least stretch / its stretch)^power: those that extrapolate far count
+// less.
+void favour_near(const std::vector<Near>& before, double power, std::vector<Near>& near) {
+  double least = std::numeric_limits<double>::infinity(), sum = 0;
+  for (const Near& triangle : before)
+    if (triangle.k > 0) least = std::min(least, triangle.stretch);
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    near[i].k = before[i].k > 0 ? before[i].k * std::pow(least / before[i].stretch, power) : 0;
+    sum += near[i].k;
+  }
+  for (Near& triangle : near) triangle.k /= sum;
+}
+
+// Where the absolute weights of a vertex sum to more than kMostStretch, by slivers that would carry it far
+// beyond themselves: the least power that brings them down to it, so that rows change smoothly over the skin
+// and none changes that need not. Any shares keep the mapping affine-exact.
+template <typename Absolute>
+void limit_stretch(std::vector<Near>& near, const Absolute& absolute) {
+  if (absolute(near) <= kMostStretch) return;
+  const std::vector<Near> before = near;
+  double low = 0, high = kFirstPower;
+  favour_near(before, high, near);
+  while (absolute(near) > kMostStretch && high < kMostPower) {
+    low = high;
+    high *= 2;
+    favour_near(before, high, near);
+  }
+  for (int step = 0; step < kBisections; ++step) {
+    const double middle = 0.5 * (low + high);
+    favour_near(before, middle, near);
+    (absolute(near) > kMostStretch ? low : high) = middle;
+  }
+  favour_near(before, high, near);
+}
 
 Eigen::Vector3d foot_of(const Tie& tie, const std::vector<Eigen::Vector3d>& vertices) {
   return vertices[tie.from] + tie.part * (vertices[tie.to] - vertices[tie.from]);
@@ -138,20 +201,33 @@ Weights standard_weights(const geometry::TriangleMesh& body, const geometry::Con
     const Tie* tie = tie_of[v];
     find_near(q, frames, kernel, near);
     weigh(frames, kernel.truncation, near);
-    for (const Near& triangle : near) {
-      if (triangle.k == 0) continue;
-      // Of a tied vertex here only the height over its foot: an offset, not a point.
-      const Frame& frame = frames[triangle.triangle];
-      const Eigen::Vector3d uvw =
-          tie ? frame.local_from_offset * (q - foot_of(*tie, body.vertices)) : frame.local(q);
-      const double corner[] = {(tie ? 0 : 1) - uvw[0] - uvw[1], uvw[0], uvw[1]};
-      for (int j = 0; j < 3; ++j) {
-        const int node = control.triangles[triangle.triangle][j];
-        nodes.add(node, triangle.k * (corner[j] + uvw[2] / 3));
-        nodes.add(outer + node, -triangle.k * uvw[2] / 3);
-        values.add(node, triangle.k * triangle.barycentric[j]);
-      }
+    const Eigen::Vector3d foot = tie ? foot_of(*tie, body.vertices) : q;
+    for (Near& triangle : near) {
+      const Carried carried = carried_by(frames[triangle.triangle], q, tie ? &foot : nullptr);
+      triangle.stretch = 3 * std::abs(carried.inner);
+      for (const double weight : carried.outer) triangle.stretch += std::abs(weight);
     }
+    const auto gather = [&](const std::vector<Near>& shares) {
+      for (const Near& triangle : shares) {
+        if (triangle.k == 0) continue;
+        const Carried carried = carried_by(frames[triangle.triangle], q, tie ? &foot : nullptr);
+        for (int j = 0; j < 3; ++j) {
+          const int node = control.triangles[triangle.triangle][j];
+          nodes.add(node, triangle.k * carried.outer[j]);
+          nodes.add(outer + node, triangle.k * carried.inner);
+        }
+      }
+    };
+    limit_stretch(near, [&](const std::vector<Near>& shares) {
+      nodes.clear();
+      gather(shares);
+      return nodes.absolute();
+    });
+    nodes.clear();
+    gather(near);
+    for (const Near& triangle : near)
+      for (int j = 0; j < 3 && triangle.k > 0; ++j)
+        values.add(control.triangles[triangle.triangle][j], triangle.k * triangle.barycentric[j]);
     nodes.append_to(weights.nodes, v, anchor->share);
     values.append_to(weights.values, v, anchor->share);
     ++anchor;

@@ -7,8 +7,8 @@
 #include "body_model/parts.hpp"
 #include "control_mesh/fit_template.hpp"
 #include "control_mesh/skin.hpp"
-#include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
+#include "tffd/binding.hpp"
 
 namespace tensegric_fit::population {
 namespace {
@@ -37,15 +37,14 @@ geometry::TriangleMesh trunk_of(const geometry::TriangleMesh& body, const body_m
 
 /// Outer triangles that face against the skin nearest to them, inner ones that face against their outer one.
 int folded_triangles(const geometry::ControlMesh& control, const geometry::TriangleMesh& body) {
-  const geometry::PointTree tree(body.vertices);
-  const std::vector<Vector3d> normals = geometry::vertex_normals(body.vertices, body.triangles);
+  const control_mesh::Skin skin(body);  // nearest vertices may be those of the other side of a fold
   int folded = 0;
   for (const Eigen::Vector3i& t : control.triangles) {
     const Vector3d outer = area_of(control.outer, t);
     const Vector3d middle = (control.outer[t[0]] + control.outer[t[1]] + control.outer[t[2]]) / 3;
-    Vector3d skin = normals[tree.nearest(middle)];
-    for (int i = 0; i < 3; ++i) skin += normals[tree.nearest((middle + control.outer[t[i]]) / 2)];
-    folded += outer.dot(skin) <= 0 || outer.dot(area_of(control.inner, t)) <= 0;
+    Vector3d below = skin.normal_near(middle);
+    for (int i = 0; i < 3; ++i) below += skin.normal_near((middle + control.outer[t[i]]) / 2);
+    folded += outer.dot(below) <= 0 || outer.dot(area_of(control.inner, t)) <= 0;
   }
   return folded;
 }
@@ -74,26 +73,71 @@ Figure information(const std::string& name, double error, double limit) {
   return figure;
 }
 
+/// The least corner of any outer triangle, degrees.
+double least_corner(const geometry::ControlMesh& control) {
+  double least = 180;
+  for (const Eigen::Vector3i& t : control.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const Vector3d u = control.outer[t[(i + 1) % 3]] - control.outer[t[i]],
+                     v = control.outer[t[(i + 2) % 3]] - control.outer[t[i]];
+      least = std::min(least, std::atan2(u.cross(v).norm(), u.dot(v)) * 180 / M_PI);
+    }
+  return least;
+}
+
+/// The least outer triangle's area, % of the median one's.
+double least_area(const geometry::ControlMesh& control) {
+  std::vector<double> areas;
+  for (const Eigen::Vector3i& t : control.triangles) areas.push_back(area_of(control.outer, t).norm());
+  std::sort(areas.begin(), areas.end());
+  return 100 * areas.front() / areas[areas.size() / 2];
+}
+
+/// The largest sum of the absolute entries of a row of M.
+double largest_row(const geometry::TriangleMesh& body, const geometry::ControlMesh& control) {
+  const tffd::Binding binding(body, control, {});
+  const tffd::SparseRows& rows = binding.weights().nodes;
+  double largest = 0;
+  for (Eigen::Index row = 0; row < rows.outerSize(); ++row) {
+    double sum = 0;
+    for (tffd::SparseRows::InnerIterator entry(rows, row); entry; ++entry) sum += std::abs(entry.value());
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
 }  // namespace
 
 std::vector<Figure> control_figures(const control_mesh::Template& pattern, const geometry::TriangleMesh& body,
                                     const geometry::BodyMeasures& measures,
                                     const body_model::RegisteredBody& model) {
   const std::string name = "control " + pattern.name;
-  try {
-    const geometry::ControlMesh control = control_mesh::fit_template(pattern, body, measures, {}, &model);
+  const auto laid = [&](int triangles) {
     control_mesh::Options options;
-    options.control_triangles = 1920;  // 10 mm wide triangles stand for the skin
-    const geometry::ControlMesh fine = control_mesh::fit_template(pattern, body, measures, options, &model);
+    options.control_triangles = triangles;
+    return control_mesh::fit_template(pattern, body, measures, options, &model);
+  };
+  try {
+    const geometry::ControlMesh control = laid(control_mesh::Options().control_triangles);
+    const geometry::ControlMesh fine = laid(1920);  // 10 mm wide triangles stand for the skin
     const Vector3d apex = geometry::region_apex(control, control.regions[0]);
     const double volume = geometry::cone_volume(control.outer, control.triangles, apex) /
                           geometry::cone_volume(fine.outer, fine.triangles, apex);
-    return {information(name + " laid", 0, 0),
-            information(name + " folded",
-                        static_cast<double>(folded_triangles(control, trunk_of(body, model))), 0),
-            information(name + " off skin", 1e3 * off_skin(control, body), 3.001),
-            information(name + " volume %", 100 * (volume - 1), 2),
-            information(name + " tips", 1e3 * off_landmarks(pattern, control, measures), 2)};
+    std::vector<Figure> figures{
+        information(name + " laid", 0, 0),
+        information(name + " off skin", 1e3 * off_skin(control, body), 3.001),
+        information(name + " volume %", 100 * (volume - 1), 2),
+        information(name + " tips", 1e3 * off_landmarks(pattern, control, measures), 2)};
+    const geometry::TriangleMesh trunk = trunk_of(body, model);
+    const geometry::ControlMesh finer = laid(4 * static_cast<int>(control.triangles.size()));
+    for (const geometry::ControlMesh* mesh : {&control, &finer}) {
+      const std::string sized = name + " " + std::to_string(mesh->triangles.size());
+      figures.push_back(information(sized + " folded", folded_triangles(*mesh, trunk), 0));
+      figures.push_back(information(sized + " corner", least_corner(*mesh), 180));
+      figures.push_back(information(sized + " area %", least_area(*mesh), 100));
+      figures.push_back(information(sized + " row sum", largest_row(body, *mesh), 100));
+    }
+    return figures;
   } catch (const geometry::Refusal& refusal) {
     Figure none = information(name + " laid", std::numeric_limits<double>::infinity(), 0);
     none.cause = refusal.code();
