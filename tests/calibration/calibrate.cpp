@@ -1,11 +1,13 @@
 /// `calibrate CASES.yaml --out FILE.yaml`: the tissue's parameters from reference displacements, with the
 /// evidence.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "calibration/calibration.hpp"
 #include "fit/tissue_file.hpp"
@@ -33,18 +35,24 @@ calibration::CalibrationBody read_body(const YAML::Node& node, const std::string
   body.body = fit::measure_mesh(
       geometry::read_ply_mesh(beside(path, geometry::required<std::string>(node, "mesh", path, kCode))),
       settings, times);
-  const std::string usual = geometry::required<std::string>(node, "garment", path, kCode);
+  const auto usual = geometry::optional<std::string>(node, "garment", "", path, kCode);
   for (const YAML::Node& reference : node["references"]) {
-    geometry::check_keys(reference, {"ratio", "file", "garment"}, path, kCode);
+    geometry::check_keys(reference, {"ratio", "file", "garment", "tension"}, path, kCode);
     calibration::CalibrationCase one;
     const double ratio = geometry::number_in(reference, "ratio", tensegric::kLowestRatio, 1, path, kCode);
-    const std::string worn = geometry::optional(reference, "garment", usual, path, kCode);
-    one.name = fmt::format("{}{} {:.3f}", body.name,
-                           worn == usual ? "" : " " + fs::path(worn).stem().string(), ratio);
+    const std::string worn = usual.empty()
+                                 ? geometry::required<std::string>(reference, "garment", path, kCode)
+                                 : geometry::optional(reference, "garment", usual, path, kCode);
+    std::string variant = worn == usual ? "" : " " + fs::path(worn).stem().string();
+    if (variant.rfind(" " + body.name + "_", 0) == 0) variant.erase(1, body.name.size() + 1);
+    one.name = fmt::format("{}{} {:.3f}", body.name, variant, ratio);
     one.garment = tensegric::take_garment(beside(path, worn), geometry::shipped_folder("garments"));
     tensegric::set_ratio(one.garment, "", ratio);
     one.reference = calibration::read_reference(
         beside(path, geometry::required<std::string>(reference, "file", path, kCode)), body.body.mesh.mesh);
+    one.newtons = geometry::optional<std::vector<double>>(reference, "tension", {}, path, kCode);
+    if (!one.newtons.empty() && one.newtons.size() != one.garment.lines.size())
+      throw geometry::Refusal(kCode, path + ": " + one.name + ": 'tension' needs one number a line");
     body.cases.push_back(one);
   }
   if (body.cases.empty())
@@ -74,21 +82,53 @@ std::string evidence_of(const calibration::Calibration& found,
   return text;
 }
 
-void run(const std::string& cases, const std::string& out, fit::Settings settings) {
-  const YAML::Node file = geometry::load_yaml_map(cases, kCode);
-  geometry::check_keys(file, {"region", "fit", "bodies"}, cases, kCode);
-  calibration::CalibrationOptions options;
-  options.fitted = geometry::optional(file, "fit", options.fitted, cases, kCode);
-  const std::vector<control_mesh::Template> patterns = {control_mesh::load_template(
-      geometry::yaml_file(geometry::shipped_folder("templates"),
-                          geometry::required<std::string>(file, "region", cases, kCode), kCode))};
+struct Cases {
   std::vector<calibration::CalibrationBody> bodies;
-  for (const YAML::Node& node : file["bodies"]) bodies.push_back(read_body(node, cases, settings));
+  std::vector<control_mesh::Template> patterns;
+  calibration::CalibrationOptions options;
+};
+
+Cases read_cases(const std::string& path, const fit::Settings& settings) {
+  const YAML::Node file = geometry::load_yaml_map(path, kCode);
+  geometry::check_keys(file, {"region", "fit", "bodies"}, path, kCode);
+  Cases cases;
+  cases.options.fitted = geometry::optional(file, "fit", cases.options.fitted, path, kCode);
+  std::set<std::string> regions;  // of the garments; the file may name one, too
+  if (file["region"]) regions.insert(geometry::required<std::string>(file, "region", path, kCode));
+  for (const YAML::Node& node : file["bodies"]) {
+    cases.bodies.push_back(read_body(node, path, settings));
+    for (const calibration::CalibrationCase& c : cases.bodies.back().cases)
+      regions.insert(c.garment.regions.begin(), c.garment.regions.end());
+  }
+  for (const std::string& region : regions)
+    cases.patterns.push_back(control_mesh::load_template(
+        geometry::yaml_file(geometry::shipped_folder("templates"), region, kCode)));
+  return cases;
+}
+
+void print_errors(const Cases& cases, const fit::Settings& settings) {
+  fmt::print("{:20s} {:>7s} {:>6s} {:>11s} {:>10s} {:>7s}  tension (reference, N)\n", "case", "still", "rms",
+             "status", "iterations", "ms");
+  for (const calibration::CalibrationBody& body : cases.bodies) {
+    const auto outcomes = calibration::wear_cases(body, cases.patterns, settings, false);
+    for (std::size_t c = 0; c < outcomes.size(); ++c) {
+      const calibration::CalibrationCase& one = body.cases[c];
+      const calibration::CaseOutcome& out = outcomes[c];
+      fmt::print("{:20s} {:7.2f} {:6.2f} {:>11s} {:10d} {:7.1f}  {:.4g}", one.name,
+                 1e3 * calibration::not_moving(one.reference), 1e3 * out.error, to_string(out.status),
+                 out.iterations, out.milliseconds, fmt::join(out.tensions, " "));
+      fmt::print(" ({:.4g})\n", fmt::join(one.newtons, " "));
+    }
+    std::fflush(stdout);
+  }
+}
+
+void run(const Cases& cases, const std::string& out, const fit::Settings& settings) {
   const calibration::Calibration found =
-      calibration::calibrate(bodies, patterns, settings, options,
+      calibration::calibrate(cases.bodies, cases.patterns, settings, cases.options,
                              [](const std::string& what) { fmt::print(stderr, "{} ...\n", what); });
-  const std::string text =
-      fit::tissue_yaml(found.settings) + evidence_of(found, bodies, settings.control_mesh.control_triangles);
+  const std::string text = fit::tissue_yaml(found.settings) +
+                           evidence_of(found, cases.bodies, settings.control_mesh.control_triangles);
   fmt::print("{}", text);
   std::ofstream written(out);
   written << text;
@@ -102,14 +142,15 @@ int main(int argc, char** argv) {
       "Tissue parameters from reference displacements. Exit: 0 done, 2 usage, 3 refused, 1 not written.");
   std::string cases, out = "tissue.yaml", tissue;
   fit::Settings settings;
-  app.add_option("cases", cases, "CASES.yaml: region, fit, bodies with mesh, garment and references")
-      ->required();
+  app.add_option("cases", cases, "CASES.yaml: fit, bodies with mesh, garment and references")->required();
   app.add_option("--out", out, "Parameter file for fit --tissue")->capture_default_str();
   app.add_option("--tissue", tissue, "Where to begin, as a parameter file");
   app.add_option("--control-triangles", settings.control_mesh.control_triangles,
                  "Control triangles, at least")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
+  bool errors = false;
+  app.add_flag("--errors", errors, "Fits nothing: errors, iterations and tensions by case, as things are");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -117,7 +158,11 @@ int main(int argc, char** argv) {
   }
   try {
     if (!tissue.empty()) fit::take_tissue(tissue, settings);
-    run(cases, out, settings);
+    const Cases all = read_cases(cases, settings);
+    if (errors)
+      print_errors(all, settings);
+    else
+      run(all, out, settings);
     return 0;
   } catch (const geometry::Refusal& refusal) {
     fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());

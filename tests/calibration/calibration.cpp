@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "geometry/status.hpp"
 
@@ -51,39 +52,32 @@ std::vector<Parameter> parameters_named(const std::vector<std::string>& names) {
   return parameters;
 }
 
-// Errors of the cases of one body in the order of its cases; empty where a case did not settle.
-class Wearer {
- public:
-  Wearer(const CalibrationBody& body, const std::vector<control_mesh::Template>& patterns)
-      : body_(body), patterns_(patterns) {}
-
-  bool operator()(const Settings& settings, std::vector<std::vector<Eigen::Vector3d>>& deformed) const {
-    deformed.clear();
-    try {
-      fit::StageTimes times;
-      const Fitting fitting = prepare(body_.body, patterns_, settings, times);
-      Fit last;
-      for (const CalibrationCase& c : body_.cases) {
-        last = wear(body_.body, fitting, c.garment, settings, times,
-                    deformed.empty() ? nullptr : &last.solution);
-        if (last.solution.status != tensegric::Status::converged) return false;
-        deformed.push_back(last.deformed);
-      }
-    } catch (const Refusal&) {
-      return false;  // no prestress, a folded unit: this way leads nowhere
-    }
-    return true;
+// Of one body; nothing where a case did not settle.
+std::vector<CaseOutcome> settled_cases(const CalibrationBody& body,
+                                       const std::vector<control_mesh::Template>& patterns,
+                                       const Settings& settings) {
+  try {
+    std::vector<CaseOutcome> outcomes = wear_cases(body, patterns, settings, true);
+    for (const CaseOutcome& outcome : outcomes)
+      if (outcome.status != tensegric::Status::converged) return {};
+    return outcomes;
+  } catch (const Refusal&) {
+    return {};  // no prestress, a folded unit: this way leads nowhere
   }
+}
 
- private:
-  const CalibrationBody& body_;
-  const std::vector<control_mesh::Template>& patterns_;
-};
-
-double not_moving(const ReferenceField& reference) {
-  double sum = 0;
-  for (const Eigen::Vector3d& d : reference.displacements) sum += d.squaredNorm();
-  return std::sqrt(sum / static_cast<double>(reference.displacements.size()));
+std::vector<control_mesh::Template> patterns_of(const tensegric::Garment& garment,
+                                                const std::vector<control_mesh::Template>& patterns) {
+  std::vector<control_mesh::Template> worn;
+  for (const std::string& region : garment.regions) {
+    const auto at = std::find_if(patterns.begin(), patterns.end(),
+                                 [&region](const control_mesh::Template& p) { return p.name == region; });
+    if (at == patterns.end())
+      throw Refusal(refusal::kBadGarment, "garment " + garment.name + " is for region '" + region +
+                                              "', which has no template here");
+    worn.push_back(*at);
+  }
+  return worn;
 }
 
 // Distances to the reference, relative to not moving, of the cases of several bodies.
@@ -129,16 +123,16 @@ class TissueCost : public ceres::CostFunction {
   bool fill(const std::vector<double>& at, double* residuals) const {
     const Settings settings = settings_at(at);
     for (const CalibrationBody* body : bodies_) {
-      std::vector<std::vector<Eigen::Vector3d>> deformed;
-      if (!Wearer(*body, patterns_)(settings, deformed)) return false;
-      for (std::size_t c = 0; c < deformed.size(); ++c) {
+      const std::vector<CaseOutcome> outcomes = settled_cases(*body, patterns_, settings);
+      if (outcomes.empty()) return false;
+      for (std::size_t c = 0; c < outcomes.size(); ++c) {
         const ReferenceField& reference = body->cases[c].reference;
         const double scale =
             1 / (not_moving(reference) * std::sqrt(static_cast<double>(reference.vertices.size())));
         for (std::size_t i = 0; i < reference.vertices.size(); ++i) {
           const int v = reference.vertices[i];
-          const Eigen::Vector3d off =
-              scale * (deformed[c][v] - body->body.mesh.mesh.vertices[v] - reference.displacements[i]);
+          const Eigen::Vector3d off = scale * (outcomes[c].deformed[v] - body->body.mesh.mesh.vertices[v] -
+                                               reference.displacements[i]);
           for (int k = 0; k < 3; ++k) *residuals++ = off[k];
         }
       }
@@ -190,6 +184,43 @@ Settings fitted_on(std::vector<const CalibrationBody*> bodies,
 
 }  // namespace
 
+double not_moving(const ReferenceField& reference) {
+  double sum = 0;
+  for (const Eigen::Vector3d& d : reference.displacements) sum += d.squaredNorm();
+  return std::sqrt(sum / static_cast<double>(reference.displacements.size()));
+}
+
+std::vector<CaseOutcome> wear_cases(const CalibrationBody& body,
+                                    const std::vector<control_mesh::Template>& patterns,
+                                    const Settings& settings, bool warm) {
+  std::map<std::vector<std::string>, Fitting> fittings;  // by regions
+  std::vector<CaseOutcome> outcomes;
+  Fit last;
+  for (std::size_t i = 0; i < body.cases.size(); ++i) {
+    const CalibrationCase& c = body.cases[i];
+    fit::StageTimes times;
+    auto fitting = fittings.find(c.garment.regions);
+    if (fitting == fittings.end())
+      fitting = fittings
+                    .emplace(c.garment.regions,
+                             prepare(body.body, patterns_of(c.garment, patterns), settings, times))
+                    .first;
+    times = {};
+    const bool follows = warm && i > 0 && body.cases[i - 1].garment.name == c.garment.name &&
+                         body.cases[i - 1].garment.regions == c.garment.regions;
+    last = wear(body.body, fitting->second, c.garment, settings, times, follows ? &last.solution : nullptr);
+    CaseOutcome outcome{tissue_error(c.reference, body.body.mesh.mesh, last.deformed),
+                        last.solution.status,
+                        last.solution.iterations,
+                        times.tensegric,
+                        {},
+                        last.deformed};
+    for (const tensegric::LineResult& line : last.solution.lines) outcome.tensions.push_back(line.tension);
+    outcomes.push_back(std::move(outcome));
+  }
+  return outcomes;
+}
+
 Calibration calibrate(const std::vector<CalibrationBody>& bodies,
                       const std::vector<control_mesh::Template>& patterns, const Settings& start,
                       const CalibrationOptions& options, const std::function<void(const std::string&)>& say) {
@@ -202,11 +233,9 @@ Calibration calibrate(const std::vector<CalibrationBody>& bodies,
       if (!(not_moving(c.reference) >= kLeastWay))
         throw Refusal(refusal::kTooFewData, body.name + ", " + c.name + ": the reference does not move");
   const auto errors_of = [&patterns](const CalibrationBody& body, const Settings& settings) {
-    std::vector<std::vector<Eigen::Vector3d>> deformed;
     std::vector<double> errors(body.cases.size(), std::numeric_limits<double>::quiet_NaN());
-    if (!Wearer(body, patterns)(settings, deformed)) return errors;
-    for (std::size_t c = 0; c < deformed.size(); ++c)
-      errors[c] = tissue_error(body.cases[c].reference, body.body.mesh.mesh, deformed[c]);
+    const std::vector<CaseOutcome> outcomes = settled_cases(body, patterns, settings);
+    for (std::size_t c = 0; c < outcomes.size(); ++c) errors[c] = outcomes[c].error;
     return errors;
   };
   Calibration result;

@@ -16,14 +16,34 @@ struct CalibrationCase {
   std::string name;
   tensegric::Garment garment;
   ReferenceField reference;
+  std::vector<double> newtons;  ///< the reference's tension in each line; empty: not known
 };
 
-/// A body and its cases, in the order of growing requests.
+/// A body and its cases; those of one garment in the order of growing requests.
 struct CalibrationBody {
   std::string name;
   fit::Body body;
   std::vector<CalibrationCase> cases;
 };
+
+/// How a case went.
+struct CaseOutcome {
+  double error;  ///< root mean square distance to the reference, m
+  tensegric::Status status;
+  int iterations;
+  double milliseconds;           ///< of the solution
+  std::vector<double> tensions;  ///< as reported, one a line
+  std::vector<Eigen::Vector3d> deformed;
+};
+
+/// Root mean square way of the reference, m: the error of not moving.
+double not_moving(const ReferenceField& reference);
+
+/// All cases of a body, each from rest or, where `warm`, from the one before under the same garment. Of
+/// `patterns` those count that bear the names of a garment's regions. \throw Refusal as prepare and wear
+std::vector<CaseOutcome> wear_cases(const CalibrationBody& body,
+                                    const std::vector<control_mesh::Template>& patterns,
+                                    const fit::Settings& settings, bool warm);
 
 /// What is fitted, of those in tissue_yaml that are numbers.
 struct CalibrationOptions {
@@ -43,7 +63,7 @@ struct Calibration {
   std::vector<fit::Settings> left_out;  ///< one a body: fitted on the others
 };
 
-/// Relative errors of all cases count alike. Each body is left out once. `patterns` as for prepare. \throw
+/// Relative errors of all cases count alike. Each body is left out once. `patterns` as for wear_cases. \throw
 /// Refusal bad_option: a name that cannot be fitted; too_few_data: fewer than three bodies; at_bound naming
 /// what ran into its bounds; not_settled: no fit of a body
 Calibration calibrate(const std::vector<CalibrationBody>& bodies,

@@ -1,0 +1,52 @@
+#!/usr/bin/python3
+"""reference_cases.py DATA OUT [VARIANT...]: all finite-element references of DATA as `calibrate` reads them.
+
+DATA has bodies in open/ and fem/bodies/, references in fem/ (NAME_VARIANT_rNNN.npz) and their tensions in fem/summary.json. Writes a CSV a
+reference and OUT/cases.yaml. VARIANT: skin, hull (taut over the cleavage), strap, hip, hiphull (taut); all but hip where none is named: the
+reference's skin band goes into the cleft between the buttocks. Requests below 0.95 are left out: they are for looking at.
+"""
+import json
+import pathlib
+import sys
+
+import reference_csv
+
+GARMENT = {"skin": "chest", "hull": "hull", "strap": "strap", "hip": "hip", "hiphull": "hiphull"}
+USUAL = ("skin", "hull", "strap", "hiphull")
+LEAST_REQUEST = 0.95
+
+
+def garment_of(data, out, body, variant):
+    """The garment's file. The taut band has the course of the one on the skin."""
+    path = data / "fem" / f"{body}_{GARMENT[variant]}.yaml"
+    if variant != "hull":
+        return path
+    text = (data / "fem" / f"{body}_chest.yaml").read_text()
+    taut = out / f"{body}_hull.yaml"
+    taut.write_text(text.replace("follow: skin", "follow: taut"))
+    return taut
+
+
+def main(data, out, *variants):
+    data, out = pathlib.Path(data).resolve(), pathlib.Path(out).resolve()
+    out.mkdir(parents=True, exist_ok=True)
+    bodies = {}
+    for entry in json.loads((data / "fem" / "summary.json").read_text()):
+        body, variant, request = entry["body"], entry["variant"], entry["request"]
+        if variant not in (variants or USUAL) or request < LEAST_REQUEST:
+            continue
+        mesh = data / ("open" if body.startswith("F") else "fem/bodies") / f"{body}_body.ply"
+        name = f"{body}_{variant}_r{round(1000 * request):03d}"
+        reference_csv.main(mesh, data / "fem" / f"{name}.npz", out / f"{name}.csv")
+        tension = entry["tension_N"]
+        bodies.setdefault(body, (mesh, []))[1].append(
+            f"      - {{ratio: {request}, file: {name}.csv, garment: {garment_of(data, out, body, variant)}, "
+            f"tension: {tension if isinstance(tension, list) else [tension]}}}\n")
+    with open(out / "cases.yaml", "w") as file:
+        file.write("bodies:\n")
+        for body, (mesh, references) in sorted(bodies.items()):
+            file.write(f"  - name: {body}\n    mesh: {mesh}\n    references:\n{''.join(references)}")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
