@@ -17,7 +17,6 @@
 #include "reconstruction/left_out.hpp"
 #include "reconstruction/mending.hpp"
 #include "reconstruction/normals.hpp"
-#include "reconstruction/pixel_columns.hpp"
 #include "reconstruction/poisson.hpp"
 #include "reconstruction/registration.hpp"
 #include "reconstruction/repair.hpp"
@@ -161,19 +160,18 @@ Person find_person(const PointCloud& scan, const Options& options) {
   Person person;
   PointCloud& body = person.cloud;
   body = standing_body(without_surplus(usable_points(scan, options), options), options, person.from_scan, person.on_floor, person.left_out);
-  const Sightings sightings =
-      body.sensor.empty() ? sightings_of(body.points) : Sightings{std::move(body.sensor), {}};
+  const std::vector<int> sensor_of = std::move(body.sensor);
   body.sensor.clear();
-  register_sensors(body.points, sightings.sensor);
+  register_sensors(body.points, sensor_of);
   // 3. Normals, and fractures mended.
-  const std::vector<Eigen::Vector3d> hints = body.normals.empty() ? sightings.towards : body.normals;
+  const std::vector<Eigen::Vector3d> hints = std::move(body.normals);
   body.normals = outward_normals(body.points, hints);
   person.fractures = [torn = body, to_scan = Eigen::Isometry3d(person.from_scan.inverse())] {
     std::vector<geometry::Fracture> found = find_fractures(torn);
     for (geometry::Fracture& fracture : found) fracture.centre = to_scan * fracture.centre;
     return found;
   };
-  if (mend_fractures(body.points, body.normals, sightings.sensor))
+  if (mend_fractures(body.points, body.normals, sensor_of))
     body.normals = outward_normals(body.points, hints);
   return person;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "reconstruction/pixel_columns.hpp"
 #include "reconstruction/registration.hpp"
 #include "reconstruction_figure.hpp"
 
@@ -48,37 +47,6 @@ Capture capture() {
     }
   }
   return result;
-}
-
-TEST(ReconstructionSensors, PixelColumnsTellWhichSensorSawAPoint) {
-  const Capture scan = capture();
-  const Sightings sightings = sightings_of(scan.points);
-  const std::vector<int>& found = sightings.sensor;
-  ASSERT_EQ(*std::max_element(found.begin(), found.end()) + 1, kSensors);
-  std::vector<std::vector<int>> count(kSensors, std::vector<int>(kSensors));
-  for (std::size_t i = 0; i < found.size(); ++i)
-    if (found[i] >= 0) ++count[found[i]][scan.sensor[i]];
-  int right = 0;
-  for (const std::vector<int>& of_one : count) right += *std::max_element(of_one.begin(), of_one.end());
-  // A point lies within 0.002 pixels of a column of one of the three others by chance: 1.2 %.
-  EXPECT_GT(right, 0.98 * static_cast<double>(found.size()));
-  // Sensors stand 1.2 m from the axis, in a square, and see the skin from outside.
-  double least = 1;
-  std::size_t outside = 0;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i] < 0) continue;
-    const double turn = M_PI / 4 + M_PI / 2 * scan.sensor[i];
-    const Vector3d eye(1.2 * std::cos(turn), 1.2 * std::sin(turn), scan.points[i].z());
-    outside += sightings.towards[i].dot((eye - scan.points[i]).normalized()) > 0.999;
-    least = std::min(least, sightings.towards[i].norm());
-  }
-  EXPECT_GT(outside, 0.98 * static_cast<double>(found.size()));
-  EXPECT_NEAR(least, 1, 1e-9);
-}
-
-TEST(ReconstructionSensors, PointsWithoutPixelsHaveNoSensor) {
-  const std::vector<Vector3d> points = figure::scan_body(60000, 0.001, 3).points;
-  EXPECT_TRUE(sightings_of(points).sensor.empty());
 }
 
 TEST(ReconstructionSensors, SensorsThatAreOffAreBroughtTogether) {
