@@ -212,16 +212,31 @@ std::vector<PixelColumns> find_sensors(const Points& points) {
   std::iota(free.begin(), free.end(), 0);
   const auto rest = static_cast<std::size_t>(kRest * static_cast<double>(points.size()));
   std::vector<PixelColumns> sensors;
-  int without_gain = 0;
+  const auto sensor_of_try = [&](int i) {
+    const double golden = std::fmod(0.5 + i * 0.61803398875, 1.0);
+    const int start = free[static_cast<std::size_t>(golden * static_cast<double>(free.size()))];
+    return sensor_from(points, free, points[start], radius);
+  };
+  std::optional<PixelColumns> ahead;  // of try `ahead_of`, made beside the one before
+  int without_gain = 0, ahead_of = -1;
   for (int i = 0;
        i < kTries && without_gain < kTriesWithoutGain && free.size() > rest && sensors.size() < kMostSensors;
        ++i) {
-    const double golden = std::fmod(0.5 + i * 0.61803398875, 1.0);
-    const int start = free[static_cast<std::size_t>(golden * static_cast<double>(free.size()))];
-    const std::optional<PixelColumns> sensor = sensor_from(points, free, points[start], radius);
+    std::optional<PixelColumns> sensor;
+    if (i == ahead_of) {
+      sensor = ahead;
+    } else if (without_gain == 0) {
+      sensor = sensor_of_try(i);
+    } else {  // where one found nothing, the next one mostly finds nothing, too
+      ahead_of = i + 1;
+      geometry::in_halves(2, [&](std::size_t half, std::size_t, int) {
+        (half == 0 ? sensor : ahead) = sensor_of_try(i + static_cast<int>(half));
+      });
+    }
     ++without_gain;
     if (!sensor) continue;
     without_gain = 0;
+    ahead_of = -1;  // fewer points are free now
     sensors.push_back(*sensor);
     free.erase(std::remove_if(free.begin(), free.end(),
                               [&](int p) { return std::abs(sensor->off(points[p])) < kExact; }),
