@@ -129,13 +129,14 @@ RegisteredBody Registrar::operator()(const Samples& surface) const {
   const Matcher matcher(samples);
   // 1. What of her there is and which way she faces; 2. where her arms are, of the two likeliest; 3. pose and
   // shape; 4. what they leave over.
-  std::vector<Fitted> tried;
+  std::vector<std::pair<Stand, double>> from;
   for (const Stand& stand : stands_of(samples))
     for (int k = 0; k < kYaws; ++k)
-      tried.push_back({start_at(model, samples, stand, 2 * M_PI * k / kYaws), 0, 0, {}});
+      from.emplace_back(stand, 2 * M_PI * k / kYaws);
+  std::vector<Fitted> tried(from.size());
   geometry::in_halves(tried.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i)
-      tried[i] = fit_stage(model, matcher, tried[i].parameters, kRough);
+      tried[i] = fit_stage(model, matcher, start_at(model, samples, from[i].first, from[i].second), kRough);
   });
   const auto likelier = [](const Fitted& a, const Fitted& b) { return a.surprise < b.surprise; };
   std::stable_sort(tried.begin(), tried.end(), likelier);

@@ -27,6 +27,7 @@ class Graph {
   explicit Graph(const TriangleMesh& mesh)
       : mesh_(mesh), edges_(geometry::edges_of(mesh)), edges_at_(mesh.vertices.size()) {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
+      lengths_.push_back((mesh.vertices[edges_[e].first] - mesh.vertices[edges_[e].second]).norm());
       edges_at_[edges_[e].first].push_back(static_cast<int>(e));
       edges_at_[edges_[e].second].push_back(static_cast<int>(e));
     }
@@ -72,9 +73,7 @@ class Graph {
   }
 
  private:
-  double length(int e) const {
-    return (mesh_.vertices[edges_[e].first] - mesh_.vertices[edges_[e].second]).norm();
-  }
+  double length(int e) const { return lengths_[e]; }
   int other_end(int e, int v) const { return edges_[e].first == v ? edges_[e].second : edges_[e].first; }
 
   void shortest_paths(int root, std::vector<int>& towards_root, std::vector<double>& distance) const {
@@ -121,6 +120,7 @@ class Graph {
 
   const TriangleMesh& mesh_;
   std::vector<geometry::Edge> edges_;
+  std::vector<double> lengths_;  // m
   std::vector<std::vector<int>> edges_at_;
 };
 

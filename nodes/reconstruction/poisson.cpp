@@ -57,6 +57,8 @@ geometry::TriangleMesh poisson_surface(const geometry::PointCloud& cloud, int de
     poisson.setDepth(depth);
     poisson.setMinDepth(kFullDepth);
     poisson.setSamplesPerNode(kSamplesPerNode);
+    poisson.setSolverDivide(depth);  // whole, not in blocks: those save memory and cost time
+    poisson.setIsoDivide(depth);
     poisson.setThreads(1);
     poisson.setInputCloud(input);
     poisson.reconstruct(vertices, faces);

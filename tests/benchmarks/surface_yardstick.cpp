@@ -41,7 +41,8 @@ void report_surface(benchmark::State& state, const geometry::TriangleMesh& mesh,
 
 void report_yardstick(benchmark::State& state, const geometry::TriangleMesh& mesh) {
   report_surface(state, mesh,
-                 reconstruction::filled_vertices(mesh, oriented_points().points,
+                 reconstruction::filled_vertices(mesh, geometry::PointTree(oriented_points().points),
+                                                 oriented_points().points.size(),
                                                  reconstruction::Options().support_distance));
 }
 
