@@ -48,6 +48,14 @@ std::string reach_note(const std::vector<LineResult>& lines, const std::vector<B
   return note;
 }
 
+// A patch that fixed nodes hold in its posture: none of its triangles turns over but by folding. Free shapes
+// may bend as far round as they like.
+bool held(const Problem& problem) {
+  const auto& fixed = problem.model.control.outer_fixed;
+  return problem.options.bones.still() && std::count(fixed.begin(), fixed.end(), 0) > 0 &&
+         std::count(fixed.begin(), fixed.end(), 1) > 0;
+}
+
 Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iterate> history) {
   const Positions& x = outcome.state.x;
   Solution solution;
@@ -79,6 +87,9 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
   solution.note = outcome.note;
   add_sentence(solution.note, reach_note(solution.lines, problem.bands));
   add_sentence(solution.note, shape_note(problem.model, x));
+  if (solution.status == Status::converged && held(problem) &&
+      triangle_change(problem.model, x).turned_over > 0)
+    solution.status = Status::infeasible;
   return solution;
 }
 

@@ -100,6 +100,34 @@ TEST(Binding, ReproducesAffineMapsOverThePatch) {
   EXPECT_GT(full, 0.48 * binding.anchors().size());
 }
 
+// Units a quarter of a millimetre thick: skin a few millimetres over them lies many thicknesses away.
+TEST(Binding, FlatUnitsDoNotCarrySkinFarBeyondTheirNodes) {
+  const geometry::TriangleMesh body = slab(61);
+  geometry::ControlMesh control = patch();
+  for (int r = 3; r < 5; ++r)
+    for (int c = 4; c < 6; ++c) {
+      const int node = 9 * r + c;
+      control.inner[node] = control.outer[node] + 0.01 * (control.inner[node] - control.outer[node]);
+    }
+  const Binding binding(body, control, {});
+  double largest = 0;
+  const SparseRows& rows = binding.weights().nodes;
+  for (Eigen::Index row = 0; row < rows.outerSize(); ++row) {
+    double sum = 0;
+    for (SparseRows::InnerIterator entry(rows, row); entry; ++entry) sum += std::abs(entry.value());
+    largest = std::max(largest, sum);
+  }
+  EXPECT_LE(largest, 3 + 1e-9);
+  EXPECT_GT(largest, 2.9) << "none of these units stretches anything";
+  const Points after = binding.deform(affine_image(control.outer), affine_image(control.inner));
+  const Points image = affine_image(body.vertices);
+  for (const Anchor& anchor : binding.anchors()) {
+    const Eigen::Vector3d& q = body.vertices[anchor.vertex];
+    const Eigen::Vector3d expected = q + anchor.share * (image[anchor.vertex] - q);
+    EXPECT_LT((after[anchor.vertex] - expected).norm(), 1e-12);
+  }
+}
+
 TEST(Binding, LeavesWhatThePatchDoesNotCover) {
   const int count = 61;
   const geometry::TriangleMesh body = slab(count);
