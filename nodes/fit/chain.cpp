@@ -41,7 +41,7 @@ std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitt
   std::vector<geometry::LaidLine> laid;
   for (const tensegric::GarmentLine& line : garment.lines)
     if (!line.points.empty())
-      laid.push_back({line.name, tffd::lay_line({line.points, line.width, line.smooth, line.taut},
+      laid.push_back({line.name, tffd::lay_line({line.points, line.width, line.smooth, line.taut, line.held},
                                                 body.mesh.mesh, fitting.binding)});
   return laid;
 }

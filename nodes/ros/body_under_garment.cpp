@@ -9,7 +9,8 @@ namespace tensegric_fit::node {
 namespace {
 
 bool same(const tffd::LineOnBody& a, const tffd::LineOnBody& b) {
-  return a.points == b.points && a.width == b.width && a.smooth == b.smooth && a.taut == b.taut;
+  return a.points == b.points && a.width == b.width && a.smooth == b.smooth && a.taut == b.taut &&
+         a.held == b.held;
 }
 
 }  // namespace
@@ -20,7 +21,7 @@ std::vector<geometry::LaidLine> BodyUnderGarment::lay(const tensegric::Garment& 
   std::vector<Line> lines;
   for (const tensegric::GarmentLine& line : garment.lines) {
     if (line.points.empty()) continue;
-    const tffd::LineOnBody on_body{line.points, line.width, line.smooth, line.taut};
+    const tffd::LineOnBody on_body{line.points, line.width, line.smooth, line.taut, line.held};
     const auto known = std::find_if(lines_.begin(), lines_.end(),
                                     [&on_body](const Line& one) { return same(one.on_body, on_body); });
     lines.push_back(known != lines_.end()

@@ -64,7 +64,6 @@ std::vector<Eigen::Vector3d> course_in(const GarmentLine& line) {
   if (line.points.empty() && (line.width != 0 || line.smooth != 0))
     refuse(line, "width and smooth are for lines that are given by points");
   if (line.points.empty()) return {};
-  if (!line.through.empty()) refuse(line, "it has both `through` and `points`");
   if (line.points.size() % 3 != 0 || line.points.size() < 6)
     refuse(line, "it needs x y z of two points or more");
   for (const double value : {line.width, line.smooth})
@@ -85,9 +84,12 @@ tensegric::GarmentLine line_in(const GarmentLine& message) {
   line.law = law_in(message);
   if (!(message.tension_limit >= 0)) refuse(message, "tension_limit must not be negative");
   line.tension_limit = message.tension_limit == 0 ? kNoLimit : message.tension_limit;
-  line.through = message.through;
   line.taut = message.taut;
   line.points = course_in(message);
+  if (line.points.empty())
+    line.through = message.through;
+  else if (!message.through.empty())
+    line.held = tensegric::held_in(message.through, "line '" + message.name + "' by points");
   line.width = message.width;
   line.smooth = message.smooth;
   return line;
@@ -121,6 +123,9 @@ GarmentLine line_of(const tensegric::GarmentLine& line) {
   }
   message.tension_limit = limit_of(line.tension_limit);
   message.through = line.through;
+  if (!line.points.empty())
+    for (const bool held : line.held)
+      message.through.emplace_back(held ? tensegric::kHeldByBone : tensegric::kCarriedBySkin);
   message.taut = line.taut;
   message.points = flat<double>(line.points);
   message.width = line.width;

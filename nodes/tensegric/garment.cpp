@@ -74,7 +74,8 @@ std::vector<Eigen::Vector3d> read_points(const YAML::Node& line, const std::stri
 GarmentLine read_line(const YAML::Node& node, const std::string& where) {
   if (!node.IsMap()) throw Refusal(kBadGarment, where + ": must be a map");
   geometry::check_keys(
-      node, {"name", "ratio", "law", "tension_limit", "through", "follow", "points", "width", "smooth"},
+      node,
+      {"name", "ratio", "law", "tension_limit", "through", "follow", "points", "width", "smooth", "ends"},
       where, kBadGarment);
   GarmentLine line;
   line.name = geometry::required<std::string>(node, "name", where, kBadGarment);
@@ -101,6 +102,14 @@ GarmentLine read_line(const YAML::Node& node, const std::string& where) {
     (key == std::string("width") ? line.width : line.smooth) =
         geometry::number_in(node, key, 0, kWidestBand, where, kBadGarment);
   }
+  if (node["ends"]) {
+    if (line.points.empty())
+      throw Refusal(kBadGarment, where +
+                                     ": 'ends' is for lines that are given by 'points'; a line by "
+                                     "'through' ends as its last node does");
+    line.held =
+        held_in(geometry::required<std::vector<std::string>>(node, "ends", where, kBadGarment), where);
+  }
   return line;
 }
 
@@ -110,6 +119,15 @@ bool has_line(const Garment& garment, const std::string& name) {
 }
 
 }  // namespace
+
+std::array<bool, 2> held_in(const std::vector<std::string>& words, const std::string& where) {
+  if (words.size() != 2) throw Refusal(kBadGarment, where + ": 'ends' must be two words, one an end");
+  for (const std::string& word : words)
+    if (word != kHeldByBone && word != kCarriedBySkin)
+      throw Refusal(kBadGarment,
+                    where + ": an end is '" + word + "', neither " + kHeldByBone + " nor " + kCarriedBySkin);
+  return {words[0] == kHeldByBone, words[1] == kHeldByBone};
+}
 
 Garment load_garment(const std::string& path) {
   const YAML::Node root = geometry::load_yaml_map(path, kBadGarment);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <limits>
 #include <string>
 #include <utility>
@@ -34,6 +35,9 @@ struct GarmentLine {
   /// its fibres average over `smooth` to either side along it.
   std::vector<Eigen::Vector3d> points{};
   double width = 0, smooth = 0;
+  /// Of such a line: does bone hold its first and its last end, so that it stays in space and moves with the
+  /// posture? Else the skin carries it. A line by `through` ends as its last node does.
+  std::array<bool, 2> held{true, true};
 };
 
 struct Garment {
@@ -41,6 +45,11 @@ struct Garment {
   std::vector<std::string> regions;
   std::vector<GarmentLine> lines;
 };
+
+/// What holds each end, as files and messages say it.
+inline constexpr const char *kHeldByBone = "bone", *kCarriedBySkin = "skin";
+/// \throw Refusal bad_garment beginning with `where`: not two words, or others
+std::array<bool, 2> held_in(const std::vector<std::string>& words, const std::string& where);
 
 /// \throw Refusal bad_garment naming file and key
 Garment load_garment(const std::string& path);

@@ -215,6 +215,8 @@ std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::Tr
       points.push_back(carried(march(skin, middle[i], sideways[i], place * line.width / 2), skin, m));
     if (line.smooth > 0) points = averaged(points, line.smooth);
     if (line.taut) points = on_the_tape(points);
+    if (line.held[0]) points.front().weights.clear();
+    if (line.held[1]) points.back().weights.clear();
     fibres.push_back({1 - place * place, line.taut ? points : thinned(points, line.smooth)});
     shares += fibres.back().share;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "geometry/fibre.hpp"
@@ -16,11 +17,13 @@ struct LineOnBody {
   double width = 0;                     ///< of the band; 0: one thread
   double smooth = 0;                    ///< what its fibres average over, to either side along the band
   bool taut = false;                    ///< bridges hollows instead of following the skin
+  /// Its first and its last end: held in space, or carried by the skin.
+  std::array<bool, 2> held{true, true};
 };
 
 /// Fibres across the band's width, on the skin of `body` at rest, carried by the binding's nodes as the skin
-/// is. A fibre counts the less the nearer it lies to the band's edge (1 - (distance / half width)^2): a
-/// band's edge carries little. `body` is the one that was bound.
+/// is; nothing carries an end that is held. A fibre counts the less the nearer it lies to the band's edge
+/// (1 - (distance / half width)^2): a band's edge carries little. `body` is the one that was bound.
 /// \throw Refusal bad_garment: a point farther than 30 mm from the skin, or a line without length;
 /// bad_option: a binding in the paper's setting, which has no constant M
 std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::TriangleMesh& body,

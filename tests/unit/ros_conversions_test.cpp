@@ -152,6 +152,7 @@ TEST(FitMessages, GarmentComesBackAsItWas) {
   laid.points = {{0.1, 0, 1.2}, {0, -0.1, 1.2}, {-0.1, 0, 1.2}};
   laid.width = 0.03;
   laid.smooth = 0.02;
+  laid.held = {true, false};
   request.garment.lines = {rigid, elastic, table, laid};
   request.solver = "relaxation";
 
@@ -174,6 +175,7 @@ TEST(FitMessages, GarmentComesBackAsItWas) {
     EXPECT_EQ(is.points, was.points);
     EXPECT_EQ(is.width, was.width);
     EXPECT_EQ(is.smooth, was.smooth);
+    EXPECT_EQ(is.held, was.held);
   }
 }
 
@@ -228,6 +230,8 @@ TEST(FitMessages, LinesByPointsFollowTheRulesOfGarmentFiles) {
   EXPECT_EQ(refused([](GarmentLine& bad) { bad.points.resize(3); }), "bad_garment");  // one point
   EXPECT_EQ(refused([](GarmentLine& bad) { bad.points[4] = std::nan(""); }), "non_finite");
   EXPECT_EQ(refused([](GarmentLine& bad) { bad.through = {"side_L", "side_R"}; }), "bad_garment");
+  EXPECT_EQ(refused([](GarmentLine& bad) { bad.through = {"bone"}; }), "bad_garment");
+  EXPECT_EQ(request_in(garment).garment.lines.at(0).held, (std::array<bool, 2>{true, true}));  // unless said
   EXPECT_EQ(refused([](GarmentLine& bad) { bad.width = 5; }), "bad_garment");
   EXPECT_EQ(refused([](GarmentLine& bad) { bad.smooth = -0.01; }), "bad_garment");
   EXPECT_EQ(refused([](GarmentLine& bad) { bad.points.clear(); }), "bad_garment");  // a width of nothing

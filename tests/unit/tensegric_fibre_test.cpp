@@ -128,6 +128,26 @@ TEST(Fibres, AreExactAndKeepTheVolume) {
   }
 }
 
+TEST(Fibres, AnEndThatNothingCarriesStaysInSpaceAndTheBandIsExactAllTheSame) {
+  const Model model = build_model(bust_mesh(), {});
+  geometry::LaidLine laid = between_nodes(model.control);
+  for (geometry::Fibre& fibre : laid.fibres) {
+    fibre.points.front().weights.clear();
+    fibre.points.back().weights.clear();
+  }
+  const Solution held = solve(model, {"body", {"bust"}, {by_points(0.95)}}, {}, nullptr, {}, {}, {laid});
+  ASSERT_EQ(held.status, Status::converged);
+  const LineResult& line = held.lines.front();
+  EXPECT_EQ(line.course.front(), line.course_at_rest.front());
+  EXPECT_EQ(line.course.back(), line.course_at_rest.back());
+  EXPECT_NEAR(line.final / line.initial, 0.95, 1e-6);
+  const Vector3d ends = line.course.back() - line.course.front();
+  EXPECT_GT(line.straight, 0.9 * ends.norm());  // the least length is known: straight from end to end
+  const Solution carried = solve(model, {"body", {"bust"}, {by_points(0.95)}}, {}, nullptr, {}, {},
+                                 {between_nodes(model.control)});
+  EXPECT_GT(held.lines.front().tension, carried.lines.front().tension);  // no shortening is lost to slip
+}
+
 TEST(Fibres, ALineThatWasNotLaidIsRefused) {
   const Model model = build_model(bust_mesh(), {});
   try {

@@ -87,6 +87,22 @@ TEST(Garment, RefusesByTheNameOfTheKey) {
   EXPECT_THROW(load_garment("/nowhere/garment.yaml"), geometry::Refusal);
 }
 
+TEST(Garment, EndsOfALineByPointsAreHeldByBoneOrCarriedBySkin) {
+  const std::string points = "points: [[0, 0, 1], [0.1, 0, 1]]";
+  const auto held = [](const std::string& text) {
+    const GarmentFile file(with_line(text));
+    return load_garment(file.path()).lines.front().held;
+  };
+  EXPECT_EQ(held(points), (std::array<bool, 2>{true, true}));
+  EXPECT_EQ(held(points + ", ends: [bone, skin]"), (std::array<bool, 2>{true, false}));
+  EXPECT_EQ(held(points + ", ends: [skin, bone]"), (std::array<bool, 2>{false, true}));
+  EXPECT_NE(refusal(with_line(points + ", ends: [bone, air]")).find("'air'"), std::string::npos);
+  for (const char* ends : {"ends: bone", "ends: [bone]", "ends: [bone, bone, skin]", "ends: {first: bone}"})
+    EXPECT_NE(refusal(with_line(points + ", " + ends)).find("'ends'"), std::string::npos) << ends;
+  // A line by `through` ends as its last node does.
+  EXPECT_NE(refusal(with_line("through: [a, b], ends: [bone, skin]")).find("'ends'"), std::string::npos);
+}
+
 TEST(Garment, ShippedGarmentsAreRead) {
   for (const char* name : {"B1", "B2", "B3", "B4"}) {
     const Garment g =

@@ -75,7 +75,7 @@ TEST_F(Slab, AnAffineMapOfTheNodesCarriesTheFibresAlong) {
   loose.outer_fixed.assign(loose.outer.size(), 0);
   loose.inner_fixed = loose.outer_fixed;
   const Binding free(body, loose, {});
-  const auto fibres = lay_line({over_the_bump(), 0.03, 0.02}, body, free);
+  const auto fibres = lay_line({over_the_bump(), 0.03, 0.02, false, {false, false}}, body, free);
   for (const geometry::Fibre& fibre : fibres)
     for (const geometry::CarriedPoint& point : fibre.points) {
       Vector3d moved = point.rest;
@@ -112,6 +112,26 @@ TEST_F(Slab, ATautBandBridgesAHollow) {
   const double hull = geometry::length_of(tape, true) - (points.back() - points.front()).norm();
   EXPECT_LT(taut, skin - 5e-4);
   EXPECT_NEAR(taut, hull, 3e-4);  // points up to 0.5 mm inside the tape count as touched
+}
+
+TEST_F(Slab, NothingCarriesAnEndThatIsHeld) {
+  LineOnBody line{over_the_bump(), 0.03, 0.02};
+  line.held = {true, false};
+  const auto half_held = lay_line(line, body, binding);
+  line.held = {false, false};
+  const auto carried = lay_line(line, body, binding);
+  ASSERT_EQ(half_held.size(), carried.size());
+  for (std::size_t f = 0; f < carried.size(); ++f) {
+    const auto &held = half_held[f].points, &free = carried[f].points;
+    ASSERT_EQ(held.size(), free.size());
+    EXPECT_TRUE(held.front().weights.empty());
+    EXPECT_FALSE(free.front().weights.empty());
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      EXPECT_EQ(held[i].rest, free[i].rest);
+      if (i == 0) continue;
+      EXPECT_EQ(held[i].weights, free[i].weights);
+    }
+  }
 }
 
 TEST_F(Slab, RefusesByName) {
