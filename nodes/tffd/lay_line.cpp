@@ -217,8 +217,7 @@ std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::Tr
     if (line.taut) points = on_the_tape(points);
     if (line.held[0]) points.front().weights.clear();
     if (line.held[1]) points.back().weights.clear();
-    const bool edge = count > 1 && (f == 0 || f + 1 == count);
-    fibres.push_back({edge ? 0.5 : 1.0, line.taut ? points : thinned(points, line.smooth)});
+    fibres.push_back({1 - place * place, line.taut ? points : thinned(points, line.smooth)});
     shares += fibres.back().share;
   }
   for (geometry::Fibre& fibre : fibres) fibre.share /= shares;
