@@ -209,7 +209,7 @@ std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::Tr
   const int count = line.width > 0 ? kFibres : 1;
   double shares = 0;
   for (int f = 0; f < count; ++f) {
-    const double place = count > 1 ? 2.0 * f / (count - 1) - 1 : 0;  // -1 to 1 across the band
+    const double place = (2.0 * f + 1) / count - 1;  // -1 to 1 across the band
     std::vector<CarriedPoint> points;
     for (std::size_t i = 0; i < middle.size(); ++i)
       points.push_back(carried(march(skin, middle[i], sideways[i], place * line.width / 2), skin, m));
