@@ -14,7 +14,8 @@
 namespace tensegric_fit::tffd {
 
 /// `standard`: W from inner to outer centroid, smooth kernel, no tear at a fixed border: q' = q + M (x - x at
-/// rest) with constant M; affine-exact wherever the share of the motion is 1 (reach.hpp). `paper`: as
+/// rest) with constant M; affine-exact wherever the share of the motion is 1 (reach.hpp); the absolute entries
+/// of a row of M sum to 3 at most, or to what the best triangle in reach makes of the vertex alone. `paper`: as
 /// published, W the unit normal and a linear kernel; the skin tears where the control mesh ends.
 enum class Setting { standard, paper };
 

@@ -15,6 +15,10 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kLeastCorner = 5;      // degrees; t-FFD extrapolates from a sliver by one over its sine
+constexpr double kLeastArea = 2;        // % of the median triangle's
+constexpr double kMostStretch = 3.001;  // t-FFD's own bound, and rounding
+
 Vector3d area_of(const std::vector<Vector3d>& nodes, const Eigen::Vector3i& t) {
   return geometry::area_vector(nodes[t[0]], nodes[t[1]], nodes[t[2]]);
 }
@@ -133,9 +137,9 @@ std::vector<Figure> control_figures(const control_mesh::Template& pattern, const
     for (const geometry::ControlMesh* mesh : {&control, &finer}) {
       const std::string sized = name + " " + std::to_string(mesh->triangles.size());
       figures.push_back(information(sized + " folded", folded_triangles(*mesh, trunk), 0));
-      figures.push_back(information(sized + " corner", least_corner(*mesh), 180));
-      figures.push_back(information(sized + " area %", least_area(*mesh), 100));
-      figures.push_back(information(sized + " row sum", largest_row(body, *mesh), 100));
+      figures.push_back(information(sized + " corner", std::max(0.0, kLeastCorner - least_corner(*mesh)), 0));
+      figures.push_back(information(sized + " area %", std::max(0.0, kLeastArea - least_area(*mesh)), 0));
+      figures.push_back(information(sized + " row sum", largest_row(body, *mesh), kMostStretch));
     }
     return figures;
   } catch (const geometry::Refusal& refusal) {
