@@ -42,7 +42,7 @@ std::vector<CalibrationBody> moved_by(const fit::Settings& truth) {
   for (const fit::Body& woman : women) {
     fit::StageTimes times;
     const auto worn = fit::wear(woman, fit::prepare(woman, patterns(), truth, times), garment, truth, times);
-    CalibrationCase one{"B1", garment, {}};
+    CalibrationCase one{"B1", garment, {}, {}};
     for (std::size_t v = 0; v < worn.deformed.size(); ++v) {
       const Eigen::Vector3d way = worn.deformed[v] - woman.mesh.mesh.vertices[v];
       if (way.norm() < 1e-6) continue;
