@@ -31,6 +31,8 @@ constexpr double kThere =
     0.030;  // m of RegisteredBody::support and off: samples all round that face the same way
 constexpr double kInside = 0.005,
                  kStraightIn = 0.7;  // m under other skin; cosine with its normal: beside it is not under it
+constexpr double kOneSkin = 0.015;   // m: two legs on the skin of one lie as near to each other
+constexpr double kClearly = 0.2;     // of a half of the trunk: one half was not scanned, or hardly
 constexpr double kLeastOfPart = 0.55;  // of a part's skin: scans of women have 0.79 at least, an arm that has
                                        // slid into the trunk 0.47 at most
 constexpr double kCrown = 0.03, kLeastOfCrown = 0.25;  // statures below the top; of its skin: no sensor looks
@@ -73,8 +75,26 @@ std::string limb_of(const std::string& part) {
   return "";
 }
 
-/// Of each vertex: whether it lies inside another limb or the trunk, as a limb does for which there are no
-/// samples of its own.
+/// Which leg, where both lie on one: that of the half of the trunk with clearly fewer samples, else the one
+/// that crosses the midline with this vertex.
+bool is_stray_leg(const RegisteredBody& body, const std::string& leg, const Vector3d& vertex) {
+  double there[2] = {0, 0}, whole[2] = {0, 0};  // of the trunk's left and right half
+  const int trunk = body.model->part_named("trunk");
+  for (std::size_t v = 0; v < body.skin.size(); ++v) {
+    if (body.model->part[v] != trunk) continue;
+    const int half = body.model->mean[v].x() > 0 ? 0 : 1;
+    ++whole[half];
+    there[half] += body.support[v] < kThere;
+  }
+  const double more_on_left = there[0] / whole[0] - there[1] / whole[1];
+  const Vector3d between_hips = (body.joint("upperleg01.L") + body.joint("upperleg01.R")) / 2;
+  const bool lies_left = body.left().dot(vertex - between_hips) > 0;
+  const bool hers_is_left = std::abs(more_on_left) > kClearly ? more_on_left > 0 : lies_left;
+  return (leg == "leg_L") != hers_is_left;
+}
+
+/// Of each vertex: whether it lies inside another limb or the trunk, or on the other leg, as a limb does for
+/// which there are no samples of its own.
 std::vector<char> run_into_others(const RegisteredBody& body) {
   const Model& model = *body.model;
   const std::vector<Vector3d> normals = geometry::vertex_normals(body.skin, model.triangles);
@@ -96,6 +116,9 @@ std::vector<char> run_into_others(const RegisteredBody& body) {
       const Vector3d off = body.skin[v] - body.skin[other];
       const double depth = -off.dot(normals[other]);
       inside[v] = static_cast<char>(depth > kInside && depth > kStraightIn * off.norm());
+      const bool one_skin = limb_of(model.parts[model.part[other]]).rfind("leg", 0) == 0 &&
+                            off.norm() < kOneSkin && normals[v].dot(normals[other]) > kTurned;
+      if (one_skin && is_stray_leg(body, limb, body.skin[v])) inside[v] = 1;
     }
   }
   return inside;
