@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nanoflann.hpp>
 
+#include "geometry/leaf_order.hpp"
+
 namespace tensegric_fit::body_model {
 
 struct OrientedTree::Tree {
@@ -18,14 +20,7 @@ struct OrientedTree::Tree {
   void build() {
     index = std::make_unique<Index>(6, *this);
     index->buildIndex();
-    // Points in the order of the leaves: those of a leaf are read in one go.
-    order = index->vAcc;
-    std::vector<Place> ordered(places.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      ordered[i] = places[order[i]];
-      index->vAcc[i] = static_cast<int>(i);
-    }
-    places = std::move(ordered);
+    order = geometry::to_leaf_order(*index, places);
   }
 
   Place place(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const {

@@ -19,7 +19,9 @@ using Middles = Eigen::Vector3i;
 /// towards the middle, where quarters are as well shaped as their triangle.
 void flatten_turned(const std::vector<Eigen::Vector3i>& triangles, const std::vector<Middles>& middles,
                     const std::vector<Vector3d>& flat, std::vector<Vector3d>& nodes) {
-  for (int round = 0;; ++round) {
+  // Once nodes go all the way back each round leaves fewer triangles to mend.
+  const int most = kHalvings + static_cast<int>(triangles.size());
+  for (int round = 0; round <= most; ++round) {
     std::vector<char> turned(nodes.size(), 0);
     bool any = false;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -79,7 +81,6 @@ geometry::ControlMesh subdivide(const geometry::ControlMesh& control, const Skin
     fine.triangles.emplace_back(ca, bc, k[2]);
     fine.triangles.emplace_back(ab, bc, ca);
   }
-  // In a fold the skin over a middle may be that of the other side.
   std::vector<Slide> slides(control.outer.size(), Slide::none);
   std::vector<GridNeighbours> ends(control.outer.size(), {-1, -1, -1, -1});
   for (const geometry::Edge& edge : edges) {

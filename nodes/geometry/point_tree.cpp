@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nanoflann.hpp>
 
+#include "geometry/leaf_order.hpp"
+
 namespace tensegric_fit::geometry {
 
 struct PointTree::Tree {
@@ -14,12 +16,7 @@ struct PointTree::Tree {
 
   explicit Tree(const std::vector<Eigen::Vector3d>& p) : points(p), index(3, *this) {
     index.buildIndex();
-    // Points in the order of the leaves: those of a leaf are read in one go.
-    order = index.vAcc;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      points[i] = p[order[i]];
-      index.vAcc[i] = static_cast<int>(i);
-    }
+    order = to_leaf_order(index, points);
   }
 
   // What nanoflann asks of a data set.

@@ -12,11 +12,12 @@ namespace {
 
 constexpr const char* kCode = geometry::refusal::kBrokenFile;
 constexpr double kLargest = 100;  // of any coefficient
-constexpr double kSteepest = 10;  // power of the misfit
+constexpr double kSteepest = 10;  // power of the misfit: the fit ends at 4, so more is a broken file
 constexpr double kSure = 1.5;     // of ISO 20685's limits: on training scans 2 % of the figures within it are
                                   // off by more than the limit
 constexpr double kGrossLimits = 3;  // of ISO 20685: less is no gross error, however sure both are
-constexpr double kUnit = 0.002;     // m of misfit, about that of a scanned woman: Spread::base is for it
+constexpr double kUnit =
+    0.002;                    // m of misfit that Spread::base is for (definition; also in fit_precision.py)
 constexpr double kGross = 4;  // spreads between two readings of one thing: with Gaussian errors 1 in 16,000
 
 Spread spread_in(const YAML::Node& node, const std::string& where) {

@@ -98,7 +98,7 @@ def samples(readings, truths, own):
                     e = e - loose * (e @ loose) / (loose @ loose)
                 return e
             key = '%s %s' % (kind, name[:-2] if name[-2:] in ('_L', '_R') else name)
-            out.setdefault(key, []).append((error('mesh'), error('model'), f['support'], r['residual'], r['name'], bool(r.get('cut', 0))))
+            out.setdefault(key, []).append((error('mesh'), error('model'), f['support'], r['residual'], r['name'], bool(r.get('cut', 0)), f['seen']))
     return out
 
 
@@ -152,7 +152,7 @@ def settle(row, fit):
     if model is None or b is None:
         return mesh, m, 0.
     apart = np.linalg.norm(mesh - model)
-    if apart > max(GROSS * np.hypot(m, b), GROSS_LIMITS * fit['limit']):
+    if not row[6] and apart > max(GROSS * np.hypot(m, b), GROSS_LIMITS * fit['limit']):
         return model, b, GROSS * b
     share = b * b / (m * m + b * b)
     return model + share * (mesh - model), m * np.sqrt(share), apart

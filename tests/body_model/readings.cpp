@@ -41,7 +41,10 @@ Json readings_of(const landmarks::Reading& reading, const body_model::Registered
   for (int i = 0; i < 16; ++i)
     result["body_from_scan"].push_back(reading.body_from_scan.matrix()(i / 4, i % 4));
   for (const landmarks::Figure& figure : reading.figures) {
-    Json entry{{"kind", static_cast<int>(figure.kind)}, {"name", figure.name}, {"support", figure.support}};
+    Json entry{{"kind", static_cast<int>(figure.kind)},
+               {"name", figure.name},
+               {"support", figure.support},
+               {"seen", figure.seen}};
     if (figure.on_mesh) entry["mesh"] = json_of(*figure.on_mesh);
     if (figure.on_model) entry["model"] = json_of(*figure.on_model);
     result["figures"].push_back(std::move(entry));
