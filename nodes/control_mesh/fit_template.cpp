@@ -221,16 +221,23 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
       laid_best(pattern, measures, skin, model_surface ? &*model_surface : nullptr);
 
   // 2. Inner nodes below them, and constraining lines over them.
-  std::vector<double> thickness = thickness_of(pattern, control.outer.size());
-  for (double& t : thickness) t *= options.thickness;
-  place_inner_nodes(control, thickness, skin);
+  const auto place_at = [&](std::vector<double> thickness) {
+    for (double& t : thickness) t *= options.thickness;
+    place_inner_nodes(control, thickness, skin);
+  };
+  if (!pattern.thickness.empty()) place_at(thickness_of(pattern, control.outer.size()));
   add_lines(pattern, control);
 
   // 3. Finer triangles where they are asked for; what is left between triangles and skin is evened out.
   while (control.triangles.size() < static_cast<std::size_t>(options.control_triangles))
     control = subdivide(control, skin);
   match_skin(control, liftable(pattern, control), skin);
-  thin_folded_units(control);
+  if (pattern.bone)
+    place_on_bone(control, *pattern.bone, options.thickness);
+  else if (pattern.cushion)
+    place_at(thickness_of(*pattern.cushion, control));
+  else
+    thin_folded_units(control);
 
   // 4. Back to the scan's frame.
   const Eigen::Isometry3d scan_from_body = measures.body_from_scan.inverse();

@@ -1,6 +1,10 @@
 #include "control_mesh/inner_nodes.hpp"
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cmath>
+
+#include "geometry/status.hpp"
 
 namespace tensegric_fit::control_mesh {
 namespace {
@@ -30,7 +34,92 @@ std::vector<Vector3d> smooth_normals(const geometry::ControlMesh& control) {
   return normals;
 }
 
+// Rows of the umbrella operator at nodes off the rim, each neighbour by 1 / its distance.
+Eigen::SparseMatrix<double> umbrellas(const geometry::ControlMesh& control) {
+  const int count = static_cast<int>(control.outer.size());
+  std::vector<char> on_rim(control.outer.size(), 0);
+  std::vector<std::vector<std::pair<int, double>>> around(control.outer.size());
+  for (const geometry::Edge& edge : geometry::edges_of({control.outer, control.triangles})) {
+    if (edge.right < 0) on_rim[edge.first] = on_rim[edge.second] = 1;
+    const double weight = 1 / (control.outer[edge.first] - control.outer[edge.second]).norm();
+    around[edge.first].emplace_back(edge.second, weight);
+    around[edge.second].emplace_back(edge.first, weight);
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < count; ++i) {
+    if (on_rim[i]) continue;
+    double sum = 0;
+    for (const auto& [j, weight] : around[i]) sum += weight;
+    for (const auto& [j, weight] : around[i]) entries.emplace_back(i, j, weight / sum);
+    entries.emplace_back(i, i, -1);
+  }
+  Eigen::SparseMatrix<double> rows(count, count);
+  rows.setFromTriplets(entries.begin(), entries.end());
+  return rows;
+}
+
+// The nodes at `places`, those that are not held moved to where the surface through the held ones bends
+// least.
+void bend_least(const geometry::ControlMesh& control, std::vector<Vector3d>& places) {
+  const int count = static_cast<int>(places.size());
+  std::vector<int> number(places.size(), -1);
+  int unknowns = 0;
+  for (int i = 0; i < count; ++i)
+    if (!control.inner_fixed[i]) number[i] = unknowns++;
+  if (unknowns == 0) return;
+  const Eigen::SparseMatrix<double> rows = umbrellas(control), bending = rows.transpose() * rows;
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(unknowns, 3);
+  for (int j = 0; j < count; ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(bending, j); entry; ++entry) {
+      const int i = static_cast<int>(entry.row());
+      if (number[i] < 0) continue;
+      if (number[j] >= 0)
+        entries.emplace_back(number[i], number[j], entry.value());
+      else
+        right.row(number[i]) -= entry.value() * places[j].transpose();
+    }
+  Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+  const Eigen::MatrixXd at = factor.solve(right);
+  if (factor.info() != Eigen::Success || !at.allFinite())
+    throw geometry::Refusal(geometry::refusal::kBadTemplate,
+                            "no bone surface: no inner node of the template is held");
+  for (int i = 0; i < count; ++i)
+    if (number[i] >= 0) places[i] = at.row(number[i]);
+}
+
 }  // namespace
+
+void place_on_bone(geometry::ControlMesh& control, const BoneRule& rule, double scale) {
+  const std::vector<Vector3d> normals = smooth_normals(control);
+  std::vector<Vector3d> bone(control.outer.size());
+  for (std::size_t v = 0; v < bone.size(); ++v) bone[v] = control.outer[v] - rule.inset * normals[v];
+  bend_least(control, bone);
+  for (std::size_t v = 0; v < bone.size(); ++v) {
+    const double depth = (control.outer[v] - bone[v]).dot(normals[v]);
+    bone[v] -= std::max(0.0, rule.least - depth) * normals[v];
+    control.inner[v] = control.outer[v] + scale * rule.share * (bone[v] - control.outer[v]);
+  }
+  thin_folded_units(control);
+}
+
+std::vector<double> thickness_of(const CushionRule& rule, const geometry::ControlMesh& control) {
+  const std::string mirrored = rule.at.substr(0, rule.at.size() - 1) + "R";
+  const Vector3d left = control.outer[control.node(rule.at)], right = control.outer[control.node(mirrored)];
+  const auto bell = [](double distance, double width) {
+    return std::exp(-distance * distance / (2 * width * width));
+  };
+  std::vector<double> thickness;
+  for (const Vector3d& p : control.outer) {
+    const double near = bell((p - left).norm(), rule.reach) + bell((p - right).norm(), rule.reach);
+    const double aside = (p - (left + right) / 2).dot((left - right).normalized());
+    const double depth = rule.depth + rule.more * std::min(1.0, near) * (1 - bell(aside, rule.cleft));
+    thickness.push_back(rule.share * depth);
+  }
+  return thickness;
+}
 
 void place_inner_nodes(geometry::ControlMesh& control, std::vector<double> thickness, const Skin& skin) {
   const std::vector<Vector3d> normals = smooth_normals(control);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "control_mesh/bone_rule.hpp"
 #include "control_mesh/skin.hpp"
 #include "geometry/control_mesh.hpp"
 
@@ -11,6 +12,14 @@ namespace tensegric_fit::control_mesh {
 /// Puts inner node i `thickness[i]` below outer node i along the control mesh's normal, less where the body
 /// is thin there or where an inner triangle would fold or shrink to a sliver.
 void place_inner_nodes(geometry::ControlMesh& control, std::vector<double> thickness, const Skin& skin);
+
+/// Of each node, m. \pre the control mesh has the rule's node and its mirror image
+std::vector<double> thickness_of(const CushionRule& rule, const geometry::ControlMesh& control);
+
+/// Puts the inner nodes on the smooth surface through `inset` below the nodes whose inner ones are held: of
+/// all such surfaces the one that bends least (the umbrella operator of its nodes, squared, summed), pressed
+/// down where less than `least` would be left. Of the depth they take the rule's share, times `scale`.
+void place_on_bone(geometry::ControlMesh& control, const BoneRule& rule, double scale);
 
 /// Brings inner nodes nearer to their outer ones wherever an inner triangle is folded or a sliver.
 void thin_folded_units(geometry::ControlMesh& control);

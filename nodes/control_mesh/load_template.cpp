@@ -16,8 +16,10 @@ using geometry::Refusal;
 using geometry::required;
 constexpr const char* kCode = geometry::refusal::kBadTemplate;
 constexpr int kMostRows = 100;
-constexpr int kMostVertices = 1 << 16;  // of a model file: its quads are uint16
-constexpr double kRounded = 0.001;      // shares are written with a few digits
+constexpr double kThinnestTissue = 0.001, kThickestTissue = 0.2;  // m
+constexpr double kLeastShare = 0.1;                               // of the way to bone
+constexpr int kMostVertices = 1 << 16;                            // of a model file: its quads are uint16
+constexpr double kRounded = 0.001;                                // shares are written with a few digits
 
 bool ends_in(const std::string& word, const char* ending) {
   return word.size() > 2 && word.compare(word.size() - 2, 2, ending) == 0;
@@ -141,13 +143,39 @@ std::vector<std::string> picture(const YAML::Node& root, const char* key, int ro
   return lines;
 }
 
+double metres(const YAML::Node& node, const char* key, const std::string& where) {
+  required<double>(node, key, where, kCode);
+  return geometry::number_in(node, key, kThinnestTissue, kThickestTissue, where, kCode);
+}
+
+double share_from(const YAML::Node& node, const std::string& where) {
+  required<double>(node, "share", where, kCode);
+  return geometry::number_in(node, "share", kLeastShare, 1, where, kCode);
+}
+
+BoneRule bone_from(const YAML::Node& node, const std::string& where) {
+  check_keys(node, {"inset", "least", "share"}, where, kCode);
+  return {metres(node, "inset", where), metres(node, "least", where), share_from(node, where)};
+}
+
+CushionRule cushion_from(const YAML::Node& node, const Template& pattern, const std::string& where) {
+  check_keys(node, {"depth", "more", "reach", "cleft", "at", "share"}, where, kCode);
+  CushionRule rule{metres(node, "depth", where), metres(node, "more", where),
+                   metres(node, "reach", where), metres(node, "cleft", where),
+                   share_from(node, where),      required<std::string>(node, "at", where, kCode)};
+  if (!ends_in(rule.at, "_L") || std::none_of(pattern.nodes.begin(), pattern.nodes.end(),
+                                              [&rule](const TemplateNode& n) { return n.name == rule.at; }))
+    throw Refusal(kCode, where + ": 'at' must be a node of the template that ends in _L");
+  return rule;
+}
+
 std::vector<std::vector<double>> thickness_from(const YAML::Node& root, const Template& pattern,
                                                 const std::string& path) {
   const auto table = required<std::vector<std::vector<double>>>(root, "thickness", path, kCode);
   bool fits = table.size() == static_cast<std::size_t>(pattern.rows);
   for (const auto& row : table) {
     fits = fits && row.size() == static_cast<std::size_t>(pattern.middle() + 1);
-    for (double metres : row) fits = fits && metres >= 0.001 && metres <= 0.2;
+    for (double metres : row) fits = fits && metres >= kThinnestTissue && metres <= kThickestTissue;
   }
   if (!fits)
     throw Refusal(kCode, path + ": 'thickness' must be " + std::to_string(pattern.rows) + " rows of " +
@@ -255,7 +283,7 @@ Template load_template(const std::string& path) {
   const YAML::Node root = geometry::load_yaml_map(path, kCode);
   check_keys(root,
              {"name", "axis", "axis_foot", "rows", "columns", "nodes", "diagonals", "fixed", "inner_fixed",
-              "thickness", "regions", "lines"},
+              "thickness", "bone", "cushion", "regions", "lines"},
              path, kCode);
   Template pattern;
   pattern.name = required<std::string>(root, "name", path, kCode);
@@ -275,7 +303,14 @@ Template load_template(const std::string& path) {
   check_nodes(pattern, path);
   pattern.fixed = picture(root, "fixed", pattern.rows, pattern.middle() + 1, "#o.", path);
   pattern.inner_fixed = required<bool>(root, "inner_fixed", path, kCode);
-  pattern.thickness = thickness_from(root, pattern, path);
+  if (bool(root["thickness"]) + bool(root["bone"]) + bool(root["cushion"]) != 1)
+    throw Refusal(kCode, path + ": needs one of 'thickness', 'bone' and 'cushion'");
+  if (root["bone"])
+    pattern.bone = bone_from(root["bone"], path + ": bone");
+  else if (root["cushion"])
+    pattern.cushion = cushion_from(root["cushion"], pattern, path + ": cushion");
+  else
+    pattern.thickness = thickness_from(root, pattern, path);
   for (const YAML::Node& region : list_of(root, "regions", path))
     pattern.regions.push_back(
         region_from(region, pattern, path + ", region " + std::to_string(pattern.regions.size() + 1)));

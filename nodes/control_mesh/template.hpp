@@ -2,8 +2,11 @@
 /// model's skin. YAML; format: README.md beside this file.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "control_mesh/bone_rule.hpp"
 
 namespace tensegric_fit::control_mesh {
 
@@ -66,8 +69,12 @@ struct Template {
   std::vector<std::string> diagonals;
   /// rows of columns/2+1: '#' fixed, 'o' skin that is free over bone (its inner node is fixed), '.' free
   std::vector<std::string> fixed;
-  bool inner_fixed = true;                     ///< are the inner nodes below fixed outer nodes fixed too
-  std::vector<std::vector<double>> thickness;  ///< rows of columns/2+1, metres
+  bool inner_fixed = true;  ///< are the inner nodes below fixed outer nodes fixed too
+  /// Where inner nodes lie, one of three: `thickness`, rows of columns/2+1, metres; on a bone; under a
+  /// cushion.
+  std::vector<std::vector<double>> thickness;
+  std::optional<BoneRule> bone;
+  std::optional<CushionRule> cushion;
   std::vector<TemplateRegion> regions;
   std::vector<TemplateLine> lines;
 

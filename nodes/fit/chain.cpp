@@ -35,17 +35,6 @@ std::vector<tensegric::VolumeFunction> body_volumes(const Fitting& fitting, cons
   return volumes;
 }
 
-// The garment's lines that are given by points on the body.
-std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitting,
-                                           const tensegric::Garment& garment) {
-  std::vector<geometry::LaidLine> laid;
-  for (const tensegric::GarmentLine& line : garment.lines)
-    if (!line.points.empty())
-      laid.push_back({line.name, tffd::lay_line({line.points, line.width, line.smooth, line.taut, line.held},
-                                                body.mesh.mesh, fitting.binding)});
-  return laid;
-}
-
 geometry::BodyMeasures measures_of(const Body& body) {
   geometry::BodyMeasures measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, *body.model,
                                                               landmarks::shipped_precision());
@@ -121,6 +110,16 @@ Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings&
   Fitting fitting{std::move(control), std::move(model), std::move(binding), std::move(carried), {}};
   fitting.body_volumes = body_volumes(fitting, settings);
   return fitting;
+}
+
+std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitting,
+                                           const tensegric::Garment& garment) {
+  std::vector<geometry::LaidLine> laid;
+  for (const tensegric::GarmentLine& line : garment.lines)
+    if (!line.points.empty())
+      laid.push_back({line.name, tffd::lay_line({line.points, line.width, line.smooth, line.taut, line.held},
+                                                body.mesh.mesh, fitting.binding)});
+  return laid;
 }
 
 Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& garment,

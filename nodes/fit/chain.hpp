@@ -8,6 +8,7 @@
 #include "body_model/registration.hpp"
 #include "control_mesh/fit_template.hpp"
 #include "geometry/body_measures.hpp"
+#include "geometry/fibre.hpp"
 #include "geometry/point_cloud.hpp"
 #include "landmarks/find_landmarks.hpp"
 #include "reconstruction/reconstruct.hpp"
@@ -73,6 +74,10 @@ Fitting prepare(const Body& body, const std::vector<control_mesh::Template>& pat
 
 /// The same for a control mesh that is given (P1 §3.2).
 Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings& settings, StageTimes& times);
+
+/// The garment's lines that are given by points on the body, laid on its skin.
+std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitting,
+                                           const tensegric::Garment& garment);
 
 /// 4 and 5: tensegric deformation -> t-FFD of the body -> distortion. `settings` as for the fitting; `start`:
 /// an earlier fit on it, or null.

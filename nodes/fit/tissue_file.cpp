@@ -12,20 +12,22 @@ std::string tissue_yaml(const Settings& settings) {
       "inner_nodes: {}\nlayers: {}\nuniform_stiffness: {}\nstrut_stiffness: {:.4g}\nlateral_stiffness: "
       "{:.4g}\nskin: "
       "{:.4g}\nvolume_stiffness: "
-      "{:.4g}\n"
+      "{:.4g}\nstiffening: {:.4g}\nmodulus: {:.4g}\n"
       "prestress: {:.4g}\nthickness: {:.4g}\n",
       to_string(model.inner), model.layers, model.uniform, model.strut_stiffness, model.lateral_stiffness,
-      model.skin, model.volume_stiffness, model.prestress, settings.control_mesh.thickness);
+      model.skin, model.volume_stiffness, model.stiffening, model.modulus, model.prestress,
+      settings.control_mesh.thickness);
 }
 
 void take_tissue(const std::string& path, Settings& settings) {
   namespace refusal = geometry::refusal;
   const char* const code = refusal::kBadOption;
   const YAML::Node file = geometry::load_yaml_map(path, code);
-  geometry::check_keys(file,
-                       {"inner_nodes", "layers", "uniform_stiffness", "strut_stiffness", "lateral_stiffness",
-                        "skin", "volume_stiffness", "prestress", "thickness", "evidence"},
-                       path, code);
+  geometry::check_keys(
+      file,
+      {"inner_nodes", "layers", "uniform_stiffness", "strut_stiffness", "lateral_stiffness", "skin",
+       "volume_stiffness", "stiffening", "modulus", "prestress", "thickness", "evidence"},
+      path, code);
   tensegric::ModelOptions& model = settings.model;
   const auto take = [&](const char* key, double& value, double low, double high) {
     if (file[key]) value = geometry::number_in(file, key, low, high, path, code);
@@ -40,6 +42,8 @@ void take_tissue(const std::string& path, Settings& settings) {
   take("lateral_stiffness", model.lateral_stiffness, tensegric::kSoftestLateral, tensegric::kStiffestLateral);
   take("skin", model.skin, 0, tensegric::kThickestSkin);
   take("volume_stiffness", model.volume_stiffness, 0, tensegric::kStiffestVolume);
+  take("stiffening", model.stiffening, 0, tensegric::kMostStiffening);
+  take("modulus", model.modulus, tensegric::kLeastModulus, tensegric::kMostModulus);
   take("prestress", model.prestress, tensegric::kLowestPrestress, tensegric::kHighestPrestress);
   take("thickness", settings.control_mesh.thickness, control_mesh::kThinnest, control_mesh::kThickest);
 }

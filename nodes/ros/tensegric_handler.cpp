@@ -30,6 +30,9 @@ TensegricHandler::Setup TensegricHandler::setup_from(Parameters& parameters) {
   model.skin = parameters.number("skin", model.skin, 0, tensegric::kThickestSkin);
   model.volume_stiffness =
       parameters.number("volume_stiffness", model.volume_stiffness, 0, tensegric::kStiffestVolume);
+  model.stiffening = parameters.number("stiffening", model.stiffening, 0, tensegric::kMostStiffening);
+  model.modulus =
+      parameters.number("modulus", model.modulus, tensegric::kLeastModulus, tensegric::kMostModulus);
   model.strut_stiffness = parameters.number("strut_stiffness", model.strut_stiffness,
                                             tensegric::kSoftestStrut, tensegric::kStiffestStrut);
   model.prestress = parameters.number("prestress", model.prestress, tensegric::kLowestPrestress,

@@ -1,5 +1,6 @@
 #include "tensegric/members.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tensegric_fit::tensegric {
@@ -7,8 +8,11 @@ namespace tensegric_fit::tensegric {
 double member_energy(const Model& model, const Positions& x) {
   double energy = 0;
   for (const Member& m : model.members) {
-    const double force = tension(m, (x[m.a] - x[m.b]).norm());
-    energy += force * force / (2 * spring(m));
+    const double length = (x[m.a] - x[m.b]).norm();
+    const double elongation = m.strut ? length - m.natural : std::max(0.0, length - m.natural);
+    const double strain = stiffening_strain(m, length);
+    energy += spring(m) * elongation * elongation / 2 +
+              m.stiffness * m.stiffening * m.rest * strain * strain * strain * strain / 4;
   }
   return energy;
 }
@@ -37,7 +41,7 @@ void add_member_hessian(const Model& model, const Positions& x, const std::vecto
     if (length == 0 || (force == 0 && !m.strut)) continue;
     const Eigen::Vector3d u = span / length;
     const double across = (force > 0 ? 1 : whole) * force / length;
-    Eigen::Matrix3d block = (spring(m) - across) * u * u.transpose();
+    Eigen::Matrix3d block = (tangent(m, length) - across) * u * u.transpose();
     block.diagonal().array() += across;
     hessian.add(a, a, block);
     hessian.add(b, b, block);

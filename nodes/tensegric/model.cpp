@@ -135,7 +135,7 @@ class MemberPlacer {
       throw Refusal(refusal::kBadMesh,
                     "two nodes of the tensegric model that a part joins lie on one point, or as good as");
     const double stiffness = model_.options.uniform ? kind : (kind * tissue + skin) / length;
-    model_.members.push_back({a, b, strut, stiffness, length, length});
+    model_.members.push_back({a, b, strut, stiffness, length, length, model_.options.stiffening});
     densities_.push_back(density);
   }
 
@@ -160,6 +160,7 @@ ModelOptions papers_model() {
   options.lateral_stiffness = 1;
   options.skin = 0;
   options.volume_stiffness = 0;
+  options.stiffening = 0;
   options.prestress = 0.05;
   return options;
 }
@@ -238,6 +239,8 @@ Model build_model(const geometry::ControlMesh& control, const ModelOptions& opti
   check_option(options.lateral_stiffness, kSoftestLateral, kStiffestLateral, "lateral_stiffness");
   check_option(options.skin, 0, kThickestSkin, "skin");
   check_option(options.volume_stiffness, 0, kStiffestVolume, "volume_stiffness");
+  check_option(options.modulus, kLeastModulus, kMostModulus, "modulus");
+  check_option(options.stiffening, 0, kMostStiffening, "stiffening");
   check_option(options.prestress, kLowestPrestress, kHighestPrestress, "prestress");
   check_option(options.layers, 1, kMostLayers, "layers");
   Model model;

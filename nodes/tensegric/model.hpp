@@ -17,7 +17,8 @@ using Positions = std::vector<Eigen::Vector3d>;
 inline constexpr double kSoftestStrut = 1e-3, kStiffestStrut = 1e6;
 inline constexpr double kLowestPrestress = 1e-6, kHighestPrestress = 0.5;
 inline constexpr double kSoftestLateral = 1e-3, kStiffestLateral = 1e3;
-inline constexpr double kThickestSkin = 10, kStiffestVolume = 1e3;
+inline constexpr double kThickestSkin = 10, kStiffestVolume = 1e3, kMostStiffening = 1e4;
+inline constexpr double kLeastModulus = 1, kMostModulus = 1e7;  ///< Pa
 inline constexpr int kMostLayers = 8;
 
 /// Whether inner nodes settle (the papers) or are bound to the bones below them (P2 §6).
@@ -33,12 +34,14 @@ struct ModelOptions {
   InnerNodes inner = InnerNodes::bound;
   int layers = 1;        ///< of units, one below the other, between the skin and the inner nodes
   bool uniform = false;  ///< all parts of a kind have one k, as in the papers, whatever tissue they stand for
-  double strut_stiffness = 0.20;    ///< of struts; edges have 1. The papers' rigid strut is the limit
-  double lateral_stiffness = 0.20;  ///< of the tensile parts from outer to inner node
-  double skin = 0.022;              ///< m of tissue that the skin is as stiff as, added to the outer edges
+  double strut_stiffness = 0.71;    ///< of struts; edges have 1. The papers' rigid strut is the limit
+  double lateral_stiffness = 0.47;  ///< of the tensile parts from outer to inner node
+  double skin = 0.105;              ///< m of tissue that the skin is as stiff as, added to the outer edges
   double volume_stiffness =
-      0.19;                ///< pressure per relative change of a unit's volume; equilibrium solver only
-  double prestress = 0.2;  ///< mean tension of the tensile parts at rest / their mean k, at most
+      2.7;                  ///< pressure per relative change of a unit's volume; equilibrium solver only
+  double modulus = 1205;    ///< Pa, of tissue for which a kind's share is 1: what forces are in newtons
+  double stiffening = 320;  ///< of struts and tensile parts: k (1 + stiffening e^2) at strain e
+  double prestress = 0.1;   ///< mean tension of the tensile parts at rest / their mean k, at most
 };
 
 /// As the papers have it, but for the struts' stiffness: inner nodes settle, no skin, units that may change
@@ -50,9 +53,10 @@ ModelOptions papers_model();
 struct Member {
   int a, b;  ///< nodes, see Positions
   bool strut;
-  double stiffness;  ///< force / strain
-  double rest;       ///< length at rest, m
-  double natural;    ///< length at zero force, m
+  double stiffness;   ///< force / strain
+  double rest;        ///< length at rest, m
+  double natural;     ///< length at zero force, m
+  double stiffening;  ///< see ModelOptions
 };
 
 struct Model {
@@ -60,6 +64,7 @@ struct Model {
   std::vector<Member> members;    ///< 3F struts a layer, then tensile parts: E a level, V a layer
   ModelOptions options;
   double tissue = 1;  ///< stiffness of tissue, pseudo force / m^2: what 1 means in ModelOptions
+  double newtons() const { return options.modulus / tissue; }  ///< per pseudo force
   int struts() const;
   int tensile_parts() const;
   int nodes() const;

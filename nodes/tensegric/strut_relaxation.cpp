@@ -10,7 +10,9 @@
 namespace tensegric_fit::tensegric {
 namespace {
 
-constexpr double kGathering = 0.3;      // share of the missing push that adds up in a cycle
+constexpr int kStiffeningSteps =
+    3;                              // of Newton, from where the linear strut would be; the next cycle goes on
+constexpr double kGathering = 0.3;  // share of the missing push that adds up in a cycle
 constexpr double kLeastShare = 0.1;     // of the volume force when it is held back
 constexpr double kFarAway = 3;          // a node that moved this many sizes of the model has left it
 constexpr double kJustTaut = 1 + 1e-6;  // stretch
@@ -74,8 +76,8 @@ StrutRelaxation::Centre StrutRelaxation::centre(int node, int strut) const {
       held += spring(m);
       continue;
     }
-    c.at += spring(m) * (q + m.natural / length * span);
-    c.weight += spring(m);
+    c.at += secant(m, length) * (q + m.natural / length * span);
+    c.weight += secant(m, length);
   }
   Eigen::Vector3d force = external_.segment<3>(3 * problem_.free_index[node]);
   for (int s : struts_at_[node]) {
@@ -109,9 +111,11 @@ void StrutRelaxation::settle_strut(int s) {
   if (!(distance > 0)) return;
   const Eigen::Vector3d e = apart / distance;
   const double joint = a_free && b_free ? a.weight * b.weight / (a.weight + b.weight) : a.weight + b.weight;
-  const double stiffness = spring(m);
-  const double length = (joint * distance + stiffness * m.natural) / (joint + stiffness);
-  pushes_[s] = stiffness * (m.natural - length) * e;
+  double length = (joint * distance + spring(m) * m.natural) / (joint + spring(m));
+  if (m.stiffening > 0)
+    for (int i = 0; i < kStiffeningSteps; ++i)
+      length -= (joint * (length - distance) + tension(m, length)) / (joint + tangent(m, length));
+  pushes_[s] = -tension(m, length) * e;
   if (a_free) x_[m.a] = a.at + pushes_[s] / a.weight;
   if (b_free) x_[m.b] = b.at - pushes_[s] / b.weight;
 }

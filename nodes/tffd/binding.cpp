@@ -22,7 +22,7 @@ void check_options(const Options& options) {
 }
 
 double beta_of(const Options& options) {
-  if (options.beta == 0) return options.setting == Setting::paper ? 2.5 : 2.0;
+  if (options.beta == 0) return options.setting == Setting::paper ? 2.5 : 1.3;
   // Below 1 the local kernels leave gaps between the triangles; far above, every triangle carries everything.
   if (!(options.beta >= 1 && options.beta <= 20))
     throw Refusal(refusal::kBadOption, "t-FFD: beta must be 0 (the setting's own) or from 1 to 20");

@@ -26,7 +26,7 @@ enum class Precision { reference, fast };
 /// Field defaults are the parameters' defaults.
 struct Options {
   Setting setting = Setting::standard;
-  double beta = 0;  ///< reach of a triangle in its mean radii; 0: the setting's own, 2 (paper: 2.5)
+  double beta = 0;  ///< reach of a triangle in its mean radii; 0: the setting's own, 1.3 (paper: 2.5)
   Precision precision = Precision::reference;
   /// Kernel weights below this part of a vertex's largest are dropped and the others scaled up: fewer entries
   /// in M, affine-exact all the same; what it costs says Binding::truncation_error. 0: none. At most 0.1.

@@ -209,7 +209,8 @@ std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::Tr
   const int count = line.width > 0 ? kFibres : 1;
   double shares = 0;
   for (int f = 0; f < count; ++f) {
-    const double place = (2.0 * f + 1) / count - 1;  // -1 to 1 across the band
+    const double place = count > 1 ? 2.0 * f / (count - 1) - 1 : 0;  // -1 to 1 across the band
+    const double share = std::abs(place) == 1 ? 0.5 : 1;  // the trapezoid rule: even over the width
     std::vector<CarriedPoint> points;
     for (std::size_t i = 0; i < middle.size(); ++i)
       points.push_back(carried(march(skin, middle[i], sideways[i], place * line.width / 2), skin, m));
@@ -217,7 +218,7 @@ std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::Tr
     if (line.taut) points = on_the_tape(points);
     if (line.held[0]) points.front().weights.clear();
     if (line.held[1]) points.back().weights.clear();
-    fibres.push_back({1 - place * place, line.taut ? points : thinned(points, line.smooth)});
+    fibres.push_back({share, line.taut ? points : thinned(points, line.smooth)});
     shares += fibres.back().share;
   }
   for (geometry::Fibre& fibre : fibres) fibre.share /= shares;

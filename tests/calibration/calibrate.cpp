@@ -90,7 +90,7 @@ struct Cases {
 
 Cases read_cases(const std::string& path, const fit::Settings& settings) {
   const YAML::Node file = geometry::load_yaml_map(path, kCode);
-  geometry::check_keys(file, {"region", "fit", "bodies"}, path, kCode);
+  geometry::check_keys(file, {"region", "fit", "bodies", "meshes"}, path, kCode);
   Cases cases;
   cases.options.fitted = geometry::optional(file, "fit", cases.options.fitted, path, kCode);
   std::set<std::string> regions;  // of the garments; the file may name one, too
@@ -99,6 +99,20 @@ Cases read_cases(const std::string& path, const fit::Settings& settings) {
     cases.bodies.push_back(read_body(node, path, settings));
     for (const calibration::CalibrationCase& c : cases.bodies.back().cases)
       regions.insert(c.garment.regions.begin(), c.garment.regions.end());
+  }
+  if (file["meshes"]) {
+    const std::vector<calibration::CalibrationBody> bodies = std::move(cases.bodies);
+    cases.bodies.clear();
+    for (const YAML::Node& mesh : file["meshes"]) {
+      geometry::check_keys(mesh, {"control_triangles", "layers"}, path, kCode);
+      const calibration::Fineness fineness{
+          static_cast<int>(geometry::number_in(mesh, "control_triangles", 1, 100000, path, kCode)),
+          static_cast<int>(geometry::number_in(mesh, "layers", 1, tensegric::kMostLayers, path, kCode))};
+      for (const calibration::CalibrationBody& body : bodies) {
+        cases.bodies.push_back(body);
+        cases.bodies.back().fineness = fineness;
+      }
+    }
   }
   for (const std::string& region : regions)
     cases.patterns.push_back(control_mesh::load_template(

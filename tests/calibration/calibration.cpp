@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 
+#include "geometry/halves.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::calibration {
@@ -24,7 +27,8 @@ constexpr double kStep =
     0.02;  // of a parameter's logarithm, for differences: well above the control mesh's own noise
 constexpr double kAtBound = 0.01;  // of the logarithm
 constexpr std::size_t kFewestBodies = 3;
-constexpr double kLeastWay = 1e-4;  // m, root mean square: less tells nothing
+constexpr double kLeastPull = 1e-6;  // N: a slack line's, for its logarithm
+constexpr double kLeastWay = 1e-4;   // m, root mean square: less tells nothing
 
 // Fitted by its logarithm. The bounds are where a parameter stops to matter, or the model to stand.
 struct Parameter {
@@ -32,11 +36,13 @@ struct Parameter {
   double& (*of)(Settings&);
   double low, high;
 };
-constexpr std::array<Parameter, 6> kParameters = {{
+constexpr std::array<Parameter, 8> kParameters = {{
     {"strut_stiffness", [](Settings& s) -> double& { return s.model.strut_stiffness; }, 0.02, 200},
     {"lateral_stiffness", [](Settings& s) -> double& { return s.model.lateral_stiffness; }, 0.005, 50},
     {"skin", [](Settings& s) -> double& { return s.model.skin; }, 1e-3, 1},
     {"volume_stiffness", [](Settings& s) -> double& { return s.model.volume_stiffness; }, 0.02, 200},
+    {"stiffening", [](Settings& s) -> double& { return s.model.stiffening; }, 0.1, 1e3},
+    {"modulus", [](Settings& s) -> double& { return s.model.modulus; }, 10, 1e6},
     {"prestress", [](Settings& s) -> double& { return s.model.prestress; }, 1e-3, 0.5},
     {"thickness", [](Settings& s) -> double& { return s.control_mesh.thickness; }, 0.2, 3},
 }};
@@ -50,20 +56,6 @@ std::vector<Parameter> parameters_named(const std::vector<std::string>& names) {
     parameters.push_back(*at);
   }
   return parameters;
-}
-
-// Of one body; nothing where a case did not settle.
-std::vector<CaseOutcome> settled_cases(const CalibrationBody& body,
-                                       const std::vector<control_mesh::Template>& patterns,
-                                       const Settings& settings) {
-  try {
-    std::vector<CaseOutcome> outcomes = wear_cases(body, patterns, settings, true);
-    for (const CaseOutcome& outcome : outcomes)
-      if (outcome.status != tensegric::Status::converged) return {};
-    return outcomes;
-  } catch (const Refusal&) {
-    return {};  // no prestress, a folded unit: this way leads nowhere
-  }
 }
 
 std::vector<control_mesh::Template> patterns_of(const tensegric::Garment& garment,
@@ -80,81 +72,235 @@ std::vector<control_mesh::Template> patterns_of(const tensegric::Garment& garmen
   return worn;
 }
 
-// Distances to the reference, relative to not moving, of the cases of several bodies.
+Settings settings_for(const CalibrationBody& body, Settings settings) {
+  if (!body.fineness) return settings;
+  settings.control_mesh.control_triangles = body.fineness->control_triangles;
+  settings.model.layers = body.fineness->layers;
+  return settings;
+}
+
+// A body with what the tissue's stiffnesses do not touch: control meshes, bindings, laid lines.
+class Prepared {
+ public:
+  Prepared(const CalibrationBody& body, const std::vector<control_mesh::Template>& patterns,
+           const Settings& settings)
+      : body_(body), thickness_(settings.control_mesh.thickness) {
+    fit::StageTimes times;
+    for (const CalibrationCase& c : body.cases) {
+      auto fitting = fittings_.find(c.garment.regions);
+      if (fitting == fittings_.end())
+        fitting = fittings_
+                      .emplace(c.garment.regions, prepare(body.body, patterns_of(c.garment, patterns),
+                                                          settings_for(body, settings), times))
+                      .first;
+      fitting_.push_back(&fitting->second);
+      laid_.push_back(fit::laid_lines(body.body, fitting->second, c.garment));
+    }
+  }
+  Prepared(const Prepared&) = delete;
+  Prepared& operator=(const Prepared&) = delete;
+
+  double thickness() const { return thickness_; }
+
+  std::vector<CaseOutcome> outcomes(const Settings& settings, bool warm) const {
+    std::map<const Fitting*, tensegric::Model> models;
+    for (const auto& [regions, fitting] : fittings_)
+      models.emplace(&fitting, tensegric::build_model(fitting.control, settings_for(body_, settings).model));
+    std::vector<CaseOutcome> outcomes;
+    tensegric::Solution last;
+    for (std::size_t i = 0; i < body_.cases.size(); ++i) {
+      const CalibrationCase& c = body_.cases[i];
+      const bool follows = warm && i > 0 && body_.cases[i - 1].garment.name == c.garment.name &&
+                           fitting_[i - 1] == fitting_[i];
+      const auto start = std::chrono::steady_clock::now();
+      last = tensegric::solve(models.at(fitting_[i]), c.garment, settings.solver, follows ? &last : nullptr,
+                              {}, fitting_[i]->body_volumes, laid_[i]);
+      CaseOutcome outcome{0, last.status, last.iterations, milliseconds_since(start), {}, {}};
+      outcome.deformed = fitting_[i]->binding.deform(last.outer, last.inner);
+      outcome.error = tissue_error(c.reference, body_.body.mesh.mesh, outcome.deformed);
+      const double newtons = models.at(fitting_[i]).newtons();
+      for (const tensegric::LineResult& line : last.lines) outcome.tensions.push_back(newtons * line.tension);
+      outcomes.push_back(std::move(outcome));
+    }
+    return outcomes;
+  }
+
+ private:
+  static double milliseconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  const CalibrationBody& body_;
+  double thickness_;
+  std::map<std::vector<std::string>, Fitting> fittings_;  // by regions
+  std::vector<const Fitting*> fitting_;                   // of each case
+  std::vector<std::vector<geometry::LaidLine>> laid_;     // of each case
+};
+
+// All bodies, each prepared anew only where its inner nodes lie elsewhere.
+class Wardrobe {
+ public:
+  Wardrobe(const std::vector<CalibrationBody>& bodies, const std::vector<control_mesh::Template>& patterns)
+      : bodies_(bodies), patterns_(patterns), kept_(bodies.size()) {}
+
+  // Of one body; nothing where a case did not settle.
+  std::vector<CaseOutcome> settled(const CalibrationBody& body, const Settings& settings) {
+    try {
+      std::vector<CaseOutcome> outcomes = prepared(body, settings).outcomes(settings, true);
+      for (const CaseOutcome& outcome : outcomes)
+        if (outcome.status != tensegric::Status::converged) return {};
+      return outcomes;
+    } catch (const Refusal&) {
+      return {};  // no prestress, a folded unit: this way leads nowhere
+    }
+  }
+
+ private:
+  const Prepared& prepared(const CalibrationBody& body, const Settings& settings) {
+    auto& kept = kept_[&body - bodies_.data()];
+    for (const auto& one : kept)
+      if (one->thickness() == settings.control_mesh.thickness) return *one;
+    if (kept.size() == kMostKept) kept.erase(kept.begin());
+    kept.push_back(std::make_unique<Prepared>(body, patterns_, settings));
+    return *kept.back();
+  }
+
+  static constexpr std::size_t kMostKept = 3;  // memory: a binding each
+  const std::vector<CalibrationBody>& bodies_;
+  const std::vector<control_mesh::Template>& patterns_;
+  std::vector<std::vector<std::unique_ptr<Prepared>>> kept_;
+};
+
+// Of one body: distances to the reference relative to not moving, and the logarithms of the tensions over
+// the reference's.
+Eigen::VectorXd residuals_of(const CalibrationBody& body, const std::vector<CaseOutcome>& outcomes) {
+  std::vector<double> residuals;
+  for (std::size_t c = 0; c < outcomes.size(); ++c) {
+    const ReferenceField& reference = body.cases[c].reference;
+    const double scale =
+        1 / (not_moving(reference) * std::sqrt(static_cast<double>(reference.vertices.size())));
+    for (std::size_t i = 0; i < reference.vertices.size(); ++i) {
+      const int v = reference.vertices[i];
+      const Eigen::Vector3d off =
+          scale * (outcomes[c].deformed[v] - body.body.mesh.mesh.vertices[v] - reference.displacements[i]);
+      residuals.insert(residuals.end(), off.begin(), off.end());
+    }
+    const std::vector<double>& newtons = body.cases[c].newtons;
+    for (std::size_t l = 0; l < newtons.size(); ++l)
+      residuals.push_back(std::log(std::max(outcomes[c].tensions[l], kLeastPull) / newtons[l]) /
+                          std::sqrt(static_cast<double>(newtons.size())));
+  }
+  return Eigen::Map<const Eigen::VectorXd>(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
+}
+
+// Residuals of all bodies at some parameters, and their derivatives by these.
 class TissueCost : public ceres::CostFunction {
  public:
-  TissueCost(std::vector<const CalibrationBody*> bodies, const std::vector<control_mesh::Template>& patterns,
-             const Settings& start, const std::vector<Parameter>& parameters)
-      : bodies_(std::move(bodies)), patterns_(patterns), start_(start), parameters_(parameters) {
+  TissueCost(const std::vector<CalibrationBody>& bodies, Wardrobe& wardrobe, const Settings& start,
+             const std::vector<Parameter>& parameters)
+      : bodies_(bodies), wardrobe_(wardrobe), start_(start), parameters_(parameters) {
     int count = 0;
-    for (const CalibrationBody* body : bodies_)
-      for (const CalibrationCase& c : body->cases) count += 3 * static_cast<int>(c.reference.vertices.size());
+    for (const CalibrationBody& body : bodies_)
+      for (const CalibrationCase& c : body.cases)
+        count += 3 * static_cast<int>(c.reference.vertices.size()) + static_cast<int>(c.newtons.size());
     set_num_residuals(count);
     mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
   }
 
   bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    std::vector<double> at(x[0], x[0] + parameters_.size());
-    if (!fill(at, residuals)) return false;
+    const Eigen::VectorXd at = Eigen::Map<const Eigen::VectorXd>(x[0], parameters_.size());
+    const std::vector<Eigen::VectorXd> here = evaluate(at);
+    if (here.empty()) return false;
+    for (const Eigen::VectorXd& of_body : here)
+      residuals = std::copy(of_body.begin(), of_body.end(), residuals);
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
-    std::vector<double> beside(num_residuals());
-    for (std::size_t p = 0; p < parameters_.size(); ++p) {
-      double step = kStep;
-      for (int tries = 0;; ++tries, step = -step) {
-        std::vector<double> there = at;
-        there[p] += step;
-        if (fill(there, beside.data())) break;
-        if (tries == 1) return false;
-      }
-      for (int i = 0; i < num_residuals(); ++i)
-        jacobians[0][i * parameters_.size() + p] = (beside[i] - residuals[i]) / step;
-    }
+    const std::vector<Eigen::MatrixXd> slopes = derivatives(at, here);
+    if (slopes.empty()) return false;
+    double* row = jacobians[0];
+    for (const Eigen::MatrixXd& of_body : slopes)
+      for (Eigen::Index i = 0; i < of_body.rows(); ++i)
+        for (Eigen::Index p = 0; p < of_body.cols(); ++p) *row++ = of_body(i, p);
     return true;
   }
 
-  Settings settings_at(const std::vector<double>& logarithms) const {
+  // One vector a body; none where a case did not settle.
+  std::vector<Eigen::VectorXd> evaluate(const Eigen::VectorXd& at) const {
+    const Settings settings = settings_at(at);
+    std::vector<Eigen::VectorXd> residuals(bodies_.size());
+    geometry::in_halves(bodies_.size(), [&](std::size_t from, std::size_t to, int) {
+      for (std::size_t b = from; b < to; ++b) {
+        const std::vector<CaseOutcome> outcomes = wardrobe_.settled(bodies_[b], settings);
+        if (!outcomes.empty()) residuals[b] = residuals_of(bodies_[b], outcomes);
+      }
+    });
+    for (const Eigen::VectorXd& of_body : residuals)
+      if (of_body.size() == 0) return {};
+    return residuals;
+  }
+
+  std::vector<Eigen::MatrixXd> derivatives(const Eigen::VectorXd& at,
+                                           const std::vector<Eigen::VectorXd>& here) const {
+    std::vector<Eigen::MatrixXd> slopes;
+    for (const Eigen::VectorXd& of_body : here) slopes.emplace_back(of_body.size(), parameters_.size());
+    for (std::size_t p = 0; p < parameters_.size(); ++p) {
+      double step = kStep;
+      std::vector<Eigen::VectorXd> beside;
+      for (int tries = 0; beside.empty(); ++tries, step = -step) {
+        if (tries == 2) return {};
+        Eigen::VectorXd there = at;
+        there[p] += step;
+        beside = evaluate(there);
+        if (!beside.empty())
+          for (std::size_t b = 0; b < here.size(); ++b)
+            slopes[b].col(static_cast<Eigen::Index>(p)) = (beside[b] - here[b]) / step;
+      }
+    }
+    return slopes;
+  }
+
+  Settings settings_at(const Eigen::VectorXd& logarithms) const {
     Settings settings = start_;
     for (std::size_t p = 0; p < parameters_.size(); ++p)
-      parameters_[p].of(settings) = std::exp(logarithms[p]);
+      parameters_[p].of(settings) = std::exp(logarithms[static_cast<Eigen::Index>(p)]);
     return settings;
   }
 
  private:
-  bool fill(const std::vector<double>& at, double* residuals) const {
-    const Settings settings = settings_at(at);
-    for (const CalibrationBody* body : bodies_) {
-      const std::vector<CaseOutcome> outcomes = settled_cases(*body, patterns_, settings);
-      if (outcomes.empty()) return false;
-      for (std::size_t c = 0; c < outcomes.size(); ++c) {
-        const ReferenceField& reference = body->cases[c].reference;
-        const double scale =
-            1 / (not_moving(reference) * std::sqrt(static_cast<double>(reference.vertices.size())));
-        for (std::size_t i = 0; i < reference.vertices.size(); ++i) {
-          const int v = reference.vertices[i];
-          const Eigen::Vector3d off = scale * (outcomes[c].deformed[v] - body->body.mesh.mesh.vertices[v] -
-                                               reference.displacements[i]);
-          for (int k = 0; k < 3; ++k) *residuals++ = off[k];
-        }
-      }
-    }
-    return true;
-  }
-
-  std::vector<const CalibrationBody*> bodies_;
-  const std::vector<control_mesh::Template>& patterns_;
+  const std::vector<CalibrationBody>& bodies_;
+  Wardrobe& wardrobe_;
   Settings start_;
   std::vector<Parameter> parameters_;
 };
 
-Settings fitted_on(std::vector<const CalibrationBody*> bodies,
-                   const std::vector<control_mesh::Template>& patterns, const Settings& start,
-                   const CalibrationOptions& options) {
-  const std::vector<Parameter> parameters = parameters_named(options.fitted);
-  Settings from = start;
-  std::vector<double> at;
-  for (const Parameter& p : parameters)
-    at.push_back(std::log(std::clamp(p.of(from), p.low * 1.05, p.high / 1.05)));
-  TissueCost cost(std::move(bodies), patterns, start, parameters);
+// Says each iteration's cost and parameters.
+class Progress : public ceres::IterationCallback {
+ public:
+  Progress(const std::vector<Parameter>& parameters, const Eigen::VectorXd& at,
+           const std::function<void(const std::string&)>& say)
+      : parameters_(parameters), at_(at), say_(say) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    std::string line = fmt::format("  {}: cost {:.4f}", summary.iteration, summary.cost);
+    for (std::size_t p = 0; p < parameters_.size(); ++p)
+      line += fmt::format(", {} {:.4g}", parameters_[p].name, std::exp(at_[static_cast<Eigen::Index>(p)]));
+    say_(line);
+    return ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const std::vector<Parameter>& parameters_;
+  const Eigen::VectorXd& at_;
+  const std::function<void(const std::string&)>& say_;
+};
+
+// The logarithms of the parameters that fit all bodies.
+Eigen::VectorXd fitted(TissueCost& cost, const std::vector<Parameter>& parameters, Settings start,
+                       const CalibrationOptions& options,
+                       const std::function<void(const std::string&)>& say) {
+  Eigen::VectorXd at(parameters.size());
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+    at[static_cast<Eigen::Index>(p)] =
+        std::log(std::clamp(parameters[p].of(start), parameters[p].low * 1.05, parameters[p].high / 1.05));
   ceres::Problem::Options owned_here;
   owned_here.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(owned_here);
@@ -166,9 +312,12 @@ Settings fitted_on(std::vector<const CalibrationBody*> bodies,
   ceres::Solver::Options how;
   how.linear_solver_type = ceres::DENSE_QR;
   how.max_num_iterations = options.most_iterations;
-  how.function_tolerance = 1e-4;
+  how.function_tolerance = 2e-3;
   how.initial_trust_region_radius = 1;
   how.logging_type = ceres::SILENT;
+  Progress progress(parameters, at, say);
+  how.callbacks.push_back(&progress);
+  how.update_state_every_iteration = true;
   ceres::Solver::Summary summary;
   ceres::Solve(how, &problem, &summary);
   if (summary.termination_type == ceres::FAILURE)
@@ -179,7 +328,27 @@ Settings fitted_on(std::vector<const CalibrationBody*> bodies,
       throw Refusal(refusal::kAtBound,
                     fmt::format("{} ran into its bound at {:.3g}: the references do not tell it",
                                 parameters[p].name, std::exp(at[p])));
-  return cost.settings_at(at);
+  return at;
+}
+
+// What one step of Gauss and Newton makes of the fit on all when a body is taken away: exact where the
+// displacements are linear in the parameters' logarithms.
+std::vector<Settings> left_out(const std::vector<CalibrationBody>& bodies, const TissueCost& cost,
+                               const Eigen::VectorXd& at) {
+  const std::vector<Eigen::VectorXd> here = cost.evaluate(at);
+  const std::vector<Eigen::MatrixXd> slopes = cost.derivatives(at, here);
+  std::vector<Settings> settings;
+  for (const CalibrationBody& away : bodies) {
+    Eigen::MatrixXd others = Eigen::MatrixXd::Zero(at.size(), at.size());
+    Eigen::VectorXd slope = Eigen::VectorXd::Zero(at.size());
+    for (std::size_t b = 0; b < slopes.size(); ++b) {
+      if (bodies[b].name == away.name) continue;  // of any fineness
+      others += slopes[b].transpose() * slopes[b];
+      slope += slopes[b].transpose() * here[b];
+    }
+    settings.push_back(cost.settings_at(at - others.ldlt().solve(slope)));
+  }
+  return settings;
 }
 
 }  // namespace
@@ -193,32 +362,7 @@ double not_moving(const ReferenceField& reference) {
 std::vector<CaseOutcome> wear_cases(const CalibrationBody& body,
                                     const std::vector<control_mesh::Template>& patterns,
                                     const Settings& settings, bool warm) {
-  std::map<std::vector<std::string>, Fitting> fittings;  // by regions
-  std::vector<CaseOutcome> outcomes;
-  Fit last;
-  for (std::size_t i = 0; i < body.cases.size(); ++i) {
-    const CalibrationCase& c = body.cases[i];
-    fit::StageTimes times;
-    auto fitting = fittings.find(c.garment.regions);
-    if (fitting == fittings.end())
-      fitting = fittings
-                    .emplace(c.garment.regions,
-                             prepare(body.body, patterns_of(c.garment, patterns), settings, times))
-                    .first;
-    times = {};
-    const bool follows = warm && i > 0 && body.cases[i - 1].garment.name == c.garment.name &&
-                         body.cases[i - 1].garment.regions == c.garment.regions;
-    last = wear(body.body, fitting->second, c.garment, settings, times, follows ? &last.solution : nullptr);
-    CaseOutcome outcome{tissue_error(c.reference, body.body.mesh.mesh, last.deformed),
-                        last.solution.status,
-                        last.solution.iterations,
-                        times.tensegric,
-                        {},
-                        last.deformed};
-    for (const tensegric::LineResult& line : last.solution.lines) outcome.tensions.push_back(line.tension);
-    outcomes.push_back(std::move(outcome));
-  }
-  return outcomes;
+  return Prepared(body, patterns, settings).outcomes(settings, warm);
 }
 
 Calibration calibrate(const std::vector<CalibrationBody>& bodies,
@@ -232,24 +376,24 @@ Calibration calibrate(const std::vector<CalibrationBody>& bodies,
     for (const CalibrationCase& c : body.cases)
       if (!(not_moving(c.reference) >= kLeastWay))
         throw Refusal(refusal::kTooFewData, body.name + ", " + c.name + ": the reference does not move");
-  const auto errors_of = [&patterns](const CalibrationBody& body, const Settings& settings) {
+  Wardrobe wardrobe(bodies, patterns);
+  const auto errors_of = [&wardrobe](const CalibrationBody& body, const Settings& settings) {
     std::vector<double> errors(body.cases.size(), std::numeric_limits<double>::quiet_NaN());
-    const std::vector<CaseOutcome> outcomes = settled_cases(body, patterns, settings);
+    const std::vector<CaseOutcome> outcomes = wardrobe.settled(body, settings);
     for (std::size_t c = 0; c < outcomes.size(); ++c) errors[c] = outcomes[c].error;
     return errors;
   };
-  Calibration result;
-  std::vector<const CalibrationBody*> all;
-  for (const CalibrationBody& body : bodies) all.push_back(&body);
+  const std::vector<Parameter> parameters = parameters_named(options.fitted);
+  TissueCost cost(bodies, wardrobe, start, parameters);
   say("fitting on all bodies");
-  result.settings = fitted_on(all, patterns, start, options);
+  const Eigen::VectorXd at = fitted(cost, parameters, start, options, say);
+  Calibration result;
+  result.settings = cost.settings_at(at);
+  say("leaving out each body");
+  result.left_out = left_out(bodies, cost, at);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    say("leaving out " + bodies[b].name);
-    std::vector<const CalibrationBody*> others = all;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(b));
-    result.left_out.push_back(fitted_on(others, patterns, start, options));
     const auto before = errors_of(bodies[b], start), in = errors_of(bodies[b], result.settings),
-               out = errors_of(bodies[b], result.left_out.back());
+               out = errors_of(bodies[b], result.left_out[b]);
     for (std::size_t c = 0; c < bodies[b].cases.size(); ++c)
       result.errors.push_back(
           {bodies[b].cases[c].name, not_moving(bodies[b].cases[c].reference), before[c], in[c], out[c]});

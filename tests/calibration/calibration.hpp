@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,17 @@ struct CalibrationCase {
   std::vector<double> newtons;  ///< the reference's tension in each line; empty: not known
 };
 
+/// How fine a model is: what the tissue's constants must not depend on.
+struct Fineness {
+  int control_triangles, layers;
+};
+
 /// A body and its cases; those of one garment in the order of growing requests.
 struct CalibrationBody {
   std::string name;
   fit::Body body;
   std::vector<CalibrationCase> cases;
+  std::optional<Fineness> fineness{};  ///< none: that of the settings
 };
 
 /// How a case went.
