@@ -1,6 +1,7 @@
 #include "tensegric/fold_barrier.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,7 +10,8 @@ namespace {
 
 constexpr double kBegins = 0.7;  // s0
 constexpr double kStiffness =
-    0.3;                        // times k and the mean edge: keeps triangles above half their area at 0.90
+    0.3;  // times k and the mean edge: keeps triangles above half their area at 0.90
+constexpr int kMostInversions = 60;  // 5 to 30: the curve begins with a square
 constexpr double kFlat = 1e-3;  // volume at rest / that of an upright unit, below which there is no barrier
 
 // From the apex to the three corners.
@@ -38,6 +40,22 @@ Barrier barrier(const UnitVolume& unit, double share) {
   const double below = share - kBegins, log = std::log(share / kBegins);
   return {-unit.stiffness * below * below * log, -unit.stiffness * (2 * below * log + below * below / share),
           -unit.stiffness * (2 * log + 4 * below / share - below * below / (share * share))};
+}
+
+// The share below s0 at which the barrier's slope is -push. From below, where the curve is steeper, Newton's
+// method on it comes near without overshooting.
+double share_of_push(const UnitVolume& unit, double push) {
+  const double wanted = push / unit.stiffness;
+  double share = 2 * kBegins * kBegins /
+                 (2 * kBegins + wanted + std::sqrt(wanted * (wanted + 4 * kBegins)));  // log left out
+  for (int i = 0; i < kMostInversions; ++i) {
+    const Barrier f = barrier(unit, share);
+    if (!(f.curvature > 0)) break;
+    const double by = -(f.slope + push) / f.curvature;
+    share = std::min(share + by, kBegins);
+    if (std::abs(by) <= 1e-15) break;
+  }
+  return share;
 }
 
 }  // namespace
@@ -92,22 +110,67 @@ void add_fold_gradient(const std::vector<UnitVolume>& units, const Positions& x,
   }
 }
 
+std::vector<StraightPush> straight_pushes(const std::vector<UnitVolume>& units, const Positions& x,
+                                          const Eigen::VectorXd& pushes) {
+  std::vector<StraightPush> lines;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const double share = volume_share(units[i], x),
+                 push = pushes.size() > 0 ? pushes[static_cast<Eigen::Index>(i)] : 0;
+    if (push <= 0 && share >= kBegins) continue;
+    const double touched = push > 0 ? share_of_push(units[i], push) : share;
+    const Barrier f = barrier(units[i], touched);
+    lines.push_back(
+        {static_cast<int>(i), share, -f.slope, -f.slope - f.curvature * (share - touched), -f.curvature});
+  }
+  return lines;
+}
+
+void add_straight_difference(const std::vector<UnitVolume>& units, const Positions& x,
+                             const std::vector<StraightPush>& lines, const std::vector<int>& free_index,
+                             Eigen::VectorXd& gradient) {
+  for (const StraightPush& line : lines) {
+    const UnitVolume& unit = units[line.unit];
+    const double push = line.share < kBegins ? -barrier(unit, line.share).slope : 0;
+    const auto by_node = share_gradient(unit, spokes(unit, x));
+    for (int i = 0; i < 6; ++i) {
+      const int row = free_index[unit.nodes[i]];
+      if (row >= 0) gradient.segment<3>(3 * row) += (push - line.at_x) * by_node[i];
+    }
+  }
+}
+
+Eigen::VectorXd pushes_after(const std::vector<UnitVolume>& units, const Positions& x,
+                             const std::vector<StraightPush>& lines, const std::vector<int>& free_index,
+                             const Eigen::VectorXd& move) {
+  Eigen::VectorXd pushes(static_cast<Eigen::Index>(lines.size()));
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const UnitVolume& unit = units[lines[k].unit];
+    const auto by_node = share_gradient(unit, spokes(unit, x));
+    double by = 0;
+    for (int i = 0; i < 6; ++i) {
+      const int row = free_index[unit.nodes[i]];
+      if (row >= 0) by += by_node[i].dot(move.segment<3>(3 * row));
+    }
+    pushes[static_cast<Eigen::Index>(k)] = lines[k].at_x + lines[k].slope * by;
+  }
+  return pushes;
+}
+
 void add_fold_hessian(const std::vector<UnitVolume>& units, const Positions& x,
-                      const std::vector<int>& free_index, NodeMatrix& hessian, double whole) {
-  for (const UnitVolume& unit : units) {
-    const double share = volume_share(unit, x);
-    if (share >= kBegins) continue;
-    const Barrier f = barrier(unit, share);
+                      const std::vector<StraightPush>& lines, const std::vector<int>& free_index,
+                      NodeMatrix& hessian, double whole) {
+  for (const StraightPush& line : lines) {
+    const UnitVolume& unit = units[line.unit];
     const Spokes s = spokes(unit, x);
     const auto by_node = share_gradient(unit, s);
     // The share's own second derivative, by pairs of spokes: that by a is b x c.
-    const double scale = whole * f.slope / unit.rest;
+    const double scale = -whole * line.push / unit.rest;
     const Eigen::Matrix3d ab = -scale * cross_matrix(s.c), bc = -scale * cross_matrix(s.a),
                           ca = -scale * cross_matrix(s.b);
     const Eigen::Matrix3d to_apex[] = {(ca - ab) / 3, (ab - bc) / 3, (bc - ca) / 3};
     for (int i = 0; i < 6; ++i) {
       for (int j = 0; j <= i; ++j) {
-        Eigen::Matrix3d block = f.curvature * by_node[i] * by_node[j].transpose();
+        Eigen::Matrix3d block = -line.slope * by_node[i] * by_node[j].transpose();
         if (i >= 3 && j < 3) block += to_apex[j].transpose();
         if (i == 1 && j == 0) block += ab.transpose();
         if (i == 2 && j == 1) block += bc.transpose();

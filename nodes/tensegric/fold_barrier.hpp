@@ -30,11 +30,41 @@ double volume_share(const UnitVolume& unit, const Positions& x);
 /// Infinite where a unit is turned inside out.
 double fold_energy(const std::vector<UnitVolume>& units, const Positions& x);
 
-/// Add the energy's first and second derivative by the free nodes, with `whole` of the part of the second one
-/// that may be negative. \pre the energy is finite
+/// Adds the energy's first derivative by the free nodes. \pre the energy is finite
 void add_fold_gradient(const std::vector<UnitVolume>& units, const Positions& x,
                        const std::vector<int>& free_index, Eigen::VectorXd& gradient);
+
+/// Each barrier's push (its energy's slope by the share, negative: never below zero) as a straight line in
+/// the share, for a Newton step.
+struct StraightPush {
+  int unit;
+  double share;  ///< of volume, at `x`
+  double push;   ///< where the line touches the barrier's curve
+  double at_x;   ///< on the line
+  double slope;  ///< of the line, negative
+};
+
+/// One of each unit that pushes. The line touches the curve at the unit's own share, or, where `pushes` (one
+/// a unit, none where empty) is positive, at the share that has this push. The push begins with the square of
+/// (s0 - s), and Newton's method on a square only halves the distance in each step: with a unit that is
+/// nearly flat at rest, and so pushes with many times what acts on it, this takes ten steps and more. The
+/// push that a step foresees is nearly right, so the next line is laid there (the primal-dual view of a
+/// barrier: J. Nocedal, S. J. Wright, "Numerical Optimization", 2006, ch. 19).
+std::vector<StraightPush> straight_pushes(const std::vector<UnitVolume>& units, const Positions& x,
+                                          const Eigen::VectorXd& pushes = {});
+
+/// Add to the first derivative by the free nodes what the lines push otherwise than the barriers, and the
+/// second derivative with the lines for the barriers, with `whole` of the part that may be negative.
+void add_straight_difference(const std::vector<UnitVolume>& units, const Positions& x,
+                             const std::vector<StraightPush>& lines, const std::vector<int>& free_index,
+                             Eigen::VectorXd& gradient);
 void add_fold_hessian(const std::vector<UnitVolume>& units, const Positions& x,
-                      const std::vector<int>& free_index, NodeMatrix& hessian, double whole = 1);
+                      const std::vector<StraightPush>& lines, const std::vector<int>& free_index,
+                      NodeMatrix& hessian, double whole = 1);
+
+/// What the lines push after `move` of the free nodes, by the shares' first derivatives; one a line.
+Eigen::VectorXd pushes_after(const std::vector<UnitVolume>& units, const Positions& x,
+                             const std::vector<StraightPush>& lines, const std::vector<int>& free_index,
+                             const Eigen::VectorXd& move);
 
 }  // namespace tensegric_fit::tensegric

@@ -117,10 +117,10 @@ double Kkt::energy(const Balance& at, const Load& load) const {
   return energy;
 }
 
-void Kkt::assemble(const Balance& at, double whole) {
+void Kkt::assemble(const Balance& at, const std::vector<StraightPush>& lines, double whole) {
   hessian_.clear();
   add_member_hessian(problem_.model, at.x, problem_.free_index, hessian_, whole);
-  add_fold_hessian(problem_.units, at.x, problem_.free_index, hessian_, whole);
+  add_fold_hessian(problem_.units, at.x, lines, problem_.free_index, hessian_, whole);
   add_pressure_hessian(problem_.pressures, at.x, problem_.free_index, hessian_, whole);
   for (int b = 0; b < bands_; ++b) curvatures_[b].add(at.x, std::max(0.0, at.tensions[b]), hessian_);
   for (int r = 0; r < regions_; ++r)
@@ -169,15 +169,18 @@ bool Kkt::factorise(const Balance& at, const Load& load, const Defect& defect) {
   return (eigen.eigenvalues().array() < 0).count() == negative;
 }
 
-Step Kkt::step(const Balance& at, const Load& load, const Defect& defect, bool to_saddle) {
+Step Kkt::step(const Balance& at, const Load& load, const Defect& defect, bool to_saddle, bool foreseen) {
   Step result;
-  assemble(at, 1);
+  result.lines = straight_pushes(problem_.units, at.x, foreseen ? at.pushes : Eigen::VectorXd());
+  Eigen::VectorXd gradient = defect.gradient;
+  add_straight_difference(problem_.units, at.x, result.lines, problem_.free_index, gradient);
+  assemble(at, result.lines, 1);
   result.minimum = factorise(at, load, defect);
   if (!result.minimum && !(to_saddle && usable_)) {
     double raise = least_raise_;
     taken_back_ = std::max(kLeastTakenBack, taken_back_ / 2);
     for (int tries = 0; tries < kMostTries; ++tries) {
-      assemble(at, 1 - taken_back_);
+      assemble(at, result.lines, 1 - taken_back_);
       hessian_.add_to_diagonal(raise);
       if (factorise(at, load, defect)) break;
       if (taken_back_ == 1) raise *= 8;
@@ -188,12 +191,15 @@ Step Kkt::step(const Balance& at, const Load& load, const Defect& defect, bool t
     result.move.setConstant(defect.gradient.size(), std::numeric_limits<double>::quiet_NaN());
     return result;
   }
-  const Eigen::VectorXd free_move = factor_.solve(defect.gradient);
+  const Eigen::VectorXd free_move = factor_.solve(gradient);
   const Eigen::VectorXd wanted =
       defect.conditions - by_length_.asDiagonal() * (defect.jacobian.transpose() * free_move);
   result.multipliers = schur_factor_.solve(wanted);
   result.left_over = wanted - schur_ * result.multipliers;
   result.move = -(free_move + solved_ * result.multipliers);
+  result.push_change = pushes_after(problem_.units, at.x, result.lines, problem_.free_index, result.move);
+  for (std::size_t k = 0; k < result.lines.size(); ++k)
+    result.push_change[static_cast<Eigen::Index>(k)] -= result.lines[k].push;
   return result;
 }
 

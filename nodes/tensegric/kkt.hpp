@@ -26,9 +26,10 @@ enum class Hold {
 /// Positions and multipliers. Pressure pushes outward where it is positive.
 struct Balance {
   Positions x;
-  Eigen::VectorXd pressures;  ///< one a region, times its area: a force
-  Eigen::VectorXd tensions;   ///< one a band
-  std::vector<Hold> holds;    ///< one a band
+  Eigen::VectorXd pressures;    ///< one a region, times its area: a force
+  Eigen::VectorXd tensions;     ///< one a band
+  std::vector<Hold> holds;      ///< one a band
+  Eigen::VectorXd pushes = {};  ///< of units about to fold, as the last step foresaw them; empty: not known
 };
 
 /// What is asked for: changes as the load is followed.
@@ -50,9 +51,11 @@ struct Defect {
 };
 
 struct Step {
-  Eigen::VectorXd move;         ///< by the free nodes
-  Eigen::VectorXd multipliers;  ///< change of pressures, then of tensions
-  Eigen::VectorXd left_over;    ///< of the conditions, as far as they contradict each other
+  Eigen::VectorXd move;             ///< by the free nodes
+  Eigen::VectorXd multipliers;      ///< change of pressures, then of tensions
+  std::vector<StraightPush> lines;  ///< of the units about to fold
+  Eigen::VectorXd push_change;      ///< one a line
+  Eigen::VectorXd left_over;        ///< of the conditions, as far as they contradict each other
   bool minimum = true;  ///< the balance is a minimum of the energy as far as the second derivative tells
 };
 
@@ -64,8 +67,8 @@ class Kkt {
 
   /// Newton's step. Where the second derivative is no minimum's, its negative parts are taken back until it
   /// is one's, so that the step leads downhill; with `to_saddle` it is left as it is. Not finite where there
-  /// is no step.
-  Step step(const Balance& at, const Load& load, const Defect& defect, bool to_saddle);
+  /// is no step. With `foreseen` units about to fold push as `at` foresees it.
+  Step step(const Balance& at, const Load& load, const Defect& defect, bool to_saddle, bool foreseen);
 
   /// A move of least effort that takes `conditions` to zero, by the matrix of the last step.
   Eigen::VectorXd correction(const Eigen::VectorXd& conditions) const;
@@ -83,7 +86,7 @@ class Kkt {
   static Eigen::VectorXd shortest_move(const Defect& defect, const Eigen::VectorXd& conditions);
 
  private:
-  void assemble(const Balance& at, double whole);
+  void assemble(const Balance& at, const std::vector<StraightPush>& lines, double whole);
   bool factorise(const Balance& at, const Load& load, const Defect& defect);
 
   const Problem& problem_;

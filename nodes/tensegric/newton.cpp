@@ -15,6 +15,7 @@ namespace {
 // symmetric one stays symmetric.
 constexpr Tolerance kAtSaddle{1e-5, 1e-6, 1e-6};
 constexpr int kMostHoldChanges = 20, kMostHalvings = 14;
+constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();  // of the coordinates
 constexpr double kContradicted = 1e-6;  // of a neutral length: far above rounding
 constexpr int kMostMends = 8;
 constexpr double kMended = 1e-12;         // relative, of volumes and lengths
@@ -36,6 +37,7 @@ Newton::Newton(const Problem& problem, Recorder& recorder, int spent, int most)
       most_iterations_(problem.options.max_iterations > 0 ? problem.options.max_iterations : spent + most) {
   double sum = 0;
   for (const Member& m : problem.model.members) sum += m.rest;
+  for (const Eigen::Vector3d& p : problem.rest) farthest_ = std::max(farthest_, p.cwiseAbs().maxCoeff());
   longest_move_ = sum / static_cast<double>(problem.model.members.size()) / 2;
 }
 
@@ -60,7 +62,7 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
     if (within(defect, tolerance)) return true;
     stop_ = spent();
     if (i == most || stop_ != Stop::none) return is_balance(at, load, defect);
-    const Step step = kkt_.step(at, load, defect, within(defect, kAtSaddle));
+    Step step = kkt_.step(at, load, defect, within(defect, kAtSaddle), true);
     branch_near_ = branch_near_ || !step.minimum;
     if (!step.move.allFinite() || !step.multipliers.allFinite()) return false;
     if (release_contradicted(at, load, step)) {
@@ -68,13 +70,24 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
       defect = kkt_.defect(at, load);
       continue;
     }
-    if (!advance(at, load, defect, step)) return is_balance(at, load, defect);
+    if (is_rounding(step) && is_balance(at, load, defect)) return true;
+    if (!advance(at, load, defect, step)) {
+      step = kkt_.step(at, load, defect, within(defect, kAtSaddle), false);
+      if (!step.move.allFinite() || !step.multipliers.allFinite() || !advance(at, load, defect, step))
+        return is_balance(at, load, defect);
+    }
     if (!recorder_.record(++iterations_, at.x, defect.residual, merit_change_)) {
       stop_ = Stop::caller;
       return false;
     }
   }
   return false;
+}
+
+// Where the parts of a unit that is nearly flat at rest push and pull with many times what acts on them, no
+// step comes nearer to balance than rounding lets it.
+bool Newton::is_rounding(const Step& step) const {
+  return step.move.size() > 0 && step.move.cwiseAbs().maxCoeff() <= kRounding * farthest_;
 }
 
 // Good enough, though not as good as aimed at.
@@ -127,6 +140,10 @@ bool Newton::advance(Balance& at, const Load& load, Defect& defect, const Step& 
     move(trial.x, length * step.move);
     trial.pressures += length * step.multipliers.head(regions);
     trial.tensions += length * step.multipliers.tail(static_cast<Eigen::Index>(problem_.bands.size()));
+    trial.pushes.setZero(static_cast<Eigen::Index>(problem_.units.size()));
+    for (std::size_t k = 0; k < step.lines.size(); ++k)
+      trial.pushes[step.lines[k].unit] =
+          std::max(0.0, step.lines[k].push + length * step.push_change[static_cast<Eigen::Index>(k)]);
     Defect there = kkt_.defect(trial, load);
     if (length == 1) {
       Eigen::VectorXd broken = there.conditions;

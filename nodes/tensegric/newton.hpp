@@ -40,12 +40,14 @@ class Newton {
   bool stop_at_limits(Balance& at, const Load& load) const;
   bool release_contradicted(Balance& at, const Load& load, const Step& step) const;
   bool change_holds(Balance& at, const Load& load) const;
+  bool is_rounding(const Step& step) const;
   bool is_balance(Balance at, const Load& load, const Defect& defect) const;
   void move(Positions& x, const Eigen::VectorXd& by) const;
 
   const Problem& problem_;
   Recorder& recorder_;
   Kkt kkt_;
+  double farthest_ = 0;  // m, largest coordinate at rest
   double longest_move_;  // m, of a node in a step
   int iterations_, most_iterations_;
   Stop stop_ = Stop::none;

@@ -104,10 +104,68 @@ TEST_F(Folding, DerivativesOfTheBarrier) {
   const double slope = (fold_energy(units, moved(step)) - fold_energy(units, moved(-step))) / (2 * step);
   EXPECT_NEAR(gradient(x).dot(direction), slope, 1e-6 * (std::abs(slope) + gradient(x).norm()));
   NodeMatrix hessian(model.free_nodes(), pairs);
-  add_fold_hessian(units, x, free_index, hessian);
+  add_fold_hessian(units, x, straight_pushes(units, x), free_index, hessian);
   const Eigen::VectorXd change = (gradient(moved(step)) - gradient(moved(-step))) / (2 * step);
   const Eigen::VectorXd product = hessian.lower().selfadjointView<Eigen::Lower>() * direction;
   EXPECT_LE((change - product).norm(), 1e-6 * change.norm());
+}
+
+// The line has the barrier's push and slope at the share that has the push asked for, so that at the balance
+// a step by the lines is a step by the barriers.
+TEST_F(Folding, LinesTouchTheBarrier) {
+  const std::vector<int> free_index = model.free_index();
+  Positions x = model.rest_positions();
+  for (std::size_t i = 0; i < control.outer.size(); ++i) x[i] += 0.5 * (control.inner[i] - control.outer[i]);
+  const std::vector<StraightPush> own = straight_pushes(units, x);
+  ASSERT_FALSE(own.empty());
+  Eigen::VectorXd pushes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(units.size()));
+  for (const StraightPush& line : own) {
+    EXPECT_EQ(line.push, line.at_x);
+    EXPECT_LT(line.share, 0.7);
+    pushes[line.unit] = line.push;
+  }
+  const std::vector<StraightPush> same = straight_pushes(units, x, pushes);
+  ASSERT_EQ(same.size(), own.size());
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    EXPECT_NEAR(same[k].push / own[k].push, 1, 1e-9);
+    EXPECT_NEAR(same[k].slope / own[k].slope, 1, 1e-6);
+    EXPECT_NEAR(same[k].at_x / own[k].at_x, 1, 1e-9);
+  }
+  for (double share : {1e-9, 1e-6, 1e-3, 1e2, 1e6}) {  // of the push
+    for (const StraightPush& line : straight_pushes(units, x, share * pushes))
+      EXPECT_NEAR(line.push / (share * pushes[line.unit]), 1, 1e-6) << share;
+  }
+  Eigen::VectorXd difference = Eigen::VectorXd::Zero(3 * model.free_nodes()), gradient = difference;
+  add_straight_difference(units, x, own, free_index, difference);
+  EXPECT_EQ(difference.norm(), 0);
+  const std::vector<StraightPush> half = straight_pushes(units, x, pushes / 2);
+  add_straight_difference(units, x, half, free_index, difference);
+  add_fold_gradient(units, x, free_index, gradient);
+  const Eigen::VectorXd still = pushes_after(units, x, half, free_index, 0 * gradient);
+  const Eigen::VectorXd after = pushes_after(units, x, half, free_index, -1e-6 * gradient);
+  double sum = 0;
+  for (std::size_t k = 0; k < half.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    EXPECT_EQ(still[i], half[k].at_x);
+    sum += pushes[half[k].unit] * (after[i] - still[i]) / half[k].slope;
+  }
+  EXPECT_NEAR(sum, 1e-6 * gradient.squaredNorm(), 1e-9 * sum);
+}
+
+// A unit that is nearly flat at rest begins to fold at once, and its barrier pushes with many times what acts
+// on it. It takes no more than a few steps more for that.
+TEST(FoldingUnits, NearlyFlatOnesTakeFewSteps) {
+  const Solution plain = solve(build_model(bust_mesh(), {}), chest(0.95), {});
+  for (double depth : {0.1, 0.03, 0.01}) {
+    geometry::ControlMesh control = bust_mesh();
+    const int node = control.triangles[control.triangles.size() / 2][0];
+    control.inner[node] = control.outer[node] + depth * (control.inner[node] - control.outer[node]);
+    const Solution s = solve(build_model(control, {}), chest(0.95), {});
+    EXPECT_EQ(s.status, Status::converged) << s.note;
+    expect_balance(s);
+    EXPECT_LE(s.iterations, plain.iterations + 5) << depth;
+    for (const Iterate& i : s.history) EXPECT_LE(i.merit_change, 1e-12);
+  }
 }
 
 TEST_F(Folding, NothingTurnsOverAt15Percent) {

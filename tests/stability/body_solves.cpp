@@ -1,0 +1,150 @@
+/// Iterations and ends of the equilibrium solver on bodies: every shipped garment at every request, a row a
+/// solve as CSV on standard output, a table of medians and worst cases by request on standard error.
+///   body_solves BODY.ply... --control-triangles 480 --tissue launch/tissue/fine.yaml > solves.csv
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "control_mesh/fit_template.hpp"
+#include "fit/chain.hpp"
+#include "fit/tissue_file.hpp"
+#include "geometry/ply.hpp"
+#include "geometry/shipped_files.hpp"
+#include "geometry/status.hpp"
+#include "tensegric/solver.hpp"
+
+namespace {
+
+using namespace tensegric_fit;
+using tensegric::Status;
+
+constexpr const char* kCode = geometry::refusal::kBadOption;
+
+struct Solves {
+  std::vector<int> iterations;
+  std::vector<double> ms;
+  std::map<std::string, int> statuses;
+};
+
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(std::llround(share * static_cast<double>(values.size() - 1)))];
+}
+
+std::string row_of(const std::string& name, const Solves& all) {
+  std::string ends;
+  for (const auto& [status, count] : all.statuses)
+    ends += fmt::format("{}{} {}", ends.empty() ? "" : ", ", count, status);
+  const std::vector<double> iterations(all.iterations.begin(), all.iterations.end());
+  const auto above = std::count_if(iterations.begin(), iterations.end(), [](double i) { return i > 15; });
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {:.1f} / {:.1f} / {:.0f} |\n", name,
+                     iterations.size(), ends, quantile(iterations, 0.5), quantile(iterations, 0.95),
+                     quantile(iterations, 1), above, quantile(all.ms, 0.5), quantile(all.ms, 0.95),
+                     quantile(all.ms, 1));
+}
+
+class Bodies {
+ public:
+  explicit Bodies(fit::Settings settings) : settings_(std::move(settings)) {}
+
+  void wear_all(const std::string& path, const std::vector<std::string>& garments,
+                const std::vector<double>& requests) {
+    const std::string name = std::filesystem::path(path).stem().string();
+    fit::StageTimes times;
+    const fit::Body body = fit::measure_mesh(geometry::read_ply_mesh(path), settings_, times);
+    std::map<std::string, tensegric::Model> models;  // by region
+    for (const std::string& word : garments) {
+      tensegric::Garment garment =
+          tensegric::load_garment(geometry::yaml_file(geometry::shipped_folder("garments"), word, kCode));
+      const std::string region = garment.regions.front();
+      try {
+        if (models.count(region) == 0) models.emplace(region, model_of(body, region));
+      } catch (const geometry::Refusal& refusal) {
+        fmt::print("{},{},,refused: {},,,,,\n", name, word, refusal.code());
+        continue;
+      }
+      for (double request : requests) {
+        tensegric::set_ratio(garment, "", request);
+        solve(name, word, request, models.at(region), garment);
+      }
+    }
+  }
+
+  std::string table() const {
+    std::string text =
+        "| request | solves | ended | iterations: median | 95 % | most | above 15 | ms: median / 95 % / most "
+        "|\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    for (auto at = by_request_.rbegin(); at != by_request_.rend(); ++at)
+      text += row_of(fmt::format("{:.2f}", at->first), at->second);
+    return text;
+  }
+
+ private:
+  tensegric::Model model_of(const fit::Body& body, const std::string& region) const {
+    const control_mesh::Template pattern = control_mesh::load_template(
+        geometry::yaml_file(geometry::shipped_folder("templates"), region, kCode));
+    return tensegric::build_model(
+        control_mesh::fit_template(pattern, body.mesh.mesh, body.measures, settings_.control_mesh),
+        settings_.model);
+  }
+
+  void solve(const std::string& body, const std::string& garment_name, double request,
+             const tensegric::Model& model, const tensegric::Garment& garment) {
+    const auto start = std::chrono::steady_clock::now();
+    const tensegric::Solution solution = tensegric::solve(model, garment, settings_.solver);
+    const double ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    double moved = 0, volume = 0, length = 0, tension = 0;
+    for (std::size_t i = 0; i < solution.outer.size(); ++i)
+      moved += (solution.outer[i] - model.control.outer[i]).squaredNorm();
+    moved = std::sqrt(moved / static_cast<double>(solution.outer.size()));
+    for (const tensegric::RegionResult& r : solution.regions)
+      volume = std::max(volume, std::abs(r.volume_after / r.volume_before - 1));
+    for (const tensegric::LineResult& l : solution.lines) {
+      length = std::max(length, l.final / l.neutral - 1);
+      tension = std::max(tension, l.tension);
+    }
+    fmt::print("{},{},{:.2f},{},{},{:.2f},{:.9g},{:.9g},{:.1e},{:.1e}\n", body, garment_name, request,
+               to_string(solution.status), solution.iterations, ms, 1e3 * moved, tension, length, volume);
+    std::fflush(stdout);
+    Solves& at = by_request_[request];
+    at.iterations.push_back(solution.iterations);
+    at.ms.push_back(ms);
+    ++at.statuses[to_string(solution.status)];
+  }
+
+  fit::Settings settings_;
+  std::map<double, Solves> by_request_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Iterations of the equilibrium solver on bodies: every garment at every request");
+  std::vector<std::string> meshes, garments = {"B1", "B2", "B3", "B4", "H1", "H2", "H3", "H4"};
+  std::vector<double> requests = {0.97, 0.95, 0.90, 0.85, 0.80};
+  std::string tissue;
+  fit::Settings settings;
+  app.add_option("meshes", meshes, "BODY.ply...")->required();
+  app.add_option("--garments", garments, "shipped ones")->delimiter(',');
+  app.add_option("--requests", requests, "ratios")->delimiter(',');
+  app.add_option("--tissue", tissue, "parameter file");
+  app.add_option("--control-triangles", settings.control_mesh.control_triangles, "at least");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (!tissue.empty()) fit::take_tissue(tissue, settings);
+    fmt::print("body,garment,request,status,iterations,ms,moved_rms_mm,tension,line_too_long,volume_error\n");
+    Bodies bodies(settings);
+    for (const std::string& mesh : meshes) bodies.wear_all(mesh, garments, requests);
+    fmt::print(stderr, "{}", bodies.table());
+  } catch (const geometry::Refusal& refusal) {
+    fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());
+    return 3;
+  }
+}
