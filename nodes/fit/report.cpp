@@ -103,7 +103,9 @@ void add_fit(const Body& body, const Fitting& fitting, const Fit& fit, const Set
                                {"ratio", line.final / line.initial},
                                {"straight", line.straight},
                                {"reachable", line.reachable},
-                               {"tension", line.tension}});
+                               {"tension", line.tension},
+                               {"tension_N", line.newtons}});
+    if (line.pressure > 0) report["lines"].back()["pressure_kPa"] = 1e-3 * line.pressure;
   }
   report["regions"] = Json::array();
   for (std::size_t r = 0; r < solution.regions.size(); ++r) {

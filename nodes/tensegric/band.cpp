@@ -117,6 +117,7 @@ std::vector<Band> lay_bands(const Model& model, const Garment& garment,
       throw Refusal(refusal::kBadGarment,
                     "line '" + line.name + "' has a ratio or tension limit that is not positive");
     band.law = line.law;
+    if (!line.points.empty()) band.width = line.width;
     band.tension_limit = line.tension_limit;
     band.request = line.ratio;
     band.initial = length_of(band, rest);

@@ -28,6 +28,7 @@ struct Band {
   std::vector<Thread> threads;
   TensionLaw law;
   double tension_limit;
+  double width = 0;                  ///< m; 0: a thread
   double initial, neutral, request;  ///< m, m, neutral / initial
   double smooth;                     ///< m, of shorter segments the length is smoothed
   bool movable;                      ///< it touches a free node

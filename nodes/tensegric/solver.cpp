@@ -5,6 +5,7 @@
 
 #include "geometry/status.hpp"
 #include "tensegric/band_length.hpp"
+#include "tensegric/band_pressure.hpp"
 #include "tensegric/equilibrium.hpp"
 #include "tensegric/problem.hpp"
 #include "tensegric/relaxation.hpp"
@@ -70,6 +71,8 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
     line.final = line.reachable = length_of(band, x);
     line.request = band.request;
     line.tension = outcome.state.tensions[b];
+    line.newtons = line.tension * problem.model.newtons();
+    line.pressure = largest_pressure(problem.model, band, x, line.newtons);
     line.law = band.law;
     line.tension_limit = band.tension_limit;
     line.nodes = band.nodes;

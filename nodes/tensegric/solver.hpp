@@ -31,6 +31,8 @@ struct LineResult {
   double initial = 0, neutral = 0, final = 0;  ///< lengths, m
   double request = 1;                          ///< neutral / initial
   double tension = 0;                          ///< pseudo force
+  double newtons = 0;                          ///< the same, N (Model::newtons)
+  double pressure = 0;                         ///< Pa, largest; 0 of a line without width
   TensionLaw law;
   double tension_limit = std::numeric_limits<double>::infinity();  ///< pseudo force
   std::vector<int> nodes;  ///< outer nodes that it runs over, in order; none where it lies on the body

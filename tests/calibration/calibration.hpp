@@ -39,7 +39,7 @@ struct CaseOutcome {
   tensegric::Status status;
   int iterations;
   double milliseconds;           ///< of the solution
-  std::vector<double> tensions;  ///< as reported, one a line
+  std::vector<double> tensions;  ///< N, one a line
   std::vector<Eigen::Vector3d> deformed;
 };
 

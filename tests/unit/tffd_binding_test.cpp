@@ -240,8 +240,9 @@ TEST(Binding, AFreeRimFadesOutBeyondIt) {
     return after[60 * 121 + column].z() - body.vertices[60 * 121 + column].z();
   };
   EXPECT_NEAR(lift(60), 0.01, 1e-14);
-  EXPECT_EQ(lift(0), 0);  // 50 mm beyond the rim; a triangle reaches 32 mm
-  for (int c = 0; c < 60; ++c) EXPECT_LT(std::abs(lift(c + 1) - lift(c)), 0.0015) << c;
+  EXPECT_EQ(lift(0), 0);  // 50 mm beyond the rim; a triangle reaches 21 mm
+  // Steps of 2.5 mm: even fading would be by 1.2 mm each, smooth fading is twice as steep half way.
+  for (int c = 0; c < 60; ++c) EXPECT_LT(std::abs(lift(c + 1) - lift(c)), 0.0024) << c;
 }
 
 TEST(Binding, FixedNodesOfAClosedControlMeshHoldTheirSkin) {
