@@ -6,6 +6,7 @@
 #include "tffd/body_volume.hpp"
 #include "tffd/distortion.hpp"
 #include "tffd/lay_line.hpp"
+#include "tffd/skin_check.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -44,6 +45,21 @@ std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitt
       laid.push_back({line.name, tffd::lay_line({line.points, line.width, line.smooth, line.taut, line.held},
                                                 body.mesh.mesh, fitting.binding)});
   return laid;
+}
+
+// What there is to warn of; turns in the posture's frame, lines over the skin as it was scanned.
+std::vector<geometry::FitWarning> warnings_of(const Body& body, const Fitting& fitting, const Fit& fit,
+                                              const Settings& settings) {
+  std::vector<tffd::WornLine> lines;
+  for (const tensegric::LineResult& line : fit.solution.lines)
+    lines.push_back({line.name, line.course_at_rest, line.course, line.neutral, line.final, line.tension});
+  const geometry::TriangleMesh& mesh = body.mesh.mesh;
+  std::vector<geometry::FitWarning> all =
+      tffd::check_skin({fitting.binding.vertices(), fit.deformed, mesh.triangles}, lines);
+  for (geometry::FitWarning& warning :
+       tffd::under_constricted({mesh.vertices, fit.deformed, mesh.triangles}, lines, settings.hold))
+    all.push_back(std::move(warning));
+  return all;
 }
 
 geometry::BodyMeasures measures_of(const Body& body) {
@@ -147,6 +163,7 @@ Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& gar
     fit.body_volumes_after.push_back(
         geometry::cone_volume(fit.deformed, fitting.carried[r], settings.solver.bones.moved(apex)));
   }
+  fit.warnings = warnings_of(body, fitting, fit, settings);
   return fit;
 }
 

@@ -8,6 +8,7 @@
 #include "body_model/registration.hpp"
 #include "control_mesh/fit_template.hpp"
 #include "geometry/body_measures.hpp"
+#include "geometry/fit_warning.hpp"
 #include "geometry/point_cloud.hpp"
 #include "landmarks/find_landmarks.hpp"
 #include "reconstruction/reconstruct.hpp"
@@ -15,6 +16,7 @@
 #include "tensegric/model.hpp"
 #include "tensegric/solver.hpp"
 #include "tffd/binding.hpp"
+#include "tffd/under_constriction.hpp"
 
 namespace tensegric_fit::fit {
 
@@ -25,6 +27,7 @@ struct Settings {
   tensegric::ModelOptions model;
   tensegric::SolverOptions solver;
   tffd::Options tffd;
+  tffd::HoldOptions hold;
 };
 
 /// What a stage took, milliseconds of wall clock.
@@ -55,6 +58,7 @@ struct Fit {
   std::vector<double> distortion;           ///< area after / before, one a body vertex (P1 Fig. 8)
   std::vector<double> body_volumes_before;  ///< one a region, m^3, under the skin that it carries
   std::vector<double> body_volumes_after;
+  std::vector<geometry::FitWarning> warnings;  ///< and notices: tffd/skin_check.hpp, under_constriction.hpp
 };
 
 /// 1 and 2: scan -> mesh -> landmarks and girths.
