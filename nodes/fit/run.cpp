@@ -139,6 +139,9 @@ class Run {
                             inspect::parts_of(fitting.control, body_.measures.body_from_scan),
                             {},
                             {}};
+    for (const geometry::FitWarning& warning : fit.warnings)
+      if (warning.is_warning())
+        scene.warned.insert(scene.warned.end(), warning.vertices.begin(), warning.vertices.end());
     for (const auto& line : fit.solution.lines) {
       scene.lines_before.push_back(line.course_at_rest);
       scene.lines_after.push_back(line.course);
