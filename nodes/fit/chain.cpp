@@ -47,21 +47,6 @@ std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitt
   return laid;
 }
 
-// What there is to warn of; turns in the posture's frame, lines over the skin as it was scanned.
-std::vector<geometry::FitWarning> warnings_of(const Body& body, const Fitting& fitting, const Fit& fit,
-                                              const Settings& settings) {
-  std::vector<tffd::WornLine> lines;
-  for (const tensegric::LineResult& line : fit.solution.lines)
-    lines.push_back({line.name, line.course_at_rest, line.course, line.neutral, line.final, line.tension});
-  const geometry::TriangleMesh& mesh = body.mesh.mesh;
-  std::vector<geometry::FitWarning> all =
-      tffd::check_skin({fitting.binding.vertices(), fit.deformed, mesh.triangles}, lines);
-  for (geometry::FitWarning& warning :
-       tffd::under_constricted({mesh.vertices, fit.deformed, mesh.triangles}, lines, settings.hold))
-    all.push_back(std::move(warning));
-  return all;
-}
-
 geometry::BodyMeasures measures_of(const Body& body) {
   geometry::BodyMeasures measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, *body.model,
                                                               landmarks::shipped_precision());
@@ -163,8 +148,21 @@ Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& gar
     fit.body_volumes_after.push_back(
         geometry::cone_volume(fit.deformed, fitting.carried[r], settings.solver.bones.moved(apex)));
   }
-  fit.warnings = warnings_of(body, fitting, fit, settings);
   return fit;
+}
+
+std::vector<geometry::FitWarning> warnings_of(const Body& body, const Fitting& fitting, const Fit& fit,
+                                              const Settings& settings) {
+  std::vector<tffd::WornLine> lines;
+  for (const tensegric::LineResult& line : fit.solution.lines)
+    lines.push_back({line.name, line.course_at_rest, line.course, line.neutral, line.final, line.tension});
+  const geometry::TriangleMesh& mesh = body.mesh.mesh;
+  std::vector<geometry::FitWarning> all =
+      tffd::check_skin({fitting.binding.vertices(), fit.deformed, mesh.triangles}, lines);
+  for (geometry::FitWarning& warning :
+       tffd::under_constricted({mesh.vertices, fit.deformed, mesh.triangles}, lines, settings.hold))
+    all.push_back(std::move(warning));
+  return all;
 }
 
 }  // namespace tensegric_fit::fit

@@ -58,7 +58,6 @@ struct Fit {
   std::vector<double> distortion;           ///< area after / before, one a body vertex (P1 Fig. 8)
   std::vector<double> body_volumes_before;  ///< one a region, m^3, under the skin that it carries
   std::vector<double> body_volumes_after;
-  std::vector<geometry::FitWarning> warnings;  ///< and notices: tffd/skin_check.hpp, under_constriction.hpp
 };
 
 /// 1 and 2: scan -> mesh -> landmarks and girths.
@@ -82,5 +81,10 @@ Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings&
 /// an earlier fit on it, or null.
 Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& garment,
          const Settings& settings, StageTimes& times, const tensegric::Solution* start = nullptr);
+
+/// Warnings and notices (tffd/skin_check.hpp, tffd/under_constriction.hpp): turns in the posture's frame,
+/// lines over the skin as it was scanned.
+std::vector<geometry::FitWarning> warnings_of(const Body& body, const Fitting& fitting, const Fit& fit,
+                                              const Settings& settings);
 
 }  // namespace tensegric_fit::fit

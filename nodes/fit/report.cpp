@@ -101,7 +101,8 @@ Json json_of(const geometry::FitWarning& warning, const geometry::BodyMeasures& 
   return entry;
 }
 
-void add_fit(const Body& body, const Fitting& fitting, const Fit& fit, const Settings& settings,
+void add_fit(const Body& body, const Fitting& fitting, const Fit& fit,
+             const std::vector<geometry::FitWarning>& warnings, const Settings& settings,
              const StageTimes& times, Json& report) {
   const tensegric::Solution& solution = fit.solution;
   report["control"] = {{"nodes", fitting.control.outer.size()},
@@ -147,16 +148,17 @@ void add_fit(const Body& body, const Fitting& fitting, const Fit& fit, const Set
   report["distortion"] = {{"min", *low},
                           {"max", *high},
                           {"over_constricted", std::move(tight)},
-                          {"under_constricted", tffd::under_constricted_skin(fit.warnings)}};
+                          {"under_constricted", tffd::under_constricted_skin(warnings)}};
   report["warnings"] = report["notices"] = Json::array();
-  for (const geometry::FitWarning& warning : fit.warnings)
+  for (const geometry::FitWarning& warning : warnings)
     report[warning.is_warning() ? "warnings" : "notices"].push_back(json_of(warning, body.measures));
 }
 
 }  // namespace
 
 Json report_of(const Source& source, const Body& body, const Fitting* fitting, const Fit* fit,
-               const Settings& settings, const StageTimes& times) {
+               const std::vector<geometry::FitWarning>& warnings, const Settings& settings,
+               const StageTimes& times) {
   Json report;
   report["scan"] = {{"file", source.file},
                     {"more_files", source.more},
@@ -188,7 +190,7 @@ Json report_of(const Source& source, const Body& body, const Fitting* fitting, c
                                        {"share", thing.share},
                                        {"reason", thing.reason}});
   add_measures(body.measures, report);
-  if (fit != nullptr) add_fit(body, *fitting, *fit, settings, times, report);
+  if (fit != nullptr) add_fit(body, *fitting, *fit, warnings, settings, times, report);
   return report;
 }
 

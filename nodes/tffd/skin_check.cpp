@@ -114,17 +114,6 @@ double extreme(std::vector<Change> piece, Value value, bool largest) {
   return value(piece.back());
 }
 
-double from_line(const Eigen::Vector3d& point, const WornLine& line) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < line.worn.size(); ++i) {
-    const Eigen::Vector3d way = line.worn[i] - line.worn[i - 1], to = point - line.worn[i - 1];
-    const double length = way.squaredNorm(),
-                 part = length > 0 ? std::clamp(to.dot(way) / length, 0.0, 1.0) : 0;
-    nearest = std::min(nearest, (to - part * way).norm());
-  }
-  return nearest;
-}
-
 FitWarning warning_of(const char* code, const std::vector<Change>& piece, double value, const WornSkin& skin,
                       const std::vector<WornLine>& lines) {
   FitWarning warning;
@@ -143,7 +132,7 @@ FitWarning warning_of(const char* code, const std::vector<Change>& piece, double
                          warning.vertices.end());
   double nearest = kNearLine;
   for (const WornLine& line : lines)
-    if (const double distance = from_line(warning.worn, line); distance < nearest) {
+    if (const double distance = from_course(warning.worn, line.worn); distance < nearest) {
       nearest = distance;
       warning.line = line.name;
     }
@@ -180,6 +169,17 @@ void check_turns(const WornSkin& skin, const std::vector<Change>& changes, const
 }
 
 }  // namespace
+
+double from_course(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& course) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < course.size(); ++i) {
+    const Eigen::Vector3d way = course[i] - course[i - 1], to = point - course[i - 1];
+    const double length = way.squaredNorm(),
+                 part = length > 0 ? std::clamp(to.dot(way) / length, 0.0, 1.0) : 0;
+    nearest = std::min(nearest, (to - part * way).squaredNorm());
+  }
+  return std::sqrt(nearest);
+}
 
 std::vector<FitWarning> check_skin(const WornSkin& skin, const std::vector<WornLine>& lines) {
   if (skin.worn.size() != skin.rest.size())

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using geometry::FitWarning;
 
-constexpr double kStep = 5e-3;       // m, along a line: finer than the body's triangles
+constexpr double kStep = 0.01;       // m, along a line
 constexpr double kAround = 0.05;     // m, of skin about a line that is looked at
 constexpr double kShorter = 1e-3;    // of the neutral length
 constexpr double kNoTension = 1e-6;  // pseudo force: below what solvers settle to
@@ -39,7 +39,7 @@ std::vector<int> triangles_about(const std::vector<Vector3d>& course, const Worn
     const Eigen::Vector3i& t = skin.triangles[i];
     const Vector3d& corner = vertices[t[0]];
     if ((corner.array() < low.array()).any() || (corner.array() > high.array()).any()) continue;
-    triangles.push_back(static_cast<int>(i));
+    if (from_course(corner, course) < kAround) triangles.push_back(static_cast<int>(i));
   }
   return triangles;
 }
@@ -77,7 +77,8 @@ Lie lie_of(const std::vector<Vector3d>& course, const WornSkin& skin, const std:
     const Vector3d normal =
         geometry::area_vector(about.vertices[t[0]], about.vertices[t[1]], about.vertices[t[2]]).normalized();
     lie.feet.push_back(foot.position);
-    lie.heights.push_back(normal.dot(point - foot.position));
+    const Vector3d way = point - foot.position;
+    lie.heights.push_back(way.norm() > kAround ? kAround : normal.dot(way));
   }
   return lie;
 }

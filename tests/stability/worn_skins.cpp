@@ -41,7 +41,7 @@ void wear_all(const std::string& file, const std::vector<double>& ratios, const 
         const std::string run = fmt::format("{}_{}_{:.0f}", name, garment_name, 100 * ratio);
         geometry::write_ply_mesh((out / (run + ".ply")).string(), {fit.deformed, body.mesh.mesh.triangles});
         fmt::print(table, "{},{},{}", run, to_string(fit.solution.status), fit.solution.iterations);
-        for (const geometry::FitWarning& warning : fit.warnings)
+        for (const geometry::FitWarning& warning : fit::warnings_of(body, fitting, fit, settings))
           fmt::print(table, ",{}:{}:{:.2f}:{:.2f}:{:.3f}", warning.code, warning.line, 1e4 * warning.area,
                      1e4 * warning.shelf_area, warning.value);
         fmt::print(table, "\n");
