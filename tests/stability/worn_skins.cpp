@@ -1,4 +1,5 @@
-// Garments on bodies, as meshes that another program can look at: worn_skins --out DIR BODY.ply...
+// Every shipped garment on bodies, for shelves.py: BODY.ply, BODY_GARMENT_PERCENT.ply and warnings.csv.
+//   worn_skins --out DIR BODY.ply...
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -40,11 +41,13 @@ void wear_all(const std::string& file, const std::vector<double>& ratios, const 
         const fit::Fit fit = fit::wear(body, fitting, garment, settings, times);
         const std::string run = fmt::format("{}_{}_{:.0f}", name, garment_name, 100 * ratio);
         geometry::write_ply_mesh((out / (run + ".ply")).string(), {fit.deformed, body.mesh.mesh.triangles});
-        fmt::print(table, "{},{},{}", run, to_string(fit.solution.status), fit.solution.iterations);
-        for (const geometry::FitWarning& warning : fit::warnings_of(body, fitting, fit, settings))
-          fmt::print(table, ",{}:{}:{:.2f}:{:.2f}:{:.3f}", warning.code, warning.line, 1e4 * warning.area,
-                     1e4 * warning.shelf_area, warning.value);
-        fmt::print(table, "\n");
+        const std::string ended =
+            fmt::format("{},{},{},{}", name, run, to_string(fit.solution.status), fit.solution.iterations);
+        const auto warnings = fit::warnings_of(body, fitting, fit, settings);
+        if (warnings.empty()) fmt::print(table, "{},,,,,\n", ended);
+        for (const geometry::FitWarning& warning : warnings)
+          fmt::print(table, "{},{},{},{:.2f},{:.2f},{:.3f}\n", ended, warning.code, warning.line,
+                     1e4 * warning.area, 1e4 * warning.shelf_area, warning.value);
       }
     }
   }
@@ -54,13 +57,13 @@ void wear_all(const std::string& file, const std::vector<double>& ratios, const 
 }  // namespace tensegric_fit
 
 int main(int argc, char** argv) {
-  CLI::App app("Garments on bodies, as meshes that another program can look at.");
+  CLI::App app("Every shipped garment on bodies, as meshes that another program can look at.");
   std::vector<std::string> bodies;
   std::vector<double> ratios{0.95, 0.92, 0.88, 0.85};
   std::string out;
-  app.add_option("bodies", bodies)->required();
-  app.add_option("--ratio", ratios);
-  app.add_option("--out", out)->required();
+  app.add_option("bodies", bodies, "Body meshes, BODY.ply")->required();
+  app.add_option("--ratio", ratios, "Ratios of all lines")->capture_default_str()->allow_extra_args(false);
+  app.add_option("--out", out, "Folder")->required();
   CLI11_PARSE(app, argc, argv);
   std::filesystem::create_directories(out);
   std::FILE* table = std::fopen((out + "/warnings.csv").c_str(), "w");
@@ -68,6 +71,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}: cannot be written\n", out);
     return 1;
   }
+  fmt::print(table, "body,run,status,iterations,code,line,area_cm2,shelf_cm2,value\n");
   for (const std::string& body : bodies) {
     try {
       tensegric_fit::wear_all(body, ratios, out, table);
