@@ -155,13 +155,17 @@ void check_turns(const WornSkin& skin, const std::vector<Change>& changes, const
   }
   const bool is_shelf = shelf >= kLeastPatch;
   const double least_shelf = std::min(kShare * shelf, largest);  // one place is named at least
+  const auto is_named = [&](const std::vector<Change>& piece) {
+    if (is_shelf) return area_beyond(piece, kShelf) >= least_shelf;
+    return area_of(piece) >= kLeastPatch || area_beyond(piece, kTurnedOver) >= kGrain;
+  };
   std::vector<FitWarning> turned, over;
   for (const auto& piece : places)
-    if (is_shelf ? area_beyond(piece, kShelf) >= least_shelf : area_of(piece) >= kLeastPatch)
+    if (is_named(piece))
       turned.push_back(warning_of(is_shelf ? geometry::warning::kShelf : geometry::notice::kSkinTurns, piece,
                                   extreme(piece, turn_of, true), skin, lines));
   for (const auto& piece : pieces(skin, changes, [](const Change& c) { return c.turn > kTurnedOver; }))
-    if (area_of(piece) >= kGrain)
+    if (is_shelf && area_of(piece) >= kGrain)
       over.push_back(
           warning_of(geometry::warning::kTurnedOver, piece, extreme(piece, turn_of, true), skin, lines));
   append_sorted(std::move(turned), all);

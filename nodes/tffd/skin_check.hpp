@@ -47,10 +47,10 @@ struct WornSkin {
 double from_course(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& course);
 
 /// Connected places (by corners of triangles), the largest of a kind first:
-/// `shelf`: skin turned by more than kTurned; in all, kLeastPatch or more of it by more than kShelf; one a
-///   place that has a tenth of that;
-/// `skin_turns`: kLeastPatch turned by more than kTurned, and no shelf anywhere;
-/// `turned_over`: kGrain and more turned by more than kTurnedOver;
+/// `shelf`: skin turned by more than kTurned, where in all kLeastPatch or more is turned by more than kShelf;
+///   one a place that has a tenth of that;
+/// `turned_over`: kGrain and more turned by more than kTurnedOver, where there is a shelf;
+/// `skin_turns`: where there is none, kLeastPatch turned by more than kTurned, or kGrain turned over;
 /// `over_stretched`, `pressed_together`: kLeastPatch beyond kMostStretch, kLeastStretch.
 /// Turns are of triangles' normals; only triangles with a corner that moved are looked at. Where there are
 /// no lines nothing is said of turns: a force or a posture bends a shape as a whole.

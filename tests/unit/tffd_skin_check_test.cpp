@@ -89,6 +89,13 @@ TEST(SkinCheck, TurnedOverIsNamed) {
   EXPECT_NEAR(over[0].value, 150 * kDegree, 1e-9);
   EXPECT_NEAR(over[0].area, 4 * kSide * 0.2, 1e-9);
   EXPECT_TRUE(over[0].is_warning());
+  // Less than a square centimetre of it is no shelf, and said all the same.
+  std::vector<Vector3d> little = mesh.vertices;
+  const int corner = 20 * (kSquares + 1) + 10;
+  little[corner].x() -= 2 * kSide;
+  const auto notices = check_skin({mesh.vertices, little, mesh.triangles}, line_at(0.05));
+  EXPECT_EQ(with_code(notices, geometry::notice::kSkinTurns).size(), 1u);
+  for (const FitWarning& notice : notices) EXPECT_FALSE(notice.is_warning());
 }
 
 TEST(SkinCheck, LittleShelvesAddUpAndEachIsNamed) {
