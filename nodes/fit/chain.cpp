@@ -6,6 +6,7 @@
 #include "tffd/body_volume.hpp"
 #include "tffd/distortion.hpp"
 #include "tffd/lay_line.hpp"
+#include "tffd/skin_check.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -147,6 +148,20 @@ Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& gar
         geometry::cone_volume(fit.deformed, fitting.carried[r], settings.solver.bones.moved(apex)));
   }
   return fit;
+}
+
+std::vector<geometry::FitWarning> warnings_of(const Body& body, const Fitting& fitting, const Fit& fit,
+                                              const Settings& settings) {
+  std::vector<tffd::WornLine> lines;
+  for (const tensegric::LineResult& line : fit.solution.lines)
+    lines.push_back({line.name, line.course_at_rest, line.course, line.neutral, line.final, line.tension});
+  const geometry::TriangleMesh& mesh = body.mesh.mesh;
+  std::vector<geometry::FitWarning> all =
+      tffd::check_skin({fitting.binding.vertices(), fit.deformed, mesh.triangles}, lines);
+  for (geometry::FitWarning& warning :
+       tffd::under_constricted({mesh.vertices, fit.deformed, mesh.triangles}, lines, settings.hold))
+    all.push_back(std::move(warning));
+  return all;
 }
 
 }  // namespace tensegric_fit::fit

@@ -9,6 +9,7 @@
 #include "control_mesh/fit_template.hpp"
 #include "geometry/body_measures.hpp"
 #include "geometry/fibre.hpp"
+#include "geometry/fit_warning.hpp"
 #include "geometry/point_cloud.hpp"
 #include "landmarks/find_landmarks.hpp"
 #include "reconstruction/reconstruct.hpp"
@@ -16,6 +17,7 @@
 #include "tensegric/model.hpp"
 #include "tensegric/solver.hpp"
 #include "tffd/binding.hpp"
+#include "tffd/under_constriction.hpp"
 
 namespace tensegric_fit::fit {
 
@@ -26,6 +28,7 @@ struct Settings {
   tensegric::ModelOptions model;
   tensegric::SolverOptions solver;
   tffd::Options tffd;
+  tffd::HoldOptions hold;
 };
 
 /// What a stage took, milliseconds of wall clock.
@@ -83,5 +86,10 @@ std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitt
 /// an earlier fit on it, or null.
 Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& garment,
          const Settings& settings, StageTimes& times, const tensegric::Solution* start = nullptr);
+
+/// Warnings and notices (tffd/skin_check.hpp, tffd/under_constriction.hpp): turns in the posture's frame,
+/// lines over the skin as it was scanned.
+std::vector<geometry::FitWarning> warnings_of(const Body& body, const Fitting& fitting, const Fit& fit,
+                                              const Settings& settings);
 
 }  // namespace tensegric_fit::fit

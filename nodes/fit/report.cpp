@@ -8,6 +8,8 @@
 
 #include "fit/effects.hpp"
 #include "geometry/csv.hpp"
+#include "inspect/warning_words.hpp"
+#include "tffd/under_constriction.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -77,7 +79,30 @@ void add_measures(const geometry::BodyMeasures& measures, Json& report) {
   for (const geometry::Missing& missing : measures.missing) report["missing"][missing.name] = missing.reason;
 }
 
-void add_fit(const Body& body, const Fitting& fitting, const Fit& fit, const Settings& settings,
+Json json_of(const geometry::FitWarning& warning, const geometry::BodyMeasures& measures) {
+  using namespace geometry;
+  Json entry{{"code", warning.code},
+             {"message", inspect::words::warning(warning, measures)},
+             {"place", json_of(warning.at_rest)},
+             {"place_worn", json_of(warning.worn)}};
+  const Landmark* landmark = inspect::words::nearest_landmark(measures, warning.at_rest);
+  entry["landmark"] = landmark == nullptr ? Json() : Json(landmark->name);
+  entry["line"] = warning.line.empty() ? Json() : Json(warning.line);
+  entry["area_cm2"] = 1e4 * warning.area;
+  if (warning.code == notice::kOverStretched || warning.code == notice::kPressedTogether) {
+    entry["stretch"] = warning.value;
+  } else if (warning.code == notice::kUnderConstricted) {
+    entry["lack"] = warning.lack;
+    entry[warning.lack == lack::kLiftsOff ? "share" : "tension"] = warning.value;
+  } else {
+    entry["shelf_cm2"] = 1e4 * warning.shelf_area;
+    entry["largest_turn_deg"] = warning.value * 180 / M_PI;
+  }
+  return entry;
+}
+
+void add_fit(const Body& body, const Fitting& fitting, const Fit& fit,
+             const std::vector<geometry::FitWarning>& warnings, const Settings& settings,
              const StageTimes& times, Json& report) {
   const tensegric::Solution& solution = fit.solution;
   report["control"] = {{"nodes", fitting.control.outer.size()},
@@ -122,13 +147,20 @@ void add_fit(const Body& body, const Fitting& fitting, const Fit& fit, const Set
   Json tight = Json::array();
   for (std::size_t v = 0; v < fit.distortion.size(); ++v)
     if (fit.distortion[v] < kOverConstricted) tight.push_back(v);
-  report["distortion"] = {{"min", *low}, {"max", *high}, {"over_constricted", std::move(tight)}};
+  report["distortion"] = {{"min", *low},
+                          {"max", *high},
+                          {"over_constricted", std::move(tight)},
+                          {"under_constricted", tffd::under_constricted_skin(warnings)}};
+  report["warnings"] = report["notices"] = Json::array();
+  for (const geometry::FitWarning& warning : warnings)
+    report[warning.is_warning() ? "warnings" : "notices"].push_back(json_of(warning, body.measures));
 }
 
 }  // namespace
 
 Json report_of(const Source& source, const Body& body, const Fitting* fitting, const Fit* fit,
-               const Settings& settings, const StageTimes& times) {
+               const std::vector<geometry::FitWarning>& warnings, const Settings& settings,
+               const StageTimes& times) {
   Json report;
   report["scan"] = {{"file", source.file},
                     {"more_files", source.more},
@@ -160,7 +192,7 @@ Json report_of(const Source& source, const Body& body, const Fitting* fitting, c
                                        {"share", thing.share},
                                        {"reason", thing.reason}});
   add_measures(body.measures, report);
-  if (fit != nullptr) add_fit(body, *fitting, *fit, settings, times, report);
+  if (fit != nullptr) add_fit(body, *fitting, *fit, warnings, settings, times, report);
   return report;
 }
 

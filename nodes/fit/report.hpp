@@ -21,9 +21,11 @@ struct Source {
 /// Body vertices whose area shrinks below this share are called over-constricted (P1 Fig. 8).
 inline constexpr double kOverConstricted = 0.8;
 
-/// The report of a run that went through; `fitting` and `fit` are null where only measured.
+/// The report of a run that went through; `fitting` and `fit` are null where only measured. `warnings`: of
+/// the fit.
 nlohmann::ordered_json report_of(const Source& source, const Body& body, const Fitting* fitting,
-                                 const Fit* fit, const Settings& settings, const StageTimes& times);
+                                 const Fit* fit, const std::vector<geometry::FitWarning>& warnings,
+                                 const Settings& settings, const StageTimes& times);
 
 /// The report of a refused run.
 nlohmann::ordered_json report_of(const Source& source, const geometry::Refusal& refusal);

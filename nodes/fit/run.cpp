@@ -56,6 +56,7 @@ class Run {
     settings_.solver.track = tracked_nodes(fitting.control);
     say("tensegric deformation");
     const Fit fit = wear(body_, fitting, garment, settings_, times_);
+    warnings_ = warnings_of(body_, fitting, fit, settings_);
     write_fit(fitting, fit);
   }
 
@@ -139,6 +140,9 @@ class Run {
                             inspect::parts_of(fitting.control, body_.measures.body_from_scan),
                             {},
                             {}};
+    for (const geometry::FitWarning& warning : warnings_)
+      if (warning.is_warning())
+        scene.warned.insert(scene.warned.end(), warning.vertices.begin(), warning.vertices.end());
     for (const auto& line : fit.solution.lines) {
       scene.lines_before.push_back(line.course_at_rest);
       scene.lines_after.push_back(line.course);
@@ -180,7 +184,7 @@ class Run {
   }
 
   void write_report(const Fitting* fitting, const Fit* fit) const {
-    write_json(path("report.json"), report_of(source_, body_, fitting, fit, settings_, times_));
+    write_json(path("report.json"), report_of(source_, body_, fitting, fit, warnings_, settings_, times_));
   }
 
   const CommandLine& line_;
@@ -188,6 +192,7 @@ class Run {
   StageTimes times_;
   Source source_;
   Body body_;
+  std::vector<geometry::FitWarning> warnings_;
 };
 
 }  // namespace

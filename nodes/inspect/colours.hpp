@@ -18,6 +18,9 @@ inline constexpr Colour kNeutral{212, 205, 199};
 /// Landmarks and tapes: sure, and with a confidence below 0.5.
 inline constexpr Colour kSureColour{40, 110, 220}, kUnsureColour{240, 140, 20};
 
+/// Skin that there is a warning of.
+inline constexpr Colour kWarnedColour{240, 140, 20};
+
 /// The scale's ends: distortion below the first and above the second is shown as the end is.
 inline constexpr double kTightest = 0.7, kLoosest = 1.3;
 

@@ -36,13 +36,41 @@ Part part_of(const std::vector<Eigen::Vector3d>& nodes, const std::vector<Eigen:
   return part;
 }
 
+std::vector<Colour> warned_colours(const FitScene& scene) {
+  if (scene.warned.empty()) return {};
+  std::vector<Colour> colours(scene.after.size(), kNeutral);
+  for (const int v : scene.warned) colours[v] = kWarnedColour;
+  return colours;
+}
+
+// The border of the skin that there is a warning of, a side at a time.
+std::vector<Polyline> warned_borders(const FitScene& scene) {
+  std::vector<char> warned(scene.after.size(), 0);
+  for (const int v : scene.warned) warned[v] = 1;
+  geometry::TriangleMesh skin;
+  skin.vertices = scene.after;
+  for (const Eigen::Vector3i& t : scene.before.triangles)
+    if (warned[t[0]] && warned[t[1]] && warned[t[2]]) skin.triangles.push_back(t);
+  std::vector<Polyline> borders;
+  const std::vector<geometry::TriangleSide> sides = geometry::sorted_sides(skin);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const auto same = [&](std::size_t other) {
+      return other < sides.size() && sides[other].low == sides[i].low && sides[other].high == sides[i].high;
+    };
+    if (!same(i + 1) && (i == 0 || !same(i - 1)))
+      borders.push_back({{scene.after[sides[i].low], scene.after[sides[i].high]}, false, kInk, 0});
+  }
+  return borders;
+}
+
 cv::Mat before_and_after(const FitScene& scene, MakeView make) {
   const View view = framed(make, scene);
   const cv::Mat left =
       draw(scene.before, {}, garment_lines(scene.lines_before, kGarment), view, kPanel, kPanel);
-  const cv::Mat right = draw({scene.after, scene.before.triangles}, {},
+  const cv::Mat right = draw({scene.after, scene.before.triangles}, warned_colours(scene),
                              garment_lines(scene.lines_after, kGarment), view, kPanel, kPanel);
-  return side_by_side(with_caption(left, "before"), with_caption(right, "after"));
+  const char* after = scene.warned.empty() ? "after" : "after; orange: the skin folds";
+  return side_by_side(with_caption(left, "before"), with_caption(right, after));
 }
 
 }  // namespace
@@ -79,7 +107,8 @@ cv::Mat back_picture(const FitScene& scene) {
 cv::Mat distortion_picture(const FitScene& scene) {
   const geometry::TriangleMesh after{scene.after, scene.before.triangles};
   const std::vector<Colour> colours = distortion_colours(scene.distortion);
-  const std::vector<Polyline> lines = garment_lines(scene.lines_after, kInk);
+  std::vector<Polyline> lines = garment_lines(scene.lines_after, kInk);
+  for (Polyline& border : warned_borders(scene)) lines.push_back(std::move(border));
   std::vector<Part> rows = scene.parts;
   if (rows.empty()) rows.push_back({scene.before.vertices, false});
   std::vector<cv::Mat> pictures;
@@ -93,7 +122,9 @@ cv::Mat distortion_picture(const FitScene& scene) {
   }
   cv::Mat picture;
   cv::vconcat(pictures, picture);
-  return with_distortion_scale(with_caption(picture, "area of the skin after / before"));
+  return with_distortion_scale(with_caption(
+      picture, scene.warned.empty() ? "area of the skin after / before"
+                                    : "area of the skin after / before; outlined: the skin folds"));
 }
 
 }  // namespace tensegric_fit::inspect

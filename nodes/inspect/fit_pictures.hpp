@@ -33,6 +33,7 @@ struct FitScene {
   const geometry::BodyMeasures& measures;                               ///< for the frame
   std::vector<Part> parts;                                              ///< empty: the whole body
   std::vector<std::vector<Eigen::Vector3d>> lines_before, lines_after;  ///< constraining lines
+  std::vector<int> warned = {};  ///< vertices of skin that there is a warning of: marked where it is worn
 };
 
 /// Before on the left, after on the right (P1 Fig. 6, Fig. 7, Fig. 5): BGR, 1512 x 796. All \throw as draw()

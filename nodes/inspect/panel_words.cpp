@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -86,6 +87,16 @@ std::string over_constriction(double tightest, const std::string& landmark) {
   if (tightest >= kOverConstricted) return "";
   return fmt::format("Over-constricted{}: the skin is drawn together to {} of its area.",
                      landmark.empty() ? "" : " near the " + landmark, per_cent(tightest));
+}
+
+std::string warnings(const std::vector<std::string>& messages) {
+  constexpr std::size_t kShown = 2;
+  std::string words;
+  for (std::size_t i = 0; i < std::min(kShown, messages.size()); ++i)
+    words += (i == 0 ? "" : " ") + messages[i];
+  if (const std::size_t more = messages.size() - std::min(kShown, messages.size()); more > 0)
+    words += fmt::format(" And {} more {}.", more, more == 1 ? "place" : "places");
+  return words;
 }
 
 std::string volume(const std::string& region, double before, double after) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace tensegric_fit::inspect::words {
 
@@ -52,6 +53,9 @@ std::string line_warning(const LineOutcome& line);
 inline constexpr double kOverConstricted = 0.8;
 /// "" where the tightest skin is not over-constricted.
 std::string over_constriction(double tightest, const std::string& landmark);
+
+/// Warnings of a fit in one paragraph: the first two, and how many more places there are.
+std::string warnings(const std::vector<std::string>& messages);
 
 std::string volume(const std::string& region, double before, double after);
 std::string centimetres(double metres);

@@ -63,6 +63,9 @@ inspect::FitScene scene_of(const FitFigures& figures) {
       scene.lines_after.back().push_back(figures.control_deformed[node]);
     }
   }
+  for (const geometry::FitWarning& warning : figures.scan.warnings)
+    if (warning.is_warning())
+      scene.warned.insert(scene.warned.end(), warning.vertices.begin(), warning.vertices.end());
   return scene;
 }
 

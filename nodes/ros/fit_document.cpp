@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/csv.hpp"
+#include "inspect/warning_words.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -108,6 +109,19 @@ ordered_json volumes_of(const FittedScan& scan) {
   return volumes;
 }
 
+ordered_json warnings_of(const FitFigures& figures, bool warnings) {
+  ordered_json list = ordered_json::array();
+  for (const geometry::FitWarning& warning : figures.scan.warnings) {
+    if (warning.is_warning() != warnings) continue;
+    list.push_back({{"code", warning.code},
+                    {"message", inspect::words::warning(warning, figures.measures)},
+                    {"line", warning.line},
+                    {"place_mm", millimetres(warning.at_rest)},
+                    {"area_cm2", 1e4 * warning.area}});
+  }
+  return list;
+}
+
 ordered_json rows_of(const Eigen::Isometry3d& transform) {
   ordered_json rows = ordered_json::array();
   for (int i = 0; i < 4; ++i) {
@@ -139,6 +153,8 @@ std::string fit_json(const FitFigures& figures, const std::vector<std::string>& 
   document["body"] = body_of(figures);
   document["volumes"] = volumes_of(figures.scan);
   document["distortion"] = {{"min", *tightest}, {"max", *loosest}};
+  document["warnings"] = warnings_of(figures, true);
+  document["notices"] = warnings_of(figures, false);
   document["files"] = files;
   // names may come from any publisher: what is no UTF-8 is replaced, not thrown at
   return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";

@@ -14,6 +14,7 @@
 #include "geometry/body_measures.hpp"
 #include "geometry/bra_size.hpp"
 #include "geometry/control_mesh.hpp"
+#include "geometry/fit_warning.hpp"
 #include "geometry/moved_skin.hpp"
 #include "geometry/triangle_mesh.hpp"
 
@@ -26,6 +27,7 @@ struct FittedScan {
   ControlMesh::ConstPtr control;
   FitState::ConstPtr fit;
   DeformedMesh::ConstPtr deformed;
+  std::vector<geometry::FitWarning> warnings = {};  ///< and notices
 };
 
 /// The same as core types, and what follows from it. Metres.

@@ -3,12 +3,15 @@
 
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
+#include <tensegric_fit/FitWarnings.h>
 #include <tensegric_fit/Garment.h>
 #include <tensegric_fit/MemberForces.h>
 
 #include <string>
 #include <vector>
 
+#include "geometry/body_measures.hpp"
+#include "geometry/fit_warning.hpp"
 #include "geometry/posture.hpp"
 #include "ros/scan_tag.hpp"
 #include "tensegric/garment.hpp"
@@ -48,5 +51,10 @@ FitState to_message(const FitName& name, const tensegric::Iterate& iterate,
 /// Forces of the model's members in a fit that has ended.
 MemberForces to_message(const ScanTag& tag, const std::string& garment, const tensegric::Model& model,
                         const tensegric::Solution& solution);
+
+/// Warnings and notices with their sentences.
+FitWarnings to_message(const ScanTag& tag, const std::string& garment,
+                       const std::vector<geometry::FitWarning>& warnings,
+                       const geometry::BodyMeasures& measures);
 
 }  // namespace tensegric_fit::node

@@ -3,8 +3,10 @@
 #include <boost/make_shared.hpp>
 
 #include "ros/body_messages.hpp"
+#include "ros/fit_messages.hpp"
 #include "ros/flat.hpp"
 #include "tffd/distortion.hpp"
+#include "tffd/skin_check.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -29,8 +31,30 @@ std::shared_ptr<const BoundBody> bind(const FittedScan& scan, const tffd::Option
   if (posture.twist != 0 || posture.side_lean != 0)
     binding = binding.posed(geometry::BoneFrames(measures, posture));
   return std::make_shared<const BoundBody>(BoundBody{scan.body, scan.control, std::move(mesh),
-                                                     std::move(control), measures.body_from_scan, posture,
+                                                     std::move(control), measures, posture,
                                                      std::move(binding), volume});
+}
+
+// What there is to warn of; turns in the posture's frame, lines over the skin as it was scanned.
+std::vector<geometry::FitWarning> warnings_of(const FitState& fit, const BoundBody& bound,
+                                              const std::vector<Eigen::Vector3d>& worn,
+                                              const tffd::HoldOptions& hold) {
+  std::vector<tffd::WornLine> lines;
+  for (const LineResult& line : fit.lines)
+    lines.push_back({line.name, points_in(line.course_at_rest), points_in(line.course), line.neutral,
+                     line.final, line.tension});
+  std::vector<geometry::FitWarning> all =
+      tffd::check_skin({bound.binding.vertices(), worn, bound.mesh.triangles}, lines);
+  for (geometry::FitWarning& warning :
+       tffd::under_constricted({bound.mesh.vertices, worn, bound.mesh.triangles}, lines, hold))
+    all.push_back(std::move(warning));
+  return all;
+}
+
+std::string codes_of(const std::vector<FitWarning>& warnings) {
+  std::string codes;
+  for (const FitWarning& warning : warnings) codes += (codes.empty() ? "" : ", ") + warning.code;
+  return codes;
 }
 
 }  // namespace
@@ -43,12 +67,13 @@ TffdHandler::TffdHandler(Parameters parameters) {
                            ? tffd::Precision::fast
                            : tffd::Precision::reference;
   options_.truncation = parameters.number("truncation", options_.truncation, 0, 0.1);
+  hold_.least_pull = parameters.number("least_pull", hold_.least_pull, 0, tffd::kHighestLeastPull);
   parameters.check_all_known();
 }
 
 TffdHandler::Output TffdHandler::handle(const Input& input) {
   const auto& [fit, body, landmarks, control] = input;
-  FittedScan scan{body, landmarks, control, fit, nullptr};
+  FittedScan scan{body, landmarks, control, fit, nullptr, {}};
   if (!bound_ || !is_of(*bound_, scan)) bound_ = bind(scan, options_);
   const std::vector<Eigen::Vector3d> outer = points_in(fit->outer);
   const std::vector<Eigen::Vector3d> vertices = bound_->binding.deform(outer, points_in(fit->inner));
@@ -65,7 +90,16 @@ TffdHandler::Output TffdHandler::handle(const Input& input) {
   message->volume_before = bound_->volume;
   message->volume_after = geometry::cone_volume(vertices, bound_->mesh.triangles);
   scan.deformed = message;
-  return {scan, bound_, {{"garment", fit->garment}}};
+  if (fit->status == FitState::SOLVING) return {scan, bound_, nullptr, {}};
+  scan.warnings = warnings_of(*fit, *bound_, vertices, hold_);
+  const auto warnings = boost::make_shared<FitWarnings>(
+      to_message(tag_in(*fit), fit->garment, scan.warnings, bound_->measures));
+  return {scan,
+          bound_,
+          warnings,
+          {{"garment", fit->garment},
+           {"warnings", codes_of(warnings->warnings)},
+           {"notices", codes_of(warnings->notices)}}};
 }
 
 }  // namespace tensegric_fit::node

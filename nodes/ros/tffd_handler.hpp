@@ -1,5 +1,7 @@
-/// body/mesh + body/landmarks + control/mesh + control/deformed -> body/deformed
+/// body/mesh + body/landmarks + control/mesh + control/deformed -> body/deformed, body/warnings
 #pragma once
+
+#include <tensegric_fit/FitWarnings.h>
 
 #include <memory>
 #include <optional>
@@ -10,6 +12,7 @@
 #include "ros/parameters.hpp"
 #include "ros/scan_join.hpp"
 #include "tffd/binding.hpp"
+#include "tffd/under_constriction.hpp"
 
 namespace tensegric_fit::node {
 
@@ -19,7 +22,7 @@ struct BoundBody {
   ControlMesh::ConstPtr control;
   geometry::TriangleMesh mesh;
   geometry::ControlMesh control_mesh;
-  Eigen::Isometry3d body_from_scan;
+  geometry::BodyMeasures measures;
   geometry::Posture posture;
   tffd::Binding binding;
   double volume;
@@ -39,8 +42,9 @@ class TffdHandler {
   }
 
   struct Output {
-    FittedScan scan;  ///< `deformed` is what is new
+    FittedScan scan;  ///< `deformed` and `warnings` are what is new
     std::shared_ptr<const BoundBody> bound;
+    FitWarnings::ConstPtr warnings;  ///< none of a fit on its way
     Facts facts;
   };
   /// For one thread, which need not be that of add(). \throw Refusal as tffd::Binding
@@ -48,6 +52,7 @@ class TffdHandler {
 
  private:
   tffd::Options options_;
+  tffd::HoldOptions hold_;
   Join join_;
   std::shared_ptr<const BoundBody> bound_;
 };

@@ -1,4 +1,4 @@
-/// body/mesh + body/landmarks + control/mesh + control/deformed -> body/deformed
+/// body/mesh + body/landmarks + control/mesh + control/deformed -> body/deformed, body/warnings
 #include "inspect/markers.hpp"
 #include "ros/display.hpp"
 #include "ros/export_desk.hpp"
@@ -16,6 +16,7 @@ class TffdNode {
       : handler_(Parameters(private_node)),
         deformed_(node.advertise<DeformedMesh>("body/deformed", 1, true)),
         passing_(node.advertise<DeformedMesh>("body/deformed", 1)),
+        warnings_(node.advertise<FitWarnings>("body/warnings", 1, true)),
         display_(private_node),
         exports_(node),
         stage_("tffd", node) {
@@ -40,7 +41,7 @@ class TffdNode {
     if (!input) return;
     const auto work = [this, input = *input]() -> Stage::Result {
       const Output output = handler_.handle(input);
-      return {[this, output] { publish(output); }, output.facts};
+      return {[this, output] { publish(output); }, output.facts, said(output)};
     };
     if (std::get<FitState::ConstPtr>(*input)->status == FitState::SOLVING)
       stage_.post_passing(message->scan_id, work);
@@ -48,9 +49,19 @@ class TffdNode {
       stage_.post(message->scan_id, work);
   }
 
+  // Its warnings, for people.
+  static std::string said(const Output& output) {
+    std::string words;
+    if (output.warnings)
+      for (const FitWarning& warning : output.warnings->warnings)
+        words += (words.empty() ? "" : " ") + warning.message;
+    return words;
+  }
+
   void publish(const Output& output) {
     if (output.scan.fit->status == FitState::SOLVING) return passing_.publish(output.scan.deformed);
     deformed_.publish(output.scan.deformed);
+    warnings_.publish(output.warnings);
     show(output.scan.deformed, output.bound);
     exports_.keep(output.scan);
   }
@@ -66,17 +77,18 @@ class TffdNode {
     display_.markers.offer([=] {
       const geometry::TriangleMesh mesh = shape();
       return inspect::Markers(header)
-          .body(mesh, skin_colours(mesh, distortion(), bound->body_from_scan))
+          .body(mesh, skin_colours(mesh, distortion(), bound->measures.body_from_scan))
           .share();
     });
     display_.polygon_mesh.offer(
         [=] { return inspect::polygon_mesh(header, shape(), inspect::distortion_colours(distortion())); });
     display_.image.offer(
-        [=] { return front_image(header, shape(), distortion(), {}, bound->body_from_scan); });
+        [=] { return front_image(header, shape(), distortion(), {}, bound->measures.body_from_scan); });
   }
 
   TffdHandler handler_;
   ros::Publisher deformed_, passing_;  // one topic: how a fit ended is kept for late joiners
+  ros::Publisher warnings_;
   Display display_;
   ExportDesk exports_;
   std::vector<ros::Subscriber> subscribers_;

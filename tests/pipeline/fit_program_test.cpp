@@ -129,6 +129,33 @@ TEST_F(FitProgram, WritesEveryFieldAndFile) {
   EXPECT_EQ(read_file(file("out/history.csv")).substr(0, 10), "iteration,");
 }
 
+TEST_F(FitProgram, SaysWhatIsTooMuchAndWhatIsTooLittle) {
+  const auto codes = [&](const char* list) {
+    std::set<std::string> found;
+    for (const json& entry : report()[list]) {
+      found.insert(entry["code"]);
+      EXPECT_FALSE(entry["message"].get<std::string>().empty());
+      EXPECT_EQ(entry["place"].size(), 3u);
+    }
+    return found;
+  };
+  const std::string body = "--mesh " + kScans + "/a/body.ply --garment B1 --ratio ";
+  ASSERT_EQ(fit(body + "0.95"), 0) << read_file(file("log"));
+  EXPECT_TRUE(codes("warnings").empty());
+  EXPECT_TRUE(report()["distortion"]["under_constricted"].empty());
+  ASSERT_EQ(fit(body + "1"), 0) << read_file(file("log"));
+  EXPECT_TRUE(codes("warnings").empty());
+  EXPECT_EQ(codes("notices"), std::set<std::string>{"under_constricted"});
+  EXPECT_EQ(report()["notices"].at(0)["lack"], "slack");
+  EXPECT_GT(report()["distortion"]["under_constricted"].size(), 10u);
+  ASSERT_EQ(fit(body + "0.75"), 0) << read_file(file("log"));
+  EXPECT_EQ(codes("warnings").count("shelf"), 1u);
+  const json shelf = report()["warnings"].at(0);
+  EXPECT_EQ(shelf["line"], "chest");
+  EXPECT_GT(shelf["largest_turn_deg"], 60);
+  EXPECT_GE(shelf["area_cm2"], shelf["shelf_cm2"]);
+}
+
 TEST_F(FitProgram, SaysTheSameTwice) {
   const std::string arguments = "--scan " + kScans + "/b/scan.bag --garment B1 --body-triangles 20000";
   ASSERT_EQ(fit(arguments, "one"), 0) << read_file(file("log"));
@@ -258,6 +285,7 @@ TEST_F(FitProgram, AGarmentIsWornInAnyPosture) {
   const json r = report();
   EXPECT_NEAR(r["posture"]["twist"].get<double>(), 15, 1e-12);
   EXPECT_NEAR(r["posture"]["lean"].get<double>(), -10, 1e-12);
+  EXPECT_TRUE(r["warnings"].empty());
   EXPECT_EQ(r["solver"]["status"], "converged");
   EXPECT_NEAR(r["lines"].at(0)["ratio"].get<double>(), 0.95, 1e-6);  // DESIGN §7
   const json& volume = r["regions"].at(0)["control_volume"];

@@ -14,6 +14,7 @@ namespace {
 using namespace tensegric_fit;
 using control_mesh::refusal_with;
 const std::string kBust = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/templates/bust.yaml";
+const std::string kHips = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/templates/hips.yaml";
 
 TEST(BustTemplate, HasTheSizeOfThePapers) {
   const auto grid = control_mesh::grid_of(control_mesh::load_template(kBust));

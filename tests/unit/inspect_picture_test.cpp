@@ -168,6 +168,22 @@ TEST(FitPictures, AnUndeformedBodyLooksTheSameBeforeAndAfter) {
   }
 }
 
+TEST(FitPictures, SkinThatFoldsIsMarked) {
+  const geometry::TriangleMesh body = sphere({0, 0, 1}, 0.3);
+  const std::vector<double> ones(body.vertices.size(), 1);
+  const geometry::BodyMeasures measures;
+  FitScene scene{body, body.vertices, ones, measures, {}, {}, {}};
+  const cv::Mat plain = front_picture(scene), plain_distortion = distortion_picture(scene);
+  for (std::size_t v = 0; v < body.vertices.size(); ++v)
+    if (body.vertices[v].z() > 1.1) scene.warned.push_back(static_cast<int>(v));
+  const cv::Mat marked = front_picture(scene);
+  const cv::Rect left(0, 46, 750, 750), lower_right(762, 46 + 500, 750, 250);
+  EXPECT_TRUE(same_bytes(plain(left), marked(left)));                // before there is nothing to mark
+  EXPECT_TRUE(same_bytes(plain(lower_right), marked(lower_right)));  // nor where it does not fold
+  EXPECT_FALSE(same_bytes(plain, marked));
+  EXPECT_FALSE(same_bytes(plain_distortion, distortion_picture(scene)));
+}
+
 TEST(FitPictures, DistortionIsShownInColour) {
   const geometry::TriangleMesh body = sphere({0, 0, 1}, 0.3);
   const geometry::BodyMeasures measures;

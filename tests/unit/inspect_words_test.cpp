@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "inspect/panel_words.hpp"
+#include "inspect/warning_words.hpp"
 
 namespace tensegric_fit::inspect::words {
 namespace {
@@ -26,6 +27,38 @@ TEST(Words, WarnOfOverConstrictionOnly) {
             std::string::npos);
   EXPECT_NE(line_warning({1.1, 1, 0, 0.5, false}).find("Slack"), std::string::npos);
   EXPECT_EQ(line_warning({0.9, 0.9, 0.4, 0.5, true}), "");  // another line of the garment is the reason
+}
+
+TEST(Words, WarningsSayWhereAndWhatToDo) {
+  geometry::BodyMeasures measures;
+  measures.landmarks = {{"bust_point_L", {0.2, 0.1, 1.2}, 1, ""}, {"navel", {0.2, 0, 1.0}, 1, ""}};
+  EXPECT_EQ(place(measures, {0.15, 0.11, 1.17}), "3 cm below the left bust point");
+  EXPECT_EQ(place(measures, {0.15, 0.06, 1.21}), "4 cm to her right of the left bust point");
+  EXPECT_EQ(place(measures, {0.2, 0.005, 1.005}), "at the navel");
+  EXPECT_EQ(place({}, {0, 0, 1}), "");
+
+  geometry::FitWarning shelf;
+  shelf.code = geometry::warning::kShelf;
+  shelf.line = "chest";
+  shelf.at_rest = {0.15, 0.11, 1.17};
+  shelf.area = 8.2e-4;
+  shelf.value = 71 * 3.14159265358979 / 180;
+  EXPECT_EQ(
+      warning(shelf, measures),
+      "The skin folds into a shelf 3 cm below the left bust point: 8 cm2 are turned by up to 71 degrees. "
+      "Loosen 'chest'.");
+  shelf.line.clear();
+  EXPECT_EQ(warning(shelf, {}),
+            "The skin folds into a shelf: 8 cm2 are turned by up to 71 degrees. Ask for less.");
+  geometry::FitWarning slack;
+  slack.code = geometry::notice::kUnderConstricted;
+  slack.lack = geometry::lack::kSlack;
+  slack.line = "strap_L";
+  EXPECT_EQ(warning(slack, measures), "'strap_L' is slack: it does not pull. Shorten it.");
+
+  EXPECT_EQ(warnings({}), "");
+  EXPECT_EQ(warnings({"One.", "Two."}), "One. Two.");
+  EXPECT_EQ(warnings({"One.", "Two.", "Three."}), "One. Two. And 1 more place.");
 }
 
 TEST(Words, NeverShowMinusZero) {

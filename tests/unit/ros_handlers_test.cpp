@@ -194,6 +194,13 @@ TEST_F(TensegricHandlerTest, TheSkinFollowsStatesOnTheWay) {
     if (first.empty()) first = last;
     if (fit != fits.back()) {
       EXPECT_EQ(fit->status, FitState::SOLVING);
+      EXPECT_FALSE(output.warnings);
+    } else {
+      ASSERT_TRUE(output.warnings);
+      EXPECT_EQ(output.warnings->scan_id, "A");
+      EXPECT_EQ(output.warnings->garment, fit->garment);
+      EXPECT_EQ(output.warnings->warnings.size() + output.warnings->notices.size(),
+                output.scan.warnings.size());
     }
   }
   EXPECT_NE(first, last);

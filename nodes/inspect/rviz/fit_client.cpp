@@ -30,6 +30,7 @@ FitClient::FitClient()
   listen("garment", &FitClient::on_garment);
   listen("control/deformed", &FitClient::on_fit);
   listen("body/deformed", &FitClient::on_deformed);
+  listen("body/warnings", &FitClient::on_warnings);
   listen("body/mesh", &FitClient::on_body);
   listen("body/landmarks", &FitClient::on_landmarks);
   listen("control/mesh", &FitClient::on_control);

@@ -15,6 +15,7 @@
 #include <tensegric_fit/ControlMesh.h>
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
+#include <tensegric_fit/FitWarnings.h>
 #include <tensegric_fit/Garment.h>
 #include <tensegric_fit/Landmarks.h>
 #include <tensegric_fit/SetGarment.h>
@@ -43,6 +44,7 @@ class FitClient : public QObject {
   std::function<void(const Garment&)> on_garment;
   std::function<void(const FitState&)> on_fit;
   std::function<void(const DeformedMesh&)> on_deformed;
+  std::function<void(const FitWarnings&)> on_warnings;
   std::function<void(const TriangleMesh&)> on_body;
   std::function<void(const Landmarks&)> on_landmarks;
   std::function<void(const ControlMesh&)> on_control;

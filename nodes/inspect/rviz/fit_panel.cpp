@@ -51,6 +51,7 @@ void FitPanel::onInitialize() {
   client_->on_garment = [this](const Garment& garment) { take_garment(garment); };
   client_->on_fit = [this](const FitState& fit) { take_fit(fit); };
   client_->on_deformed = [this](const DeformedMesh& deformed) { take_deformed(deformed); };
+  client_->on_warnings = [this](const FitWarnings& warnings) { take_warnings(warnings); };
   client_->on_body = [this](const TriangleMesh& body) { take_body(body); };
   client_->on_landmarks = [this](const Landmarks& landmarks) { take_landmarks(landmarks); };
   client_->on_control = [this](const ControlMesh& control) {
@@ -182,8 +183,10 @@ void FitPanel::show_outcome() {
     if (fit.scan_id == control_.scan_id) regions[line.name] = region_of(line, control_);
     const words::LineOutcome outcome{line.request, line.ratio, line.tension, line.reachable,
                                      fit.status == FitState::INFEASIBLE};
+    const std::string warning = words::line_warning(outcome);
     for (LineRow* row : rows_)
-      if (row->line() == line.name) row->set_outcome(line.ratio, line.tension, words::line_warning(outcome));
+      if (row->line() == line.name)
+        row->set_outcome(line.ratio, line.tension, warning.empty() ? lack_of(line) : warning);
   }
   session_.place(regions);
   QStringList volumes;
@@ -192,6 +195,28 @@ void FitPanel::show_outcome() {
   volumes_->setText(volumes.join(" \u00b7 "));
   build_regions();
   show_lines();
+}
+
+void FitPanel::take_warnings(const FitWarnings& warnings) {
+  warnings_ = warnings;
+  show_outcome();
+  show_warnings();
+}
+
+void FitPanel::show_warnings() {
+  std::vector<std::string> messages;
+  for (const FitWarning& warning : warnings_.warnings) messages.push_back(warning.message);
+  const std::string words = words::warnings(messages);
+  if (!words.empty() && folds_->text() != text(words)) ROS_WARN("fit panel: %s", words.c_str());
+  folds_->setText(text(words));
+  folds_->setVisible(!words.empty());
+}
+
+std::string FitPanel::lack_of(const LineResult& line) const {
+  if (!fitted_ || warnings_.scan_id != fitted_->scan_id || warnings_.garment != fitted_->garment) return "";
+  for (const FitWarning& notice : warnings_.notices)
+    if (notice.code == FitWarning::UNDER_CONSTRICTED && notice.line == line.name) return notice.message;
+  return "";
 }
 
 void FitPanel::take_body(const TriangleMesh& body) {

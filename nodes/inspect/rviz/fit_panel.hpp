@@ -68,11 +68,14 @@ class FitPanel : public rviz::Panel {
   void take_body(const TriangleMesh& body);
   void take_landmarks(const Landmarks& landmarks);
   void take_deformed(const DeformedMesh& deformed);
+  void take_warnings(const FitWarnings& warnings);
   void take_diagnostics(const diagnostic_msgs::DiagnosticStatus& status);
   void take_answer(bool done, const std::string& words);
 
   void follow_pipeline();  // unless a request is on its way
   void show_outcome();
+  void show_warnings();
+  std::string lack_of(const LineResult& line) const;  // "" where the line holds
   void show_lines();
   void show_girths();
   void show_state();
@@ -85,6 +88,7 @@ class FitPanel : public rviz::Panel {
   std::map<std::string, Garment> known_;  // whole garments by name: laws and courses of their lines
   std::shared_ptr<const Garment> worn_;
   std::shared_ptr<const FitState> fitted_;  // the last that has ended
+  FitWarnings warnings_;                    // of the last that has ended, or the one before
   ControlMesh control_;
   BodyView body_;
   std::string measured_scan_;
@@ -95,7 +99,7 @@ class FitPanel : public rviz::Panel {
   bool typing_ = false;        // a garment's name
 
   QComboBox* garment_;
-  QLabel *pipeline_, *fit_, *answer_, *tightness_, *volumes_;
+  QLabel *pipeline_, *fit_, *answer_, *folds_, *tightness_, *volumes_;
   QProgressBar* progress_;
   QWidget *lines_box_, *regions_box_;
   std::vector<LineRow*> rows_;

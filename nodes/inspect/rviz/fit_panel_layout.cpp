@@ -59,6 +59,8 @@ FitPanel::FitPanel(QWidget* parent) : rviz::Panel(parent) {
   layout->addWidget(progress_);
   build_garment(layout);
   fit_ = sentence(layout);
+  folds_ = sentence(layout, "color: #b2182b; font-weight: bold");
+  folds_->hide();
   tightness_ = sentence(layout, "color: #b2182b; font-weight: bold");
   tightness_->hide();
   layout->addWidget(lines_box_ = new QWidget);

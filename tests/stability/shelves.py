@@ -1,0 +1,92 @@
+#!/usr/bin/python3
+"""Warnings of worn_skins against shelves that are found here, from the meshes alone.
+
+A shelf: a square centimetre and more of skin (at rest) whose normal is turned by more than 60 degrees between BODY.ply
+and BODY_GARMENT_PERCENT.ply. Writes a table of garments and ratios: shelves without a warning, warnings without a shelf.
+"""
+import argparse
+import collections
+import csv
+import pathlib
+
+import numpy as np
+
+SHELF = 60  # degrees
+WARNINGS = {"shelf", "turned_over"}
+
+
+def read_mesh(path):
+    """Vertices (n x 3) and triangles (m x 3) of a binary PLY with float or double x, y, z first."""
+    with open(path, "rb") as file:
+        counts, kinds, element = {}, [], None
+        while (words := file.readline().split()) != [b"end_header"]:
+            if words[0] == b"element":
+                element = words[1]
+                counts[element] = int(words[2])
+            elif words[0] == b"property" and element == b"vertex":
+                kinds.append((words[2].decode(), {b"float": "<f4", b"double": "<f8", b"uchar": "u1"}[words[1]]))
+        vertex = np.fromfile(file, np.dtype(kinds), counts[b"vertex"])
+        face = np.fromfile(file, np.dtype([("count", "u1"), ("corners", "<i4", 3)]), counts[b"face"])
+    assert (face["count"] == 3).all(), path
+    return np.stack([vertex[axis] for axis in "xyz"], 1).astype(float), face["corners"]
+
+
+def area_vectors(vertices, triangles):
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    return np.cross(b - a, c - a) / 2
+
+
+def turned_area(rest, worn, triangles, least):
+    """Area at rest, cm2, of the triangles whose normal is turned by more than `least` degrees."""
+    before, after = area_vectors(rest, triangles), area_vectors(worn, triangles)
+    areas = np.linalg.norm(before, axis=1)
+    cosine = (before * after).sum(1) / np.maximum(areas * np.linalg.norm(after, axis=1), 1e-30)
+    return 1e4 * areas[cosine < np.cos(np.radians(least))].sum()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=pathlib.Path, help="that worn_skins wrote")
+    parser.add_argument("--least", type=float, default=1, help="cm2 of a shelf (default 1)")
+    options = parser.parse_args()
+
+    codes = collections.defaultdict(set)
+    bodies, statuses = {}, {}
+    with open(options.folder / "warnings.csv") as file:
+        for row in csv.DictReader(file):
+            codes[row["run"]].add(row["code"])
+            bodies[row["run"]], statuses[row["run"]] = row["body"], row["status"]
+    table = collections.defaultdict(collections.Counter)
+    missed, idle = [], []
+    rest = {}
+    for run, body in bodies.items():
+        if body not in rest:
+            rest = {body: read_mesh(options.folder / f"{body}.ply")}
+        vertices, triangles = rest[body]
+        worn, _ = read_mesh(options.folder / f"{run}.ply")
+        shelf = turned_area(vertices, worn, triangles, SHELF)
+        is_shelf, is_warned = bool(shelf >= options.least), bool(codes[run] & WARNINGS)
+        garment, percent = run.split("_")[-2:]
+        for key in ((garment, percent), ("all", percent), ("all", "all")):
+            table[key].update(runs=1, shelf=is_shelf, warned=is_warned, missed=is_shelf and not is_warned,
+                              idle=is_warned and not is_shelf, turned_over="turned_over" in codes[run],
+                              converged=statuses[run] == "converged",
+                              **{code: code in codes[run] for code in
+                                 ("skin_turns", "over_stretched", "pressed_together", "under_constricted")})
+        if is_shelf and not is_warned:
+            missed.append(f"{run} ({shelf:.2f} cm2)")
+        if is_warned and not is_shelf:
+            idle.append(f"{run} ({shelf:.2f} cm2)")
+    columns = ("runs", "converged", "shelf", "warned", "missed", "idle", "turned_over", "skin_turns", "over_stretched",
+               "pressed_together", "under_constricted")
+    print("| garment | ratio |", " | ".join(columns), "|")
+    print("| --- | --- |" + " --- |" * len(columns))
+    for (garment, percent), counts in sorted(table.items(), key=lambda item: (item[0][0] == "all", item[0])):
+        print(f"| {garment} | {percent} |", " | ".join(str(counts[column]) for column in columns), "|")
+    total = table["all", "all"]
+    print(f"\nShelves without a warning: {total['missed']} of {total['shelf']} {', '.join(missed)}")
+    print(f"Warnings without a shelf: {total['idle']} of {total['warned']} {', '.join(idle)}")
+
+
+if __name__ == "__main__":
+    main()
