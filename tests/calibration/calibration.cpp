@@ -312,7 +312,7 @@ Eigen::VectorXd fitted(TissueCost& cost, const std::vector<Parameter>& parameter
   how.linear_solver_type = ceres::DENSE_QR;
   how.max_num_iterations = options.most_iterations;
   how.function_tolerance = 5e-3;  // a quarter per cent of the errors: far below the references' own noise
-  how.initial_trust_region_radius = 1;
+  how.initial_trust_region_radius = 100;  // the valley of the stiffnesses is long and flat
   how.logging_type = ceres::SILENT;
   Progress progress(parameters, at, say);
   how.callbacks.push_back(&progress);
