@@ -116,7 +116,11 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
                       ->excludes(control_triangles);
   auto* fixed = app.add_option("--fixed", line.fixed, "Fixed nodes of the shape's control mesh, NODES.yaml")
                     ->needs(mesh);
-  app.add_option("--gravity", gravity, "Pseudo force x,y,z on every outer node");
+  app.add_option(
+      "--gravity", gravity,
+      "A force x,y,z, the same on every outer node; of length 1 it would move the node that goes "
+      "farthest by a tenth of the shape's size (its box's diagonal), if the shape gave way all along "
+      "as it does at rest");
   double twist = 0, lean = 0;
   for (const auto& [name, angle, limit, what] :
        {std::tuple("--twist", &twist, std::round(geometry::kLargestTwist * 180 / M_PI),
@@ -142,7 +146,7 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
     if (!band.empty()) line.band = band_from(band);
     if (!gravity.empty() && line.garment.empty() && !line.is_shape())
       throw CLI::ValidationError("--gravity", "needs --garment or --fixed");
-    if (!gravity.empty()) line.settings.solver.gravity = vector_from(gravity, "--gravity");
+    if (!gravity.empty()) line.gravity = vector_from(gravity, "--gravity");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }

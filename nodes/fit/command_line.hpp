@@ -23,6 +23,7 @@ struct CommandLine {
   std::vector<RatioRequest> ratios;
   std::optional<tensegric::TensionLaw> band;
   geometry::Posture posture;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< as tensegric::force_of_share takes it
   bool quiet = false;
   bool overlay = false;  ///< the registered body model in front.png and side.png
   Settings settings;

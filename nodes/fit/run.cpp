@@ -20,6 +20,7 @@
 #include "geometry/shipped_files.hpp"
 #include "inspect/composition.hpp"
 #include "inspect/fit_pictures.hpp"
+#include "tensegric/load_unit.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -53,6 +54,8 @@ class Run {
     if (line_.posture.twist != 0 || line_.posture.side_lean != 0)
       settings_.solver.bones = geometry::BoneFrames(body_.measures, line_.posture);
     const Fitting fitting = prepare_fitting(garment);
+    settings_.solver.gravity =
+        tensegric::force_of_share(fitting.model, line_.gravity, settings_.solver, fitting.body_volumes);
     settings_.solver.track = tracked_nodes(fitting.control);
     say("tensegric deformation");
     const Fit fit = wear(body_, fitting, garment, settings_, times_);

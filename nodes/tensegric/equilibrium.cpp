@@ -22,6 +22,9 @@ constexpr double kSamePlace = 1e-9;  // m
 constexpr Tolerance kHandedBack{1, 1e-9, 1};
 constexpr int kMostPerLoad = 60, kMostAtEnd = 80, kMostCorrections = 10;
 constexpr int kMostFromRest = 300, kMostWarm = 100;  // a start that leads nowhere soon is none
+// Under a weight a shape may buckle and go over to another balance, by up to twice its length in steps of
+// half a part's length at most: 100 to 200 of them, whatever the load steps.
+constexpr int kMostWhileBuckling = 300, kMostUnderWeight = 1200;
 
 std::string per_cent(double share) {
   char text[32];
@@ -133,7 +136,14 @@ class LoadPath {
     const Positions before = posed(problem_, first_posture_), after = posed(problem_, 1);
     for (std::size_t i = 0; i < before.size(); ++i)
       change = std::max(change, kFirstRatioStep * (after[i] - before[i]).norm() / newton_.longest_move());
-    return change > kFirstRatioStep ? 1 / std::ceil(change / kFirstRatioStep) : 1;
+    const double steps =
+        std::ceil(change / kFirstRatioStep - 1e-9);  // a request of 0.90 is one, rounded or not
+    return steps > 1 ? 1 / steps : 1;
+  }
+
+  int most_at(double share) const {
+    if (!problem_.options.gravity.isZero(0)) return kMostWhileBuckling;
+    return share < 1 ? kMostPerLoad : kMostAtEnd;
   }
 
   // Takes the nodes that are not solved for to where the posture has them, and what is free above
@@ -157,8 +167,7 @@ class LoadPath {
       const double next = std::min(1.0, share + load_step);
       const int before = newton_.iterations();
       carry(at.x, posture_at(share), posture_at(next));
-      if (newton_.settle(at, load_at(next), next < 1 ? on_the_way() : kExact,
-                         next < 1 ? kMostPerLoad : kMostAtEnd)) {
+      if (newton_.settle(at, load_at(next), next < 1 ? on_the_way() : kExact, most_at(next))) {
         share = next;
         settled = at;
         if (newton_.iterations() - before <= 4) load_step *= 2;
@@ -281,7 +290,8 @@ Outcome find_equilibrium(Problem& problem, const Solution* start, Recorder& reco
     if (warm.settled() || warm.interrupted()) return result;
     spent = warm.iterations();
   }
-  return LoadPath(problem, recorder, spent, kMostFromRest).from_rest();
+  const int most = problem.options.gravity.isZero(0) ? kMostFromRest : kMostUnderWeight;
+  return LoadPath(problem, recorder, spent, most).from_rest();
 }
 
 }  // namespace tensegric_fit::tensegric

@@ -12,7 +12,9 @@ namespace tensegric_fit::tensegric {
 namespace {
 
 constexpr int kMostTries = 12;
-constexpr double kLeastTakenBack = 1.0 / 16;
+constexpr double kLeastTakenBack = 1.0 / 1024;            // of the negative parts
+constexpr double kTakenChange = 4, kRaiseChange = 8;      // from one try to the next
+constexpr double kFirstRaise = 1e-3, kLeastRaise = 1e-9;  // of the diagonal / spring of a part
 
 std::vector<LengthCurvature> curvatures_of(const Problem& problem) {
   std::vector<LengthCurvature> curvatures;
@@ -61,7 +63,7 @@ Kkt::Kkt(const Problem& problem)
     : problem_(problem),
       regions_(static_cast<int>(problem.volumes.size())),
       bands_(static_cast<int>(problem.bands.size())),
-      least_raise_(1e-3 * spring(problem.model.members.back())),
+      raise_(kFirstRaise),
       curvatures_(curvatures_of(problem)),
       hessian_(problem.free_nodes, coupled_nodes(problem, curvatures_)),
       factor_(hessian_) {}
@@ -177,14 +179,14 @@ Step Kkt::step(const Balance& at, const Load& load, const Defect& defect, bool t
   assemble(at, result.lines, 1);
   result.minimum = factorise(at, load, defect);
   if (!result.minimum && !(to_saddle && usable_)) {
-    double raise = least_raise_;
-    taken_back_ = std::max(kLeastTakenBack, taken_back_ / 2);
+    raise_ = std::max(kLeastRaise, raise_ / kRaiseChange);
+    taken_back_ = std::max(kLeastTakenBack, taken_back_ / kTakenChange);
     for (int tries = 0; tries < kMostTries; ++tries) {
       assemble(at, result.lines, 1 - taken_back_);
-      hessian_.add_to_diagonal(raise);
+      hessian_.add_to_diagonal(raise_ * spring(problem_.model.members.back()));
       if (factorise(at, load, defect)) break;
-      if (taken_back_ == 1) raise *= 8;
-      taken_back_ = std::min(1.0, 2 * taken_back_);
+      raise_ *= kRaiseChange;
+      taken_back_ = std::min(1.0, kTakenChange * taken_back_);
     }
   }
   if (!usable_) {

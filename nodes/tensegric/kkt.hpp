@@ -91,8 +91,10 @@ class Kkt {
 
   const Problem& problem_;
   int regions_, bands_;
-  double least_raise_;     // of the diagonal, where negative parts are taken back
-  double taken_back_ = 1;  // of the negative parts: the last share that served
+  // What made the second derivative a minimum's, where it was not: the last raise of its diagonal / spring of
+  // a part, and the last share of its negative parts that was taken back. Each is as small as will do: a long
+  // shape that buckles has modes that much more of either would keep from moving.
+  double raise_, taken_back_ = 1;
   int factorisations_ = 0;
   std::vector<LengthCurvature> curvatures_;  // one a band
   NodeMatrix hessian_;

@@ -18,9 +18,9 @@ constexpr int kMostHoldChanges = 20, kMostHalvings = 14;
 constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();  // of the coordinates
 constexpr double kContradicted = 1e-6;  // of a neutral length: far above rounding
 constexpr int kMostMends = 8;
-constexpr double kMended = 1e-12;         // relative, of volumes and lengths
-constexpr int kStepsBeyondLimit = 3;      // a tension may overshoot for a step or two
-constexpr int kMostFactorisations = 400;  // 20 to 60 are usual; on fine meshes each takes long
+constexpr double kMended = 1e-12;     // relative, of volumes and lengths
+constexpr int kStepsBeyondLimit = 3;  // a tension may overshoot for a step or two
+constexpr int kLeastCap = 400;        // of factorisations: 20 to 60 are usual; on fine meshes each takes long
 
 }  // namespace
 
@@ -34,7 +34,8 @@ Newton::Newton(const Problem& problem, Recorder& recorder, int spent, int most)
       recorder_(recorder),
       kkt_(problem),
       iterations_(spent),
-      most_iterations_(problem.options.max_iterations > 0 ? problem.options.max_iterations : spent + most) {
+      most_iterations_(problem.options.max_iterations > 0 ? problem.options.max_iterations : spent + most),
+      most_factorisations_(std::max(kLeastCap, 4 * most / 3)) {
   double sum = 0;
   for (const Member& m : problem.model.members) sum += m.rest;
   for (const Eigen::Vector3d& p : problem.rest) farthest_ = std::max(farthest_, p.cwiseAbs().maxCoeff());
@@ -42,7 +43,7 @@ Newton::Newton(const Problem& problem, Recorder& recorder, int spent, int most)
 }
 
 Stop Newton::spent() const {
-  if (iterations_ >= most_iterations_ || kkt_.factorisations() >= kMostFactorisations)
+  if (iterations_ >= most_iterations_ || kkt_.factorisations() >= most_factorisations_)
     return Stop::iterations;
   const double budget = problem_.options.time_budget;
   return budget > 0 && recorder_.seconds() >= budget ? Stop::time : Stop::none;

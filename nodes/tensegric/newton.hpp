@@ -49,7 +49,7 @@ class Newton {
   Kkt kkt_;
   double farthest_ = 0;  // m, largest coordinate at rest
   double longest_move_;  // m, of a node in a step
-  int iterations_, most_iterations_;
+  int iterations_, most_iterations_, most_factorisations_;
   Stop stop_ = Stop::none;
   bool branch_near_ = false;
   double merit_change_ = 0;    // of the last step, relative

@@ -325,7 +325,7 @@ TEST_F(FitProgram, BendsAnyShapeUnderGravity) {
   tensegric_fit::geometry::write_ply_mesh(file("bar.ply"), bar);
   write("fixed.yaml", "nodes: [0, 1, 2, 3]\n");
   ASSERT_EQ(fit("--mesh " + file("bar.ply") + " --control " + file("bar.ply") + " --fixed " +
-                file("fixed.yaml") + " --gravity 0,0,-0.001"),
+                file("fixed.yaml") + " --gravity 0,0,-0.5"),
             0)
       << read_file(file("log"));
   const auto bent = tensegric_fit::geometry::read_ply_mesh(file("out/deformed.ply"));
