@@ -218,7 +218,7 @@ std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::Tr
     if (line.taut) points = on_the_tape(points);
     if (line.held[0]) points.front().weights.clear();
     if (line.held[1]) points.back().weights.clear();
-    fibres.push_back({share, line.taut ? points : thinned(points, line.smooth)});
+    fibres.push_back({share, thinned(points, line.smooth)});
     shares += fibres.back().share;
   }
   for (geometry::Fibre& fibre : fibres) fibre.share /= shares;

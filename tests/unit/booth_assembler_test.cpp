@@ -118,7 +118,8 @@ TEST(AssemblerTest, PointsThatAreNotFiniteAndSensorsThatAreMissingAreLeftOut) {
   booth.capture.clouds[0] = std::make_shared<const booth::SensorCloud>(holed);
   booth.capture.clouds[4] = nullptr;
   const Assembly assembly = assemble(booth.capture, booth.booth_from_sensor, by_column());
-  EXPECT_EQ(std::count(assembly.cloud.sensor.begin(), assembly.cloud.sensor.end(), 0), holed.cloud.points.size() - 1);
+  EXPECT_EQ(std::count(assembly.cloud.sensor.begin(), assembly.cloud.sensor.end(), 0),
+            holed.cloud.points.size() - 1);
   EXPECT_EQ(std::count(assembly.cloud.sensor.begin(), assembly.cloud.sensor.end(), 4), 0);
   for (std::size_t i = 0; i < assembly.cloud.sensor.size(); ++i)
     ASSERT_TRUE(assembly.cloud.points[i].allFinite() && assembly.cloud.normals[i].allFinite());

@@ -252,7 +252,8 @@ TEST(FitTemplate, NodesAboveTheFoldLieOnTheBreast) {
   const Trunk trunk = make_trunk({0.08, 0});  // the fold is at bust level
   const auto pattern = control_mesh::load_template(kBust);
   const control_mesh::Skin skin(trunk.mesh);
-  const auto nodes = control_mesh::place_nodes(pattern, trunk.measures, skin, control_mesh::Layout::over_folds);
+  const auto nodes =
+      control_mesh::place_nodes(pattern, trunk.measures, skin, control_mesh::Layout::over_folds);
   EXPECT_GT(out_of_trunk(left_node(nodes, pattern, 3, 2)), 0.2);
 }
 
@@ -262,7 +263,8 @@ TEST(FitTemplate, WithoutAFoldNodesLieAtTheirLevels) {
     const Trunk trunk = make_trunk(shape);
     const control_mesh::Skin skin(trunk.mesh);
     const auto nodes = control_mesh::place_nodes(pattern, trunk.measures, skin);
-    EXPECT_EQ(nodes, control_mesh::place_nodes(pattern, trunk.measures, skin, control_mesh::Layout::over_folds));
+    EXPECT_EQ(nodes,
+              control_mesh::place_nodes(pattern, trunk.measures, skin, control_mesh::Layout::over_folds));
     const double bust = trunk.measures.landmark("bust_point_L").z(),
                  underbust = trunk.measures.landmark("underbust_L").z();
     for (const int column : {1, 2, 4}) EXPECT_NEAR(left_node(nodes, pattern, 3, column).z(), bust, 1e-9);

@@ -84,8 +84,10 @@ TEST(BustTemplate, RefusesWhatDoesNotFit) {
   EXPECT_NE(refusal_with(kBust, "'######'", "'#####'").find("'fixed'"), std::string::npos);
   EXPECT_NE(refusal_with(kBust, "least: 0.010", "least: 2.4").find("'least'"), std::string::npos);
   EXPECT_NE(refusal_with(kBust, "share: 0.6", "share: 6").find("'share'"), std::string::npos);
-  EXPECT_NE(refusal_with(kBust, "regions:", "thickness: [[0.01]]\nregions:").find("'thickness'"), std::string::npos);
-  EXPECT_NE(refusal_with(kHips, "at: buttock_point_L", "at: buttock_point_R").find("'at'"), std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "regions:", "thickness: [[0.01]]\nregions:").find("'thickness'"),
+            std::string::npos);
+  EXPECT_NE(refusal_with(kHips, "at: buttock_point_L", "at: buttock_point_R").find("'at'"),
+            std::string::npos);
   EXPECT_NE(refusal_with(kBust, "through: [axilla_L", "through: [armpit_L").find("'armpit_L'"),
             std::string::npos);
   EXPECT_NE(refusal_with(kBust, "rows: [0, 6]", "rows: [0, 7]").find("'rows'"), std::string::npos);

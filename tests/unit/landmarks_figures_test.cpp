@@ -139,7 +139,8 @@ class PrecisionFile : public testing::Test {
 };
 
 const std::string kFigure =
-    "{mesh: {bias: -0.002, base: 0.001, growth: 0, support: 0.1}, model: {bias: 0, base: 1, growth: 1.5, support: 0.2}, "
+    "{mesh: {bias: -0.002, base: 0.001, growth: 0, support: 0.1}, model: {bias: 0, base: 1, growth: 1.5, "
+    "support: 0.2}, "
     "disagreement: "
     "0.1, half_width: 2}";
 
