@@ -132,7 +132,8 @@ TEST_F(FitProgram, WritesEveryFieldAndFile) {
 TEST_F(FitProgram, SaysWhatIsTooMuchAndWhatIsTooLittle) {
   const auto codes = [&](const char* list) {
     std::set<std::string> found;
-    for (const json& entry : report()[list]) {
+    const json all = report();
+    for (const json& entry : all[list]) {
       found.insert(entry["code"]);
       EXPECT_FALSE(entry["message"].get<std::string>().empty());
       EXPECT_EQ(entry["place"].size(), 3u);
