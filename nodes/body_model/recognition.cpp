@@ -31,12 +31,11 @@ constexpr double kThere =
     0.030;  // m of RegisteredBody::support and off: samples all round that face the same way
 constexpr double kInside = 0.005,
                  kStraightIn = 0.7;  // m under other skin; cosine with its normal: beside it is not under it
-// Two legs on the skin of one: of a leg 70 % or more lies as near to the other and faces the same way on
-// scans of half a body, nothing within twice that on 149 training scans.
-constexpr double kOneSkin = 0.015;  // m
-// Difference between the shares of the trunk's halves: 0.04 at most on training scans, 0.3 to 0.6 on half
-// bodies.
-constexpr double kClearly = 0.2;
+constexpr double kOneSkin = 0.015;  // m between the skins of two legs that lie on one: at half bodies 70 % of
+                                    // a leg is nearer, on 149 training scans nothing is nearer than 30 mm
+constexpr double kClearly =
+    0.2;  // between the shares of the trunk's halves that were seen: tolerance between
+          // 0.04, the most on training scans, and 0.3, the least on half bodies
 constexpr double kLeastOfPart = 0.55;  // of a part's skin: scans of women have 0.79 at least, an arm that has
                                        // slid into the trunk 0.47 at most
 constexpr double kCrown = 0.03, kLeastOfCrown = 0.25;  // statures below the top; of its skin: no sensor looks

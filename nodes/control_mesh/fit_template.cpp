@@ -220,7 +220,7 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
   geometry::ControlMesh control =
       laid_best(pattern, measures, skin, model_surface ? &*model_surface : nullptr);
 
-  // 2. Inner nodes below them, and constraining lines over them.
+  // 2. Inner nodes of a table below them, and constraining lines over them.
   const auto place_at = [&](std::vector<double> thickness) {
     for (double& t : thickness) t *= options.thickness;
     place_inner_nodes(control, thickness, skin);
@@ -229,6 +229,7 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
   add_lines(pattern, control);
 
   // 3. Finer triangles where they are asked for; what is left between triangles and skin is evened out.
+  // Inner nodes over bone or under a cushion follow.
   while (control.triangles.size() < static_cast<std::size_t>(options.control_triangles))
     control = subdivide(control, skin);
   match_skin(control, liftable(pattern, control), skin);

@@ -5,8 +5,8 @@
 #include "body_model/recognition.hpp"
 #include "tffd/body_volume.hpp"
 #include "tffd/distortion.hpp"
+#include "tffd/garment_check.hpp"
 #include "tffd/lay_line.hpp"
-#include "tffd/skin_check.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -156,12 +156,8 @@ std::vector<geometry::FitWarning> warnings_of(const Body& body, const Fitting& f
   for (const tensegric::LineResult& line : fit.solution.lines)
     lines.push_back({line.name, line.course_at_rest, line.course, line.neutral, line.final, line.tension});
   const geometry::TriangleMesh& mesh = body.mesh.mesh;
-  std::vector<geometry::FitWarning> all =
-      tffd::check_skin({fitting.binding.vertices(), fit.deformed, mesh.triangles}, lines);
-  for (geometry::FitWarning& warning :
-       tffd::under_constricted({mesh.vertices, fit.deformed, mesh.triangles}, lines, settings.hold))
-    all.push_back(std::move(warning));
-  return all;
+  return tffd::check_garment(mesh.vertices, {fitting.binding.vertices(), fit.deformed, mesh.triangles}, lines,
+                             settings.hold);
 }
 
 }  // namespace tensegric_fit::fit

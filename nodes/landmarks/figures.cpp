@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kCode = geometry::refusal::kBrokenFile;
 constexpr double kLargest = 100;  // of any coefficient
-constexpr double kSteepest = 10;  // power of the misfit: the fit ends at 4, so more is a broken file
+constexpr double kSteepest = 10;  // power of the misfit that a file may give: fit_precision.py stops at 4
 constexpr double kSure = 1.5;     // of ISO 20685's limits: on training scans 2 % of the figures within it are
                                   // off by more than the limit
 constexpr double kGrossLimits = 3;  // of ISO 20685: less is no gross error, however sure both are

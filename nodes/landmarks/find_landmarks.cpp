@@ -20,8 +20,8 @@ using Tape = std::vector<Vector3d>;
 constexpr double kUnderbustBelowFold = 0.003;  // m: the tape lies just under the fold (definition)
 constexpr double kWaistAboveHip = 0.10, kWaistBelowUnderbust = 0.005;  // m: the least girth is in between
 constexpr double kBreast = 0.045;  // m round the bust point: skin that says where the breast points
-// Spreads of the model: the deviation of where a nipple is (looked for within 2.5 of them: all of 298
-// training nipples), and how far off a fold is looked for (96 % of 298, on women; at least kFoldOfMesh).
+// In spreads of the model. Nipples are looked for within 2.5 deviations of so many: all of 298 training
+// nipples are there. Folds within so many, or kFoldOfMesh: 96 % of 298 training folds are there.
 constexpr double kNippleSpreads = 2, kFoldSpreads = 4;
 constexpr double kFoldOfModel = 0.040,
                  kFoldOfMesh = 0.025;  // m from where folds usually are on the model, and from where hers is

@@ -6,7 +6,7 @@
 #include "ros/fit_messages.hpp"
 #include "ros/flat.hpp"
 #include "tffd/distortion.hpp"
-#include "tffd/skin_check.hpp"
+#include "tffd/garment_check.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -43,12 +43,8 @@ std::vector<geometry::FitWarning> warnings_of(const FitState& fit, const BoundBo
   for (const LineResult& line : fit.lines)
     lines.push_back({line.name, points_in(line.course_at_rest), points_in(line.course), line.neutral,
                      line.final, line.tension});
-  std::vector<geometry::FitWarning> all =
-      tffd::check_skin({bound.binding.vertices(), worn, bound.mesh.triangles}, lines);
-  for (geometry::FitWarning& warning :
-       tffd::under_constricted({bound.mesh.vertices, worn, bound.mesh.triangles}, lines, hold))
-    all.push_back(std::move(warning));
-  return all;
+  return tffd::check_garment(bound.mesh.vertices, {bound.binding.vertices(), worn, bound.mesh.triangles},
+                             lines, hold);
 }
 
 std::string codes_of(const std::vector<FitWarning>& warnings) {

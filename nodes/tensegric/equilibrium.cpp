@@ -13,7 +13,8 @@ namespace {
 constexpr Tolerance kExact{1e-10, 1e-12, 1e-11};  // what is aimed at
 constexpr Tolerance kOnTheWay{0.2, 1e-4, 1e-4};   // at a load between rest and the request
 constexpr double kShareOfWeight = 0.01;           // residual on the way, of the change in gravity
-constexpr double kTightestHold = 200;             // where a band has no limit of its own; times k
+constexpr double kTightestHold = 200;    // times k, of a band without a limit of its own: seven times
+                                         // what taut hips pull at 0.95
 constexpr double kFirstRatioStep = 0.1;  // change of a neutral length in the first load step, relative
 constexpr double kShortestLoadStep = 1.0 / 1024;
 constexpr double kTrue = 1e-6;       // of a length: what DESIGN §7 asks for

@@ -25,7 +25,7 @@ constexpr double kSpacing = 0.003;      // m, between points along a fibre while
 constexpr double kMarch = 0.0025;       // m, a step over the skin across the band
 constexpr double kTurn = 0.020;         // m: the way across the band is averaged over so much of it
 constexpr int kFibres = 7;              // of a band; of a thread one
-constexpr double kPointsPerReach = 2;   // of averaged fibres: closer ones tell nothing new
+constexpr double kPointsPerReach = 2;   // of averaged fibres: closer ones add nothing
 constexpr double kOffTheTape = 0.0005;  // m: a point this far inside the tape is bridged
 
 std::vector<Vector3d> evenly(const std::vector<Vector3d>& line) {
@@ -178,7 +178,7 @@ std::vector<CarriedPoint> on_the_tape(const std::vector<CarriedPoint>& points) {
   return touched;
 }
 
-// As few points as tell the course of a fibre that was averaged over `reach`.
+// As few points as describe the course of a fibre that was averaged over `reach`.
 std::vector<CarriedPoint> thinned(const std::vector<CarriedPoint>& points, double reach) {
   const auto step = std::max<std::size_t>(1, static_cast<std::size_t>(reach / kPointsPerReach / kSpacing));
   std::vector<CarriedPoint> kept;

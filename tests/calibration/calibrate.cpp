@@ -163,6 +163,9 @@ int main(int argc, char** argv) {
                  "Control triangles, at least")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
+  app.add_option("--beta", settings.tffd.beta,
+                 "Reach of t-FFD's triangles in their mean radii; 0: the default")
+      ->check(CLI::Range(0.0, 20.0));
   bool errors = false;
   app.add_flag("--errors", errors, "Fits nothing: errors, iterations and tensions by case, as things are");
   try {

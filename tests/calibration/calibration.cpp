@@ -28,7 +28,7 @@ constexpr double kStep =
 constexpr double kAtBound = 0.01;  // of the logarithm
 constexpr std::size_t kFewestBodies = 3;
 constexpr double kLeastPull = 1e-6;  // N: a slack line's, for its logarithm
-constexpr double kLeastWay = 1e-4;   // m, root mean square: less tells nothing
+constexpr double kLeastWay = 1e-4;   // m, root mean square: the references repeat to 0.08 mm
 
 // Fitted by its logarithm. The bounds are where a parameter stops to matter, or the model to stand.
 struct Parameter {
@@ -325,7 +325,7 @@ Eigen::VectorXd fitted(TissueCost& cost, const std::vector<Parameter>& parameter
   for (std::size_t p = 0; p < parameters.size(); ++p)
     if (at[p] < std::log(parameters[p].low) + kAtBound || at[p] > std::log(parameters[p].high) - kAtBound)
       throw Refusal(refusal::kAtBound,
-                    fmt::format("{} ran into its bound at {:.3g}: the references do not tell it",
+                    fmt::format("{} ran into its bound at {:.3g}: the references do not determine it",
                                 parameters[p].name, std::exp(at[p])));
   return at;
 }

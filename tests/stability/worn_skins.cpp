@@ -19,9 +19,8 @@ namespace fs = std::filesystem;
 
 const char* const kGarments[] = {"B1", "B2", "B3", "B4", "H1", "H2", "H3", "H4"};
 
-void wear_all(const std::string& file, const std::vector<double>& ratios, const fs::path& out,
-              std::FILE* table) {
-  const fit::Settings settings;
+void wear_all(const std::string& file, const std::vector<double>& ratios, const fit::Settings& settings,
+              const fs::path& out, std::FILE* table) {
   fit::StageTimes times;
   const fit::Body body = fit::measure_mesh(geometry::read_ply_mesh(file), settings, times);
   const std::string name = fs::path(file).stem().string();
@@ -64,6 +63,10 @@ int main(int argc, char** argv) {
   app.add_option("bodies", bodies, "Body meshes, BODY.ply")->required();
   app.add_option("--ratio", ratios, "Ratios of all lines")->capture_default_str()->allow_extra_args(false);
   app.add_option("--out", out, "Folder")->required();
+  tensegric_fit::fit::Settings settings;
+  app.add_option("--beta", settings.tffd.beta,
+                 "Reach of t-FFD's triangles in their mean radii; 0: the default")
+      ->check(CLI::Range(0.0, 20.0));
   CLI11_PARSE(app, argc, argv);
   std::filesystem::create_directories(out);
   std::FILE* table = std::fopen((out + "/warnings.csv").c_str(), "w");
@@ -74,7 +77,7 @@ int main(int argc, char** argv) {
   fmt::print(table, "body,run,status,iterations,code,line,area_cm2,shelf_cm2,value\n");
   for (const std::string& body : bodies) {
     try {
-      tensegric_fit::wear_all(body, ratios, out, table);
+      tensegric_fit::wear_all(body, ratios, settings, out, table);
     } catch (const tensegric_fit::geometry::Refusal& refusal) {
       fmt::print(stderr, "{} refused {}: {}\n", body, refusal.code(), refusal.what());
     }

@@ -30,6 +30,28 @@ TEST(Model, CountsOfTheBust) {
   EXPECT_EQ(build_model(bust_mesh(shape), {}).free_nodes(), 45);  // inner nodes bound
 }
 
+TEST(Member, StiffensWithStrain) {
+  for (const bool strut : {true, false})
+    for (const double length : {0.07, 0.097, 0.101, 0.12}) {
+      const Member m{0, 1, strut, 2, 0.1, strut ? 0.103 : 0.09, 300};
+      Model model;
+      model.members = {m};
+      const auto energy = [&](double l) { return member_energy(model, {{0, 0, 0}, {l, 0, 0}}); };
+      const double h = 1e-6;
+      EXPECT_NEAR((energy(length + h) - energy(length - h)) / (2 * h), tension(m, length), 1e-7);
+      if (!strut && length <= m.natural) {
+        EXPECT_EQ(tension(m, length), 0);
+        continue;
+      }
+      EXPECT_NEAR((tension(m, length + h) - tension(m, length - h)) / (2 * h), tangent(m, length), 1e-4);
+      if (!strut) {
+        EXPECT_NEAR(secant(m, length) * (length - m.natural), tension(m, length), 1e-12);
+      }
+    }
+  // k (e - prestrain + c e^3) at a strain of 0.2, by hand.
+  EXPECT_NEAR(tension({0, 1, false, 2, 0.1, 0.09, 300}, 0.12), 2 * (0.3 + 300 * 0.008), 1e-12);
+}
+
 TEST(Model, PrestressBalancesWithTheRightSigns) {
   ModelOptions layered;
   layered.layers = 3;
