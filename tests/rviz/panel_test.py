@@ -241,6 +241,7 @@ def main(scan, out):
             scene(shop)
             assert shop.rviz.poll() is None, "rviz has ended in: " + scene.__name__
             print("passed: " + scene.__name__.replace("_", " "))
+        shop.quit_rviz(shop.rviz)
 
     return run_test(lambda: Shop(out), play)
 

@@ -64,6 +64,7 @@ def drive(session, scan):
     assert rviz.poll() is None, "rviz has ended"
     with open(os.path.join(session.out, "rviz.log")) as log:
         assert "failed to load" not in log.read(), "a plugin did not load: see rviz.log"
+    session.quit_rviz(rviz)
 
 
 def compare(landmarks, before, after):

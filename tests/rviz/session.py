@@ -73,8 +73,10 @@ class Session:
             self.end(process)
 
     def new_display(self):
+        # noreset: a display that resets when its last client leaves refuses whoever connects meanwhile, such as rviz
+        # between two looks for its window.
         read, write = os.pipe()
-        self.start("xvfb", "Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", pass_fds=[write])
+        self.start("xvfb", "Xvfb", "-displayfd", str(write), "-noreset", "-screen", "0", "1280x800x24", pass_fds=[write])
         os.close(write)
         with os.fdopen(read) as answer:
             number = answer.readline().strip()
@@ -144,11 +146,18 @@ class Session:
 
     def start_rviz(self, config, name="rviz"):
         rviz = self.start(name, "rviz", "-d", config)
-        wait_for("window", self.windows)
+        wait_for("window of rviz", lambda: self.windows() or rviz.poll() is not None)
+        assert rviz.poll() is None, "rviz has ended: see %s.log" % name
         subprocess.check_call(["xdotool", "windowfocus", self.windows()[-1]])  # there is no window manager to do it
         time.sleep(8)  # the window settles, the body is drawn
         assert rviz.poll() is None, "rviz has ended: see %s.log" % name
         return rviz
+
+    def quit_rviz(self, rviz):
+        """From its menu, as its user does: after an interrupt rviz still renders into its closed window, and Mesa may crash."""
+        self.press("ctrl+q")
+        wait_for("end of rviz", lambda: rviz.poll() is not None, 20)
+        assert rviz.returncode == 0, "rviz ended with %d" % rviz.returncode
 
     @staticmethod
     def windows():

@@ -30,9 +30,8 @@ constexpr int kStill = 3;  // pixels that a click may move
 BodyMeshDisplay::BodyMeshDisplay()
     : properties_(std::make_unique<LookProperties>(this, this, SLOT(change_topics()), SLOT(change_look()))) {}
 
-BodyMeshDisplay::~BodyMeshDisplay() {
-  if (initialized()) context_->getViewManager()->getRenderPanel()->removeEventFilter(this);
-}
+// Qt takes the event filter back itself; rviz may have deleted its render panel before its displays.
+BodyMeshDisplay::~BodyMeshDisplay() = default;
 
 void BodyMeshDisplay::onInitialize() {
   scene_ = std::make_unique<BodyScene>(scene_manager_, scene_node_);
