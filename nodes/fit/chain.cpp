@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "body_model/recognition.hpp"
+#include "tensegric/band.hpp"
 #include "tffd/body_volume.hpp"
 #include "tffd/distortion.hpp"
 #include "tffd/garment_check.hpp"
@@ -116,10 +117,12 @@ Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings&
 std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitting,
                                            const tensegric::Garment& garment) {
   std::vector<geometry::LaidLine> laid;
-  for (const tensegric::GarmentLine& line : garment.lines)
-    if (!line.points.empty())
-      laid.push_back({line.name, tffd::lay_line({line.points, line.width, line.smooth, line.taut, line.held},
-                                                body.mesh.mesh, fitting.binding)});
+  for (const tensegric::GarmentLine& line : garment.lines) {
+    if (!line.on_body()) continue;
+    const tensegric::Course course = tensegric::course_of(fitting.control, line);
+    laid.push_back({line.name, tffd::lay_line({course.points, line.width, line.smooth, line.taut, course.held},
+                                              body.mesh.mesh, fitting.binding)});
+  }
   return laid;
 }
 

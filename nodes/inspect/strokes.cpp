@@ -48,13 +48,14 @@ std::vector<Stroke> line_strokes(const geometry::ControlMesh& control,
   std::vector<Stroke> strokes;
   for (const TenseLine& line : lines) {
     Stroke stroke{{}, tension_colour(line.tension)};
-    if (line.nodes.empty() && !outer.empty()) stroke.points = lifted_course(line.course, outer, positions);
     for (const int node : line.nodes) {
       if (node < 0 || node >= static_cast<int>(positions.size()))
         throw geometry::Refusal(geometry::refusal::kBadMesh,
                                 "a garment line runs over nodes that are not there");
       stroke.points.push_back(positions[node]);
     }
+    // A band's course lies on the body, not over the nodes of its route.
+    if (!line.course.empty() && !outer.empty()) stroke.points = lifted_course(line.course, outer, positions);
     if (stroke.points.size() > 1) strokes.push_back(std::move(stroke));
   }
   return strokes;

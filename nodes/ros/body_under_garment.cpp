@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ros/body_messages.hpp"
+#include "tensegric/band.hpp"
 #include "tffd/body_volume.hpp"
 
 namespace tensegric_fit::node {
@@ -20,8 +21,9 @@ std::vector<geometry::LaidLine> BodyUnderGarment::lay(const tensegric::Garment& 
   std::vector<geometry::LaidLine> laid;
   std::vector<Line> lines;
   for (const tensegric::GarmentLine& line : garment.lines) {
-    if (line.points.empty()) continue;
-    const tffd::LineOnBody on_body{line.points, line.width, line.smooth, line.taut, line.held};
+    if (!line.on_body()) continue;
+    const tensegric::Course course = tensegric::course_of(control_, line);
+    const tffd::LineOnBody on_body{course.points, line.width, line.smooth, line.taut, course.held};
     const auto known = std::find_if(lines_.begin(), lines_.end(),
                                     [&on_body](const Line& one) { return same(one.on_body, on_body); });
     lines.push_back(known != lines_.end()

@@ -1,5 +1,5 @@
-/// The body that a garment lies on, as far as the tensegric stage needs it: to lay lines that are given by
-/// points, and to keep the body's volume.
+/// The body that a garment lies on, as far as the tensegric stage needs it: to lay its bands and lines by points,
+/// and to keep the body's volume.
 #pragma once
 
 #include <tensegric_fit/TriangleMesh.h>
@@ -18,7 +18,7 @@
 
 namespace tensegric_fit::node {
 
-/// Bound to the control mesh (t-FFD) when it is first asked for something: most garments need none of it.
+/// Bound to the control mesh (t-FFD) when it is first asked for something: strings need none of it.
 /// Lines stay laid while they are asked for: a change of ratio does not move them. For any thread.
 class BodyUnderGarment {
  public:
@@ -26,7 +26,8 @@ class BodyUnderGarment {
                    const geometry::BoneFrames& bones)
       : body_(std::move(body)), control_(control), bones_(bones) {}
 
-  /// The garment's lines that are given by points. \throw Refusal bad_garment: a point far from the skin
+  /// The garment's lines that lie on the body. \throw Refusal bad_garment: a point far from the skin;
+  /// unknown_line: a node that the control mesh does not have
   std::vector<geometry::LaidLine> lay(const tensegric::Garment& garment) const;
 
   /// One a region of the control mesh.

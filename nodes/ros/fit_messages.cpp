@@ -60,17 +60,16 @@ TensionLaw law_in(const GarmentLine& line) {
   return law;
 }
 
-// Of a line that is given by points.
 std::vector<Eigen::Vector3d> course_in(const GarmentLine& line) {
-  if (line.points.empty() && (line.width != 0 || line.smooth != 0))
-    refuse(line, "width and smooth are for lines that are given by points");
-  if (line.points.empty()) return {};
-  if (line.points.size() % 3 != 0 || line.points.size() < 6)
-    refuse(line, "it needs x y z of two points or more");
   for (const double value : {line.width, line.smooth})
     if (!(value >= 0 && value <= tensegric::kWidestBand))
       refuse(line, fmt::format("width {:g} and smooth {:g} must be in [0, {:g}] metres", line.width,
                                line.smooth, tensegric::kWidestBand));
+  if (line.points.empty() && line.width == 0 && line.smooth > 0)
+    refuse(line, "smooth is for bands and for lines that are given by points");
+  if (line.points.empty()) return {};
+  if (line.points.size() % 3 != 0 || line.points.size() < 6)
+    refuse(line, "it needs x y z of two points or more");
   return points_in(line.points);
 }
 

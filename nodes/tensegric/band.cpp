@@ -31,14 +31,22 @@ std::vector<int> stops_of(const geometry::ControlMesh& control, const GarmentLin
   return stops;
 }
 
+// A taut string goes straight from stop to stop; a taut band is pulled off the skin between them.
 std::vector<int> nodes_of(const geometry::ControlMesh& control, const GarmentLine& line) {
+  std::vector<int> nodes;
   if (!line.through.empty()) {
-    const std::vector<int> stops = stops_of(control, line);
-    return line.taut ? stops : geometry::route_over_edges(control, stops);
+    nodes = stops_of(control, line);
+    if (!line.taut || line.on_body()) nodes = geometry::route_over_edges(control, nodes);
+  } else {
+    const auto own = std::find_if(control.lines.begin(), control.lines.end(),
+                                  [&line](const geometry::ControlLine& one) { return one.name == line.name; });
+    if (own == control.lines.end())
+      throw Refusal(refusal::kUnknownLine, "the control mesh has no line '" + line.name + "'");
+    nodes = own->nodes;
   }
-  for (const geometry::ControlLine& own : control.lines)
-    if (own.name == line.name) return own.nodes;
-  throw Refusal(refusal::kUnknownLine, "the control mesh has no line '" + line.name + "'");
+  if (nodes.size() < 2)
+    throw Refusal(refusal::kBadGarment, "line '" + line.name + "' has fewer than two nodes");
+  return nodes;
 }
 
 // A line over the control mesh's own nodes.
@@ -81,10 +89,18 @@ const geometry::LaidLine& laid_line(const std::vector<geometry::LaidLine>& laid,
   for (const geometry::LaidLine& line : laid)
     if (line.name == name) return line;
   throw Refusal(refusal::kBadGarment,
-                "line '" + name + "' is given by points on a body, and was not laid on one");
+                "line '" + name + "' is a band on a body, and was not laid on one");
 }
 
 }  // namespace
+
+Course course_of(const geometry::ControlMesh& control, const GarmentLine& line) {
+  if (!line.points.empty()) return {line.points, line.held};
+  const std::vector<int> nodes = nodes_of(control, line);
+  Course course{{}, {control.outer_fixed[nodes.front()] != 0, control.outer_fixed[nodes.back()] != 0}};
+  for (const int node : nodes) course.points.push_back(control.outer[node]);
+  return course;
+}
 
 std::vector<Eigen::Vector3d> points_of(const Thread& thread, const Positions& x) {
   std::vector<Eigen::Vector3d> at;
@@ -104,20 +120,17 @@ std::vector<Band> lay_bands(const Model& model, const Garment& garment,
   for (const GarmentLine& line : garment.lines) {
     Band band;
     band.name = line.name;
-    if (line.points.empty()) {
-      band.nodes = nodes_of(model.control, line);
-      if (band.nodes.size() < 2)
-        throw Refusal(refusal::kBadGarment, "line '" + line.name + "' has fewer than two nodes");
-      band.threads.push_back(thread_of(over_nodes(band.nodes, rest), rest));
-    } else {
+    if (line.points.empty()) band.nodes = nodes_of(model.control, line);
+    if (line.on_body())
       for (const geometry::Fibre& fibre : laid_line(laid, line.name).fibres)
         band.threads.push_back(thread_of(fibre, rest));
-    }
+    else
+      band.threads.push_back(thread_of(over_nodes(band.nodes, rest), rest));
     if (!(line.ratio > 0) || !std::isfinite(line.ratio) || !(line.tension_limit >= 0))
       throw Refusal(refusal::kBadGarment,
                     "line '" + line.name + "' has a ratio or tension limit that is not positive");
     band.law = line.law;
-    if (!line.points.empty()) band.width = line.width;
+    band.width = line.width;
     band.tension_limit = line.tension_limit;
     band.request = line.ratio;
     band.initial = length_of(band, rest);
@@ -135,7 +148,6 @@ std::vector<Band> lay_bands(const Model& model, const Garment& garment,
 }
 
 void pose_band(Band& band, const Positions& rest, const geometry::BoneFrames& bones, double share) {
-  if (!band.nodes.empty()) return;
   for (Thread& thread : band.threads)
     for (std::size_t i = 0; i < thread.points.size(); ++i) {
       thread.offsets[i] = bones.moved(thread.points[i].rest, share);

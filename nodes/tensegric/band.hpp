@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct Thread {
 /// Its length is the threads' mean by their shares.
 struct Band {
   std::string name;
-  std::vector<int> nodes;  ///< outer nodes, in order; none where it lies on the body
+  std::vector<int> nodes;  ///< outer nodes, in order, that a line by `through` runs over
   std::vector<Thread> threads;
   TensionLaw law;
   double tension_limit;
@@ -36,8 +37,16 @@ struct Band {
   double straight = 0;  ///< m, least length: straight between the fixed nodes that it runs over
 };
 
-/// Bands of the garment's lines. A skin line runs over the mesh's edges from stop to stop, a taut one
-/// straight; one given by points on the body is found in `laid` by its name. \throw Refusal unknown_line: a
+/// Where a line is to be laid on the body: along its points, or over the skin near the nodes of its route.
+struct Course {
+  std::vector<Eigen::Vector3d> points;  ///< scan frame, m
+  std::array<bool, 2> held;             ///< does bone hold its ends
+};
+/// \throw Refusal as lay_bands
+Course course_of(const geometry::ControlMesh& control, const GarmentLine& line);
+
+/// Bands of the garment's lines. A string runs over the mesh's edges from stop to stop, a taut one
+/// straight; a line on the body is found in `laid` by its name. \throw Refusal unknown_line: a
 /// name that the control mesh does not have; bad_garment: region or ratio, a line on the body that is not in
 /// `laid`
 std::vector<Band> lay_bands(const Model& model, const Garment& garment,

@@ -95,13 +95,12 @@ GarmentLine read_line(const YAML::Node& node, const std::string& where) {
     line.points = read_points(node, where);
     if (!line.through.empty()) throw Refusal(kBadGarment, where + ": has both 'through' and 'points'");
   }
-  for (const char* key : {"width", "smooth"}) {
-    if (!node[key]) continue;
-    if (line.points.empty())
-      throw Refusal(kBadGarment, where + ": '" + key + "' is for lines that are given by 'points'");
-    (key == std::string("width") ? line.width : line.smooth) =
-        geometry::number_in(node, key, 0, kWidestBand, where, kBadGarment);
-  }
+  if (!line.through.empty()) line.width = kBandWidth;
+  if (node["width"]) line.width = geometry::number_in(node, "width", 0, kWidestBand, where, kBadGarment);
+  if (!line.through.empty() && line.width > 0) line.smooth = kBandSmooth;
+  if (node["smooth"]) line.smooth = geometry::number_in(node, "smooth", 0, kWidestBand, where, kBadGarment);
+  if (line.smooth > 0 && !line.on_body())
+    throw Refusal(kBadGarment, where + ": 'smooth' is for bands and for lines that are given by 'points'");
   if (node["ends"]) {
     if (line.points.empty())
       throw Refusal(kBadGarment, where +

@@ -151,8 +151,10 @@ std::vector<CarriedPoint> averaged(const std::vector<CarriedPoint>& points, doub
   return result;
 }
 
-// The points that a tape pulled round the fibre touches at rest, and the ends.
-std::vector<CarriedPoint> on_the_tape(const std::vector<CarriedPoint>& points) {
+// The points that a tape pulled round the fibre from outside touches at rest, and the ends. `normals`: of the
+// skin at each point. The tape is closed: its way back may touch the bottom of a hollow from inside.
+std::vector<CarriedPoint> on_the_tape(const std::vector<CarriedPoint>& points,
+                                      const std::vector<Vector3d>& normals) {
   Vector3d mean = Vector3d::Zero();
   for (const CarriedPoint& point : points) mean += point.rest / static_cast<double>(points.size());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
@@ -161,6 +163,8 @@ std::vector<CarriedPoint> on_the_tape(const std::vector<CarriedPoint>& points) {
   std::vector<Vector3d> rest;
   for (const CarriedPoint& point : points) rest.push_back(point.rest);
   const std::vector<Vector3d> tape = geometry::tape(rest, normal);
+  Vector3d inside = Vector3d::Zero();
+  for (const Vector3d& corner : tape) inside += corner / static_cast<double>(tape.size());
   std::vector<CarriedPoint> touched{points.front()};
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
     double off = kFarFromSkin;
@@ -169,6 +173,9 @@ std::vector<CarriedPoint> on_the_tape(const std::vector<CarriedPoint>& points) {
       Vector3d from = points[i].rest - a, along = b - a;
       from -= normal.dot(from) * normal;
       along -= normal.dot(along) * normal;
+      const Vector3d square = normal.cross(along);
+      const Vector3d outward = square.dot(a - inside) > 0 ? square : Vector3d(-square);
+      if (!(outward.dot(normals[i]) > 0)) continue;
       const double t = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
       off = std::min(off, (from - t * along).norm());
     }
@@ -212,10 +219,14 @@ std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::Tr
     const double place = count > 1 ? 2.0 * f / (count - 1) - 1 : 0;  // -1 to 1 across the band
     const double share = std::abs(place) == 1 ? 0.5 : 1;  // the trapezoid rule: even over the width
     std::vector<CarriedPoint> points;
-    for (std::size_t i = 0; i < middle.size(); ++i)
-      points.push_back(carried(march(skin, middle[i], sideways[i], place * line.width / 2), skin, m));
+    std::vector<Vector3d> normals;
+    for (std::size_t i = 0; i < middle.size(); ++i) {
+      const SurfacePoint at = march(skin, middle[i], sideways[i], place * line.width / 2);
+      points.push_back(carried(at, skin, m));
+      normals.push_back(skin.normal(at));
+    }
     if (line.smooth > 0) points = averaged(points, line.smooth);
-    if (line.taut) points = on_the_tape(points);
+    if (line.taut) points = on_the_tape(points, normals);
     if (line.held[0]) points.front().weights.clear();
     if (line.held[1]) points.back().weights.clear();
     fibres.push_back({share, thinned(points, line.smooth)});

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 
 const char* const kGarments[] = {"B1", "B2", "B3", "B4", "H1", "H2", "H3", "H4"};
 
-void wear_all(const std::string& file, const std::vector<double>& ratios, const fit::Settings& settings,
-              const fs::path& out, std::FILE* table) {
+void wear_all(const std::string& file, const std::vector<double>& ratios, bool strings,
+              const fit::Settings& settings, const fs::path& out, std::FILE* table) {
   fit::StageTimes times;
   const fit::Body body = fit::measure_mesh(geometry::read_ply_mesh(file), settings, times);
   const std::string name = fs::path(file).stem().string();
@@ -35,6 +35,8 @@ void wear_all(const std::string& file, const std::vector<double>& ratios, const 
       tensegric::Garment garment =
           tensegric::take_garment(garment_name, geometry::shipped_folder("garments"));
       if (garment.regions.front() != region) continue;
+      if (strings)
+        for (tensegric::GarmentLine& line : garment.lines) line.width = line.smooth = 0;
       for (const double ratio : ratios) {
         tensegric::set_ratio(garment, "", ratio);
         const fit::Fit fit = fit::wear(body, fitting, garment, settings, times);
@@ -67,6 +69,8 @@ int main(int argc, char** argv) {
   app.add_option("--beta", settings.tffd.beta,
                  "Reach of t-FFD's triangles in their mean radii; 0: the default")
       ->check(CLI::Range(0.0, 20.0));
+  bool strings = false;
+  app.add_flag("--strings", strings, "Lines without width, over the control mesh, as the papers have them");
   CLI11_PARSE(app, argc, argv);
   std::filesystem::create_directories(out);
   std::FILE* table = std::fopen((out + "/warnings.csv").c_str(), "w");
@@ -77,7 +81,7 @@ int main(int argc, char** argv) {
   fmt::print(table, "body,run,status,iterations,code,line,area_cm2,shelf_cm2,value\n");
   for (const std::string& body : bodies) {
     try {
-      tensegric_fit::wear_all(body, ratios, settings, out, table);
+      tensegric_fit::wear_all(body, ratios, strings, settings, out, table);
     } catch (const tensegric_fit::geometry::Refusal& refusal) {
       fmt::print(stderr, "{} refused {}: {}\n", body, refusal.code(), refusal.what());
     }
