@@ -46,7 +46,7 @@ std::vector<std::string> yaml_files(const std::string& folder) {
 }
 
 /// The pieces of control mesh that the regions need, on the body.
-geometry::ControlMesh dressed(const fit::Body& body, const std::vector<std::string>& regions) {
+fit::Fitting dressed(const fit::Body& body, const std::vector<std::string>& regions) {
   std::vector<geometry::ControlMesh> pieces;
   for (const std::string& file : yaml_files(kLaunch + "templates")) {
     const control_mesh::Template pattern = control_mesh::load_template(file);
@@ -56,7 +56,8 @@ geometry::ControlMesh dressed(const fit::Body& body, const std::vector<std::stri
         });
     if (wanted) pieces.push_back(control_mesh::fit_template(pattern, body.mesh.mesh, body.measures, {}));
   }
-  return pieces.size() == 1 ? pieces.front() : geometry::joined(pieces);
+  fit::StageTimes times;
+  return fit::prepare(body, pieces.size() == 1 ? pieces.front() : geometry::joined(pieces), {}, times);
 }
 
 }  // namespace
@@ -72,15 +73,19 @@ std::vector<geometry::ControlMesh> template_meshes(std::uint64_t seed) {
 
 std::vector<Case> garment_cases(const std::string& name, const std::vector<double>& ratios) {
   const fit::Body body = measured(parameters_of(name));
-  std::map<std::vector<std::string>, geometry::ControlMesh> meshes;
+  std::map<std::vector<std::string>, fit::Fitting> fittings;
   std::vector<Case> cases;
   for (const std::string& file : yaml_files(kLaunch + "garments")) {
     const tensegric::Garment garment = tensegric::load_garment(file);
-    if (meshes.count(garment.regions) == 0) meshes[garment.regions] = dressed(body, garment.regions);
+    if (fittings.count(garment.regions) == 0)
+      fittings.emplace(garment.regions, dressed(body, garment.regions));
+    const fit::Fitting& fitting = fittings.at(garment.regions);
+    const std::vector<geometry::LaidLine> laid = fit::laid_lines(body, fitting, garment);
     for (double ratio : ratios) {
       Case all;
-      all.control = meshes[garment.regions];
+      all.control = fitting.control;
       all.garment = garment;
+      all.laid = laid;
       set_ratio(all.garment, "", ratio);
       const std::string at = " at " + std::to_string(ratio).substr(0, 4);
       all.name = "garments/" + name + " body, " + garment.name + at;

@@ -74,7 +74,8 @@ Ending run(const Case& hard, SolverName solver, int most_iterations) {
     if (solver != SolverName::equilibrium && options.max_iterations == 0)
       options.max_iterations = most_iterations;
     const tensegric::Model model = tensegric::build_model(hard.control, hard.model);
-    const Solution s = tensegric::solve(model, hard.garment, options, hard.start ? &*hard.start : nullptr);
+    const Solution s = tensegric::solve(model, hard.garment, options, hard.start ? &*hard.start : nullptr, {}, {},
+                                        hard.laid);
     ending.status = to_string(s.status);
     ending.iterations = s.iterations;
     ending.residual = s.residual;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/control_mesh.hpp"
+#include "geometry/fibre.hpp"
 #include "tensegric/solver.hpp"
 
 namespace tensegric_fit::stability {
@@ -16,6 +17,7 @@ struct Case {
   std::string name;  ///< group/what is hard about it
   geometry::ControlMesh control;
   tensegric::Garment garment;
+  std::vector<geometry::LaidLine> laid;  ///< of the garment, on the body
   tensegric::ModelOptions model;
   tensegric::SolverOptions solver;  ///< but for its name
   std::optional<tensegric::Solution> start;

@@ -5,10 +5,7 @@
 #include <map>
 
 #include "booth/virtual_body.hpp"
-#include "control_mesh/fit_template.hpp"
-#include "measured_body.hpp"
-#include "tensegric/garment.hpp"
-#include "tensegric/solver.hpp"
+#include "fit/chain.hpp"
 
 namespace {
 
@@ -38,14 +35,15 @@ class Worn : public testing::TestWithParam<double> {  // the parameter is the si
     auto garment = tensegric::load_garment(kLaunch + "garments/" + name + ".yaml");
     tensegric::set_ratio(garment, "", ratio);
     const Fitted& fitted = fitted_on(garment.regions.at(0), GetParam());
-    const auto& control = fitted.model.control;
-    const auto solution = tensegric::solve(fitted.model, garment, {});
+    const auto& control = fitted.fitting.control;
+    fit::StageTimes times;
+    const auto solution = fit::wear(fitted.body, fitted.fitting, garment, {}, times).solution;
     EXPECT_EQ(tensegric::to_string(solution.status), "converged") << name;
 
     const bool bust = garment.regions[0] == "bust";
     const std::string tip = bust ? "bust_point" : "buttock_point", side = bust ? "axilla" : "hip_side";
     const auto moved = [&](const std::string& node) -> Vector3d {
-      return fitted.body_from_scan.linear() *
+      return fitted.body.measures.body_from_scan.linear() *
              (solution.outer[control.node(node)] - control.outer[control.node(node)]);
     };
     const auto apart = [&](const std::string& stem, const std::vector<Vector3d>& nodes) {
@@ -72,8 +70,8 @@ class Worn : public testing::TestWithParam<double> {  // the parameter is the si
 
  private:
   struct Fitted {
-    tensegric::Model model;
-    Eigen::Isometry3d body_from_scan;
+    fit::Body body;
+    fit::Fitting fitting;
   };
 
   static const Fitted& fitted_on(const std::string& region, double size) {
@@ -83,11 +81,11 @@ class Worn : public testing::TestWithParam<double> {  // the parameter is the si
     booth::BodyParameters parameters;
     parameters.bust = parameters.hip = size;
     parameters.asymmetry = size > 1 ? 0.1 : 0;
-    const auto body = booth::make_body(parameters).mesh;
-    const auto measures = test::measured(body);
-    const auto pattern = control_mesh::load_template(kLaunch + "templates/" + region + ".yaml");
-    const auto control = control_mesh::fit_template(pattern, body, measures, {});
-    return fitted_->emplace(key, Fitted{tensegric::build_model(control, {}), measures.body_from_scan})
+    fit::StageTimes times;
+    const fit::Body body = fit::measure_mesh(booth::make_body(parameters).mesh, {}, times);
+    const std::vector<control_mesh::Template> patterns{
+        control_mesh::load_template(kLaunch + "templates/" + region + ".yaml")};
+    return fitted_->emplace(key, Fitted{body, fit::prepare(body, patterns, {}, times)})
         .first->second;
   }
 

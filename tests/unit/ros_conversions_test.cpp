@@ -234,7 +234,12 @@ TEST(FitMessages, LinesByPointsFollowTheRulesOfGarmentFiles) {
   EXPECT_EQ(request_in(garment).garment.lines.at(0).held, (std::array<bool, 2>{true, true}));  // unless said
   EXPECT_EQ(refused([](GarmentLine& bad) { bad.width = 5; }), "bad_garment");
   EXPECT_EQ(refused([](GarmentLine& bad) { bad.smooth = -0.01; }), "bad_garment");
-  EXPECT_EQ(refused([](GarmentLine& bad) { bad.points.clear(); }), "bad_garment");  // a width of nothing
+  const auto smooth_string = [](GarmentLine& bad) {
+    bad.points.clear();
+    bad.width = 0;
+    bad.smooth = 0.02;
+  };
+  EXPECT_EQ(refused(smooth_string), "bad_garment");
 }
 
 TEST(FitMessages, TablesFollowTheRulesOfGarmentFiles) {

@@ -70,7 +70,9 @@ class TensegricHandlerTest : public testing::Test {
   using Input = TensegricHandler::Input;
 
   static TriangleMesh::ConstPtr body_of(const std::string& scan_id) {
-    const auto body = boost::make_shared<TriangleMesh>();
+    const geometry::ControlMesh bust = tensegric::bust_mesh();
+    const auto body =
+        boost::make_shared<TriangleMesh>(to_message(ScanTag(), {bust.outer, bust.triangles}, {}));
     body->scan_id = scan_id;
     return body;
   }
@@ -157,9 +159,7 @@ TEST_F(TensegricHandlerTest, AStartFromRestIsNotLostWhereTheNextGarmentTakesItsP
 TEST_F(TensegricHandlerTest, TheSkinFollowsStatesOnTheWay) {
   TensegricHandler stage = handler("progress_period: 0.001, twist: 0.1");
   TffdHandler skin(parameters("{}"));
-  const geometry::ControlMesh bust = tensegric::bust_mesh();
-  const auto body = boost::make_shared<TriangleMesh>(to_message(ScanTag(), {bust.outer, bust.triangles}, {}));
-  body->scan_id = "A";
+  const TriangleMesh::ConstPtr body = body_of("A");
   const Landmarks::ConstPtr landmarks = landmarks_of("A");
   const ControlMesh::ConstPtr control = control_of("A");
   stage.put_on(chest_at(0.9));

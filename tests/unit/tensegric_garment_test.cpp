@@ -103,6 +103,22 @@ TEST(Garment, EndsOfALineByPointsAreHeldByBoneOrCarriedBySkin) {
   EXPECT_NE(refusal(with_line("through: [a, b], ends: [bone, skin]")).find("'ends'"), std::string::npos);
 }
 
+TEST(Garment, ALineThroughNodesIsABandUnlessItSaysOtherwise) {
+  const auto line = [](const std::string& words) {
+    const GarmentFile file(with_line(words));
+    return load_garment(file.path()).lines.front();
+  };
+  EXPECT_EQ(line("through: [a, b]").width, kBandWidth);
+  EXPECT_EQ(line("through: [a, b]").smooth, kBandSmooth);
+  EXPECT_EQ(line("through: [a, b], width: 0.015").width, 0.015);
+  EXPECT_TRUE(line("through: [a, b]").on_body());
+  const GarmentLine string = line("through: [a, b], width: 0");
+  EXPECT_EQ(string.smooth, 0);
+  EXPECT_FALSE(string.on_body());
+  EXPECT_NE(refusal(with_line("through: [a, b], width: 0, smooth: 0.02")).find("'smooth'"), std::string::npos);
+  EXPECT_NE(refusal(with_line("through: [a, b], width: 0.3")).find("'width'"), std::string::npos);
+}
+
 TEST(Garment, ShippedGarmentsAreRead) {
   for (const char* name : {"B1", "B2", "B3", "B4"}) {
     const Garment g =

@@ -112,6 +112,11 @@ TEST_F(Slab, ATautBandBridgesAHollow) {
   const double hull = geometry::length_of(tape, true) - (points.back() - points.front()).norm();
   EXPECT_LT(taut, skin - 5e-4);
   EXPECT_NEAR(taut, hull, 3e-4);  // points up to 0.5 mm inside the tape count as touched
+
+  // From crest to crest nothing but air: the bottom of the hollow is no part of the tape's outside.
+  points.clear();
+  for (int i = 0; i <= 30; ++i) points.emplace_back(-0.045 + 0.003 * i, 0, hollow(-0.045 + 0.003 * i));
+  EXPECT_NEAR(length_at_rest(lay_line({points, 0, 0, true}, two, bound)), 0.09, 2e-4);
 }
 
 TEST_F(Slab, NothingCarriesAnEndThatIsHeld) {
