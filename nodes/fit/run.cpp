@@ -147,8 +147,8 @@ class Run {
       if (warning.is_warning())
         scene.warned.insert(scene.warned.end(), warning.vertices.begin(), warning.vertices.end());
     for (const auto& line : fit.solution.lines) {
-      scene.lines_before.push_back(line.course_at_rest);
-      scene.lines_after.push_back(line.course);
+      scene.lines_before.insert(scene.lines_before.end(), line.edges_at_rest.begin(), line.edges_at_rest.end());
+      scene.lines_after.insert(scene.lines_after.end(), line.edges.begin(), line.edges.end());
     }
     save_picture("front.png", beside_measured(inspect::front_picture, inspect::front_picture(scene)));
     save_picture("side.png", beside_measured(inspect::side_picture, inspect::side_picture(scene)));

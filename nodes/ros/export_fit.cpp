@@ -16,6 +16,7 @@
 #include "inspect/fit_pictures.hpp"
 #include "ros/fit_document.hpp"
 #include "ros/fit_sheet.hpp"
+#include "ros/flat.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -56,12 +57,8 @@ inspect::FitScene scene_of(const FitFigures& figures) {
   inspect::FitScene scene{
       figures.body, figures.deformed, figures.distortion, figures.measures, worn_parts(figures), {}, {}};
   for (const LineResult& line : figures.scan.fit->lines) {
-    scene.lines_before.emplace_back();
-    scene.lines_after.emplace_back();
-    for (const std::uint32_t node : line.nodes) {
-      scene.lines_before.back().push_back(figures.control.outer[node]);
-      scene.lines_after.back().push_back(figures.control_deformed[node]);
-    }
+    scene.lines_before.push_back(points_in(line.course_at_rest));
+    scene.lines_after.push_back(points_in(line.course));
   }
   for (const geometry::FitWarning& warning : figures.scan.warnings)
     if (warning.is_warning())

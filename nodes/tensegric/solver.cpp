@@ -57,6 +57,12 @@ bool held(const Problem& problem) {
          std::count(fixed.begin(), fixed.end(), 1) > 0;
 }
 
+std::vector<Eigen::Vector3d> rest_of(const Thread& thread) {
+  std::vector<Eigen::Vector3d> points;
+  for (const geometry::CarriedPoint& point : thread.points) points.push_back(point.rest);
+  return points;
+}
+
 Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iterate> history) {
   const Positions& x = outcome.state.x;
   Solution solution;
@@ -76,8 +82,13 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
     line.law = band.law;
     line.tension_limit = band.tension_limit;
     line.nodes = band.nodes;
-    for (const geometry::CarriedPoint& point : thread.points) line.course_at_rest.push_back(point.rest);
+    line.course_at_rest = rest_of(thread);
     line.course = points_of(thread, x);
+    for (const Thread* edge : {&band.threads.front(), &band.threads.back()}) {
+      if (!line.edges.empty() && band.threads.size() == 1) continue;
+      line.edges_at_rest.push_back(rest_of(*edge));
+      line.edges.push_back(points_of(*edge, x));
+    }
     line.straight = band.straight;
     solution.lines.push_back(line);
   }

@@ -35,8 +35,9 @@ struct LineResult {
   double pressure = 0;                         ///< Pa, largest; 0 of a line without width
   TensionLaw law;
   double tension_limit = std::numeric_limits<double>::infinity();  ///< pseudo force
-  std::vector<int> nodes;  ///< outer nodes that it runs over, in order; none where it lies on the body
+  std::vector<int> nodes;  ///< outer nodes that a line by `through` runs over, in order
   std::vector<Eigen::Vector3d> course_at_rest, course;  ///< its middle thread, scan frame
+  std::vector<std::vector<Eigen::Vector3d>> edges_at_rest, edges;  ///< of a band both, of a string its course
   double straight = 0;   ///< m, between the fixed nodes that it runs over: it cannot become shorter
   double reachable = 0;  ///< m, the shortest that it came to: `final` where the request is infeasible
 };
