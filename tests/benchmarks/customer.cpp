@@ -88,9 +88,15 @@ const tensegric::Model& bust_model(int control_triangles) {
               [&] { return tensegric::build_model(bust_control(control_triangles), {}); });
 }
 
-tensegric::Garment chest_line(double ratio) {
+tensegric::Garment band(double ratio) {
   tensegric::Garment garment = tensegric::load_garment(kLaunch + "/garments/B1.yaml");
   tensegric::set_ratio(garment, "", ratio);
+  return garment;
+}
+
+tensegric::Garment chest_line(double ratio) {
+  tensegric::Garment garment = band(ratio);
+  for (tensegric::GarmentLine& line : garment.lines) line.width = line.smooth = 0;
   return garment;
 }
 

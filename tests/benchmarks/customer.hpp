@@ -31,7 +31,10 @@ const geometry::ControlMesh& bust_control(int triangles);
 
 const tensegric::Model& bust_model(int control_triangles);
 
-/// Garment B1 with its chest line at that ratio.
+/// Garment B1 at that ratio: a band on the body.
+tensegric::Garment band(double ratio);
+
+/// The same as a string over the control mesh, which needs no body: what solvers are compared with.
 tensegric::Garment chest_line(double ratio);
 
 /// From rest, by the equilibrium solver.

@@ -99,8 +99,8 @@ void garment_change(benchmark::State& state) {
   static const fit::Body body = fit::measure_scan(scan(180000), {}, times);
   const auto pattern = control_mesh::load_template(kLaunch + "/templates/bust.yaml");
   const fit::Fitting fitting = fit::prepare(body, {pattern}, settings, times);
-  const fit::Fit start = fit::wear(body, fitting, chest_line(0.94), settings, times);
-  const tensegric::Garment tighter = chest_line(0.93);
+  const fit::Fit start = fit::wear(body, fitting, band(0.94), settings, times);
+  const tensegric::Garment tighter = band(0.93);
   fit::Fit worn;
   for (auto _ : state) worn = fit::wear(body, fitting, tighter, settings, times, &start.solution);
   const auto& line = worn.solution.lines[0];

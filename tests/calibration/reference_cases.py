@@ -3,7 +3,8 @@
 
 DATA has bodies in open/ and fem/bodies/, references in fem/ (NAME_VARIANT_rNNN.npz) and their tensions in fem/summary.json. Writes a CSV a
 reference and OUT/cases.yaml. VARIANT: skin, hull (taut over the cleavage), strap, hip, hiphull (taut); all but hip where none is named: the
-reference's skin band goes into the cleft between the buttocks. Requests below 0.95 are left out: they are for looking at.
+reference's skin band goes into the cleft between the buttocks. B1, H1: the shipped garment in place of skin's and hip's own band; string: B1 without
+width. Requests below 0.95 are left out: they are for looking at.
 """
 import json
 import pathlib
@@ -11,13 +12,21 @@ import sys
 
 import reference_csv
 
+GARMENTS = pathlib.Path(__file__).resolve().parents[2] / "launch" / "garments"
 GARMENT = {"skin": "chest", "hull": "hull", "strap": "strap", "hip": "hip", "hiphull": "hiphull"}
+SHIPPED = {"B1": "skin", "H1": "hip", "string": "skin"}  # the reference that a shipped garment is compared with
 USUAL = ("skin", "hull", "strap", "hiphull")
 LEAST_REQUEST = 0.95
 
 
 def garment_of(data, out, body, variant):
     """The garment's file. The taut band has the course of the one on the skin."""
+    if variant == "string":
+        band = (GARMENTS / "B1.yaml").read_text()
+        (out / "string.yaml").write_text(band.replace("ratio:", "width: 0\n    ratio:"))
+        return out / "string.yaml"
+    if variant in SHIPPED:
+        return GARMENTS / f"{variant}.yaml"
     path = data / "fem" / f"{body}_{GARMENT[variant]}.yaml"
     if variant != "hull":
         return path
@@ -33,15 +42,16 @@ def main(data, out, *variants):
     bodies = {}
     for entry in json.loads((data / "fem" / "summary.json").read_text()):
         body, variant, request = entry["body"], entry["variant"], entry["request"]
-        if variant not in (variants or USUAL) or request < LEAST_REQUEST:
+        wearing = [wanted for wanted in variants or USUAL if SHIPPED.get(wanted, wanted) == variant]
+        if not wearing or request < LEAST_REQUEST:
             continue
         mesh = data / ("open" if body.startswith("F") else "fem/bodies") / f"{body}_body.ply"
         name = f"{body}_{variant}_r{round(1000 * request):03d}"
         reference_csv.main(mesh, data / "fem" / f"{name}.npz", out / f"{name}.csv")
         tension = entry["tension_N"]
-        bodies.setdefault(body, (mesh, []))[1].append(
-            f"      - {{ratio: {request}, file: {name}.csv, garment: {garment_of(data, out, body, variant)}, "
-            f"tension: {tension if isinstance(tension, list) else [tension]}}}\n")
+        bodies.setdefault(body, (mesh, []))[1].extend(
+            f"      - {{ratio: {request}, file: {name}.csv, garment: {garment_of(data, out, body, worn)}, "
+            f"tension: {tension if isinstance(tension, list) else [tension]}}}\n" for worn in wearing)
     with open(out / "cases.yaml", "w") as file:
         file.write("bodies:\n")
         for body, (mesh, references) in sorted(bodies.items()):

@@ -57,20 +57,22 @@ class Bodies {
     const std::string name = std::filesystem::path(path).stem().string();
     fit::StageTimes times;
     const fit::Body body = fit::measure_mesh(geometry::read_ply_mesh(path), settings_, times);
-    std::map<std::string, tensegric::Model> models;  // by region
+    std::map<std::string, fit::Fitting> fittings;  // by region
     for (const std::string& word : garments) {
       tensegric::Garment garment =
           tensegric::load_garment(geometry::yaml_file(geometry::shipped_folder("garments"), word, kCode));
       const std::string region = garment.regions.front();
       try {
-        if (models.count(region) == 0) models.emplace(region, model_of(body, region));
+        if (fittings.count(region) == 0) fittings.emplace(region, fitting_on(body, region));
       } catch (const geometry::Refusal& refusal) {
         fmt::print("{},{},,refused: {},,,,,\n", name, word, refusal.code());
         continue;
       }
+      const fit::Fitting& fitting = fittings.at(region);
+      const std::vector<geometry::LaidLine> laid = fit::laid_lines(body, fitting, garment);
       for (double request : requests) {
         tensegric::set_ratio(garment, "", request);
-        solve(name, word, request, models.at(region), garment);
+        solve(name, word, request, fitting.model, garment, laid);
       }
     }
   }
@@ -86,18 +88,19 @@ class Bodies {
   }
 
  private:
-  tensegric::Model model_of(const fit::Body& body, const std::string& region) const {
+  fit::Fitting fitting_on(const fit::Body& body, const std::string& region) const {
     const control_mesh::Template pattern = control_mesh::load_template(
         geometry::yaml_file(geometry::shipped_folder("templates"), region, kCode));
-    return tensegric::build_model(
-        control_mesh::fit_template(pattern, body.mesh.mesh, body.measures, settings_.control_mesh),
-        settings_.model);
+    fit::StageTimes times;
+    return fit::prepare(body, std::vector<control_mesh::Template>{pattern}, settings_, times);
   }
 
   void solve(const std::string& body, const std::string& garment_name, double request,
-             const tensegric::Model& model, const tensegric::Garment& garment) {
+             const tensegric::Model& model, const tensegric::Garment& garment,
+             const std::vector<geometry::LaidLine>& laid) {
     const auto start = std::chrono::steady_clock::now();
-    const tensegric::Solution solution = tensegric::solve(model, garment, settings_.solver);
+    const tensegric::Solution solution =
+        tensegric::solve(model, garment, settings_.solver, nullptr, {}, {}, laid);
     const double ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     double moved = 0, volume = 0, length = 0, tension = 0;
