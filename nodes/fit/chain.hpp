@@ -78,7 +78,7 @@ Fitting prepare(const Body& body, const std::vector<control_mesh::Template>& pat
 /// The same for a control mesh that is given (P1 §3.2).
 Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings& settings, StageTimes& times);
 
-/// The garment's lines that are given by points on the body, laid on its skin.
+/// The garment's lines that lie on the body, laid on its skin.
 std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitting,
                                            const tensegric::Garment& garment);
 

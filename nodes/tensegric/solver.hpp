@@ -97,7 +97,7 @@ using Progress = std::function<bool(const Iterate&, const std::vector<Eigen::Vec
 /// Deforms the model under the garment's lines at constant region volumes. Pieces of the control mesh that no
 /// line touches stay at rest, bit for bit, where there is no gravity and no posture. `start` is null (from
 /// rest) or an earlier solution of the same model (warm start). `body_volumes`: for KeptVolume::body, one a
-/// region of the control mesh. `laid`: the garment's lines that are given by points. Never returns a
+/// region of the control mesh. `laid`: the garment's lines that lie on the body. Never returns a
 /// non-finite position. \throw Refusal unknown_line, bad_garment, bad_option
 Solution solve(const Model& model, const Garment& garment, const SolverOptions& options,
                const Solution* start = nullptr, const Progress& progress = {},

@@ -3,7 +3,7 @@
 
 DATA has bodies in open/ and fem/bodies/, references in fem/ (NAME_VARIANT_rNNN.npz) and their tensions in fem/summary.json. Writes a CSV a
 reference and OUT/cases.yaml. VARIANT: skin, hull (taut over the cleavage), strap, hip, hiphull (taut); all but hip where none is named: the
-reference's skin band goes into the cleft between the buttocks. B1, H1: the shipped garment in place of skin's and hip's own band; string: B1 without
+reference's skin band goes into the cleft between the buttocks. B1, H1: the shipped garment in place of skin's and hiphull's own band; string: B1 without
 width. Requests below 0.95 are left out: they are for looking at.
 """
 import json
@@ -14,7 +14,7 @@ import reference_csv
 
 GARMENTS = pathlib.Path(__file__).resolve().parents[2] / "launch" / "garments"
 GARMENT = {"skin": "chest", "hull": "hull", "strap": "strap", "hip": "hip", "hiphull": "hiphull"}
-SHIPPED = {"B1": "skin", "H1": "hip", "string": "skin"}  # the reference that a shipped garment is compared with
+SHIPPED = {"B1": "skin", "H1": "hiphull", "string": "skin"}  # the reference that a shipped garment is compared with
 USUAL = ("skin", "hull", "strap", "hiphull")
 LEAST_REQUEST = 0.95
 
