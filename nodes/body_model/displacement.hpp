@@ -15,25 +15,27 @@ class SkinField {
   explicit SkinField(const Model& model);
 
   std::size_t nodes() const { return area_.size(); }
-  /// Precision, 1/m^2, of each coordinate of a random field on the nodes with that standard deviation (m) whose values are
-  /// independent some `range` (m) apart (Matern field; Lindgren, Rue and Lindstroem 2011, eq. 10).
+  /// Precision, 1/m^2, of each coordinate of a random field on the nodes with that standard deviation (m)
+  /// whose values are independent some `range` (m) apart (Matern field; Lindgren, Rue and Lindstroem 2011,
+  /// eq. 10).
   Eigen::SparseMatrix<double> precision(double deviation, double range) const;
-  /// One value a vertex of the skin from one a node.
+  /// One value per vertex of the skin from one per node.
   std::vector<Eigen::Vector3d> spread(const std::vector<Eigen::Vector3d>& at_nodes) const;
   std::vector<double> spread(const std::vector<double>& at_nodes) const;
 
  private:
-  std::vector<double> area_;                                   ///< m^2, of the skin at rest that is nearest to a node
-  std::vector<std::pair<int, int>> neighbours_;                ///< nodes whose areas meet, first < second
-  std::vector<std::vector<std::pair<int, double>>> shares_;    ///< of each vertex: node, share
+  std::vector<double> area_;                     ///< m^2, of the skin at rest that is nearest to a node
+  std::vector<std::pair<int, int>> neighbours_;  ///< nodes whose areas meet, first < second
+  std::vector<std::vector<std::pair<int, double>>> shares_;  ///< of each vertex: node, share
 };
 
 struct Displaced {
   std::vector<Eigen::Vector3d> vertices;  ///< of the skin, m, scan frame
-  std::vector<double> distances;          ///< m, of each node from the samples; Matching::kUnmatched: none there
+  std::vector<double> distances;  ///< m, of each node from the samples; Matching::kUnmatched: none there
 };
 
 /// The posed skin moved onto the samples.
-Displaced displace(const Model& model, const SkinField& field, const Matcher& matcher, const Parameters& parameters);
+Displaced displace(const Model& model, const SkinField& field, const Matcher& matcher,
+                   const Parameters& parameters);
 
 }  // namespace tensegric_fit::body_model

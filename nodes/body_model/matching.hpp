@@ -23,7 +23,7 @@ struct Pull {
 };
 
 struct Matching {
-  std::vector<Pull> pulls;  ///< one a point of the model
+  std::vector<Pull> pulls;  ///< one per point of the model
   std::vector<double>
       distances;  ///< m, of each point of the model from the samples' nearest plane; kUnmatched: none
   std::vector<double> unexplained;            ///< m, of each sample that was looked at, in the samples' order

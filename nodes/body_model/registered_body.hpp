@@ -25,7 +25,7 @@ struct Unexplained {
   std::string reason;  ///< where it is and what it may be, in words
 };
 
-/// In the scan's frame, metres; per-vertex arrays have one entry a vertex of the model's skin.
+/// In the scan's frame, metres; per-vertex arrays have one entry per vertex of the model's skin.
 struct RegisteredBody {
   std::shared_ptr<const Model> model;
   Parameters parameters;

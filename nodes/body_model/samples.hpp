@@ -8,7 +8,7 @@
 
 namespace tensegric_fit::body_model {
 
-/// Points and outward unit normals, one a point; m, scan frame.
+/// Points and outward unit normals, one per point; m, scan frame.
 struct Samples {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3d> normals;
@@ -17,8 +17,9 @@ struct Samples {
 /// The same in a random order, always the same one: any first n of them are spread over the whole.
 Samples shuffled(const Samples& samples);
 
-/// `count` points spread evenly over the mesh's area, as any first n of them are, the same for the same mesh; those whose nearest corner is
-/// flagged in `filled` (empty, or one flag a vertex) are left out: no scan point backs the surface there.
+/// `count` points spread evenly over the mesh's area, as any first n of them are, the same for the same mesh;
+/// those whose nearest corner is flagged in `filled` (empty, or one flag a vertex) are left out: no scan
+/// point backs the surface there.
 Samples sample_surface(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, int count);
 
 }  // namespace tensegric_fit::body_model

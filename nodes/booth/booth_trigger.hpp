@@ -1,4 +1,4 @@
-/// Tells a booth to scan.
+/// Triggers a scan of a booth.
 #pragma once
 
 #include <ros/node_handle.h>

@@ -38,8 +38,8 @@ std::vector<std::string> ScanFolder::poll(double now) {
   for (const auto& [name, version] : found) {
     const auto [file, is_new] = files_.try_emplace(name, File{version, now, false});
     if (!is_new && !(file->second.version == version)) file->second = {version, now, false};
-    if (file->second.told || now - file->second.since < settle_) continue;
-    file->second.told = true;
+    if (file->second.played || now - file->second.since < settle_) continue;
+    file->second.played = true;
     complete.emplace_back(version.changed, name);
   }
   std::sort(complete.begin(), complete.end());
@@ -56,15 +56,15 @@ std::string ScanFolder::text_of(const std::string& name, const Version& version)
   return std::to_string(version.changed) + " " + std::to_string(version.size) + " " + name;
 }
 
-std::vector<std::string> ScanFolder::told() const {
+std::vector<std::string> ScanFolder::played() const {
   std::vector<std::string> texts;
   for (const auto& [name, file] : files_)
-    if (file.told) texts.push_back(text_of(name, file.version));
+    if (file.played) texts.push_back(text_of(name, file.version));
   return texts;
 }
 
-void ScanFolder::skip(const std::vector<std::string>& told) {
-  const std::set<std::string> texts(told.begin(), told.end());
+void ScanFolder::skip(const std::vector<std::string>& played) {
+  const std::set<std::string> texts(played.begin(), played.end());
   for (const auto& [name, version] : look())
     if (texts.count(text_of(name, version)) != 0) files_[name] = {version, 0, true};
 }

@@ -8,7 +8,7 @@
 
 namespace tensegric_fit::booth {
 
-/// Tells new scan files (.ply, .pcd, .bag; not those whose name begins with a dot) once they are complete:
+/// Finds new scan files (.ply, .pcd, .bag; not those whose name begins with a dot) once they are complete:
 /// when neither size nor time of change have moved for a while. A file that is written again is a new one.
 /// For one thread.
 class ScanFolder {
@@ -23,10 +23,10 @@ class ScanFolder {
   /// Leaves out what lies there now. \throw Refusal as poll()
   void skip_all();
 
-  /// Texts that stand for the files told so far and still there; and, for one that goes on where another
+  /// Texts that stand for the files returned so far and still there; and, for one that goes on where another
   /// ended, to leave those out.
-  std::vector<std::string> told() const;
-  void skip(const std::vector<std::string>& told);
+  std::vector<std::string> played() const;
+  void skip(const std::vector<std::string>& played);
 
  private:
   struct Version {
@@ -37,7 +37,7 @@ class ScanFolder {
   struct File {
     Version version;
     double since;  // when it was first seen so
-    bool told;
+    bool played;
   };
   std::map<std::string, Version> look() const;
   static std::string text_of(const std::string& name, const Version& version);

@@ -27,7 +27,7 @@ struct Setup {
   std::string file, frame_id;
   double rate, interval, settle;
   bool existing;
-  std::vector<std::string> told;  // what this node told in an earlier life
+  std::vector<std::string> played_files;  // what this node played before it was respawned
 };
 
 Setup setup_from(Parameters parameters) {
@@ -38,7 +38,7 @@ Setup setup_from(Parameters parameters) {
   setup.interval = parameters.number("interval", 10, 0, 86400);
   setup.settle = parameters.number("settle", 1, 0.1, 3600);
   setup.existing = parameters.flag("existing", false);
-  setup.told = parameters.texts("told");
+  setup.played_files = parameters.texts("played_files");
   parameters.check_all_known();
   if (!fs::exists(setup.file))
     throw geometry::Refusal(geometry::refusal::kBadOption,
@@ -66,8 +66,8 @@ class ScanPlayer {
         stage_("scan_player", node) {
     if (fs::is_directory(setup_.file)) {
       folder_.emplace(setup_.file, setup_.settle);
-      if (private_node_.hasParam("told"))
-        folder_->skip(setup_.told);
+      if (private_node_.hasParam("played_files"))
+        folder_->skip(setup_.played_files);
       else if (!setup_.existing)
         folder_->skip_all();
       remember();
@@ -102,7 +102,7 @@ class ScanPlayer {
     }
   }
 
-  void remember() { private_node_.setParam("told", folder_->told()); }
+  void remember() { private_node_.setParam("played_files", folder_->played()); }
 
   void read(const std::string path) {
     files_.pop_front();

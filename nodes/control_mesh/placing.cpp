@@ -48,7 +48,7 @@ class LeaningAxis {
       top_.z() += in_body(measures, landmark).z() / static_cast<double>(pattern.axis.size());
     if (pattern.axis_foot.empty() || !measures.find_landmark(pattern.axis_foot)) return;
     const Vector3d up = top_ - in_body(measures, pattern.axis_foot);
-    constexpr double kLeast = 0.1;  // m; a foot that is hardly lower tells no lean
+    constexpr double kLeast = 0.1;  // m; a foot that is hardly lower shows no lean
     if (up.z() > kLeast) lean_ = {up.x() / up.z(), up.y() / up.z(), 1};
   }
 

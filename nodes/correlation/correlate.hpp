@@ -22,7 +22,7 @@ struct Options {
 struct Correlation {
   Alignment alignment;  ///< patch_from_scan takes the worn scan's frame to the simulated body's
   Likeness likeness;
-  std::vector<SkinPart> parts;  ///< one a vertex of the simulated body
+  std::vector<SkinPart> parts;  ///< one per vertex of the simulated body
   DistanceMap map;
   Summary covered, still;
 };

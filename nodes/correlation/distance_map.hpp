@@ -9,7 +9,7 @@
 
 namespace tensegric_fit::correlation {
 
-/// One value a vertex of the simulated body.
+/// One value per vertex of the simulated body.
 struct DistanceMap {
   std::vector<double> distance;  ///< m; positive: the worn surface lies outside; 0 where nothing is compared
   std::vector<char> compared;    ///< 0: a mobile part, or the worn scan saw no skin there that faces alike

@@ -11,7 +11,7 @@ namespace tensegric_fit::correlation {
 /// A body that a garment was simulated on. Only borrowed. Metres, one scan's frame.
 struct SimulatedBody {
   const geometry::TriangleMesh& rest;
-  const std::vector<Eigen::Vector3d>& deformed;  ///< one a vertex of `rest`
+  const std::vector<Eigen::Vector3d>& deformed;  ///< one per vertex of `rest`
   const geometry::TriangleMesh& control;         ///< outer nodes of the control mesh, at rest
   const geometry::BodyMeasures& measures;        ///< of `rest`
 };
@@ -30,7 +30,7 @@ enum class SkinPart : char { covered, surroundings, still, mobile };
 inline constexpr double kUnderControl = 0.03;  ///< m; between its nodes a control mesh lies below the skin
 inline constexpr double kSurroundings = 0.04;  ///< m; t-FFD moves nothing there, but tissue and seams do
 
-/// One a vertex. The trunk reaches from the thighs, a seventh of the crotch's height below it, to the
+/// One per vertex. The trunk reaches from the thighs, a seventh of the crotch's height below it, to the
 /// shoulders, and sideways to the armpits: what is farther out are arms and hands, or the outer hips.
 /// \throw Refusal missing_part: a landmark that bounds the trunk was not found
 std::vector<SkinPart> parts_of(const SimulatedBody& body);

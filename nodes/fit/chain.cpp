@@ -27,7 +27,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
-// One a region, where the body's volume is to be kept.
+// One per region, where the body's volume is to be kept.
 std::vector<tensegric::VolumeFunction> body_volumes(const Fitting& fitting, const Settings& settings) {
   std::vector<tensegric::VolumeFunction> volumes;
   if (settings.solver.volume == tensegric::KeptVolume::control) return volumes;
@@ -120,8 +120,9 @@ std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitt
   for (const tensegric::GarmentLine& line : garment.lines) {
     if (!line.on_body()) continue;
     const tensegric::Course course = tensegric::course_of(fitting.control, line);
-    laid.push_back({line.name, tffd::lay_line({course.points, line.width, line.smooth, line.taut, course.held},
-                                              body.mesh.mesh, fitting.binding)});
+    laid.push_back(
+        {line.name, tffd::lay_line({course.points, line.width, line.smooth, line.taut, course.held},
+                                   body.mesh.mesh, fitting.binding)});
   }
   return laid;
 }

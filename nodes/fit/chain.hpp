@@ -49,15 +49,15 @@ struct Fitting {
   tensegric::Model model;
   tffd::Binding binding;                                ///< in the posture of the settings
   std::vector<std::vector<Eigen::Vector3i>> carried;    ///< body triangles, one list a region
-  std::vector<tensegric::VolumeFunction> body_volumes;  ///< one a region where the body's volume is kept
+  std::vector<tensegric::VolumeFunction> body_volumes;  ///< one per region where the body's volume is kept
 };
 
 /// A garment worn.
 struct Fit {
   tensegric::Solution solution;
-  std::vector<Eigen::Vector3d> deformed;    ///< one a body vertex, scan frame
-  std::vector<double> distortion;           ///< area after / before, one a body vertex (P1 Fig. 8)
-  std::vector<double> body_volumes_before;  ///< one a region, m^3, under the skin that it carries
+  std::vector<Eigen::Vector3d> deformed;    ///< one per body vertex, scan frame
+  std::vector<double> distortion;           ///< area after / before, one per body vertex (P1 Fig. 8)
+  std::vector<double> body_volumes_before;  ///< one per region, m^3, under the skin that it carries
   std::vector<double> body_volumes_after;
 };
 

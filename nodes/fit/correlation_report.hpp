@@ -27,7 +27,8 @@ struct Correlated {
 /// correlate.json, metres.
 nlohmann::ordered_json report_of(const Correlated& correlated);
 
-/// distance.csv: a row a vertex of deformed.ply: its part, whether it is compared, and its distance in mm.
+/// distance.csv: one row per vertex of deformed.ply: its part, whether it is compared, and its distance in
+/// mm.
 std::string distance_csv(const correlation::Correlation& result);
 
 /// A picture with what stands under it.

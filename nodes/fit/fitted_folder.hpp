@@ -12,7 +12,7 @@ namespace tensegric_fit::fit {
 struct FittedFolder {
   std::string scan;                       ///< file that the body comes from
   geometry::TriangleMesh rest;            ///< body.ply
-  std::vector<Eigen::Vector3d> deformed;  ///< deformed.ply, one a vertex of `rest`
+  std::vector<Eigen::Vector3d> deformed;  ///< deformed.ply, one per vertex of `rest`
   geometry::TriangleMesh control;         ///< control.ply
   struct Line {
     std::string name;

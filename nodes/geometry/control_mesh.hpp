@@ -22,7 +22,7 @@ struct ControlRegion {
 };
 
 /// Outer nodes lie on the skin, inner node i lies below outer node i (P2 §2.1, "the supposed thickness of a
-/// soft tissue"). All per-node arrays have one entry an outer node. Metres, the scan's frame; triangles
+/// soft tissue"). All per-node arrays have one entry per outer node. Metres, the scan's frame; triangles
 /// counter-clockwise from outside.
 struct ControlMesh {
   std::vector<Eigen::Vector3d> outer;

@@ -10,7 +10,7 @@
 
 namespace tensegric_fit::geometry {
 
-/// A body's skin before and after. Only borrowed; `after` has one place a vertex of `before`. Metres, scan
+/// A body's skin before and after. Only borrowed; `after` has one place per vertex of `before`. Metres, scan
 /// frame.
 struct MovedSkin {
   const TriangleMesh& before;
@@ -25,7 +25,7 @@ Eigen::Vector3d carried(const Eigen::Vector3d& point, const MovedSkin& skin);
 /// as it came from another level. Empty where the plane meets none.
 std::vector<Eigen::Vector3d> tape_after(const MovedSkin& skin, const std::vector<Eigen::Vector3d>& loop);
 
-/// A height or a girth before, and what it is after, metres; nothing where that cannot be told.
+/// A height or a girth before, and what it is after, metres; nothing where that is not known.
 struct ChangedMeasure {
   Measure before;
   std::optional<double> after;

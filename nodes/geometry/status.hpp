@@ -39,7 +39,7 @@ inline constexpr char kBadModel[] =
     "bad_model";  ///< a registered body model whose arrays do not fit each other
 inline constexpr char kOtherModel[] =
     "other_model";  ///< registered with another body model file than this build's
-inline constexpr char kTriggerFailed[] = "trigger_failed";  ///< the booth could not be told to scan
+inline constexpr char kTriggerFailed[] = "trigger_failed";  ///< the booth could not be triggered
 inline constexpr char kTimedOut[] = "timed_out";      ///< a capture that did not come to its end in time
 inline constexpr char kSuperseded[] = "superseded";   ///< a newer scan came before this one was through
 inline constexpr char kNothingYet[] = "nothing_yet";  ///< asked for a result before there is one

@@ -23,7 +23,7 @@ inline Eigen::Vector3d area_vector(const Eigen::Vector3d& a, const Eigen::Vector
   return (b - a).cross(c - a);
 }
 
-/// Area-weighted unit normals, one a vertex (zero where a vertex has no area around it).
+/// Area-weighted unit normals, one per vertex (zero where a vertex has no area around it).
 std::vector<Eigen::Vector3d> vertex_normals(const std::vector<Eigen::Vector3d>& vertices,
                                             const std::vector<Eigen::Vector3i>& triangles);
 

@@ -16,7 +16,7 @@ namespace tensegric_fit::inspect {
 /// refused in words, and what was there before stays. For one thread.
 class BodyView {
  public:
-  /// The body under a garment, vertices in the scan's frame, metres; distortion one a vertex.
+  /// The body under a garment, vertices in the scan's frame, metres; distortion one per vertex.
   struct Worn {
     std::string scan_id, garment;
     std::vector<Eigen::Vector3d> vertices;
@@ -45,7 +45,7 @@ class BodyView {
   /// The vertices between rest (0) and worn (1); at rest where nothing is worn.
   std::vector<Eigen::Vector3d> vertices(double blend) const;
 
-  /// What the worn body's colours stand for, one a vertex, `blend` of the way from rest: 1, or 0 for a
+  /// What the worn body's colours stand for, one per vertex, `blend` of the way from rest: 1, or 0 for a
   /// displacement, where nothing is worn.
   std::vector<double> values(ColourBy by, double blend) const;
 

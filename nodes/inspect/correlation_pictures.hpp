@@ -16,21 +16,21 @@ struct CorrelationScene {
   const geometry::TriangleMesh& simulated;
   const geometry::TriangleMesh& before;  ///< the same body at rest
   const geometry::TriangleMesh& worn;    ///< as aligned
-  const std::vector<double>& distance;   ///< m, one a vertex of `simulated`; positive: worn outside
-  const std::vector<char>& compared;     ///< one a vertex of `simulated`
+  const std::vector<double>& distance;   ///< m, one per vertex of `simulated`; positive: worn outside
+  const std::vector<char>& compared;     ///< one per vertex of `simulated`
   const Eigen::Isometry3d& body_from_scan;
   std::vector<Part> parts;  ///< what the garment changes
 };
 
 std::vector<Colour> distance_colours(const std::vector<double>& distance, const std::vector<char>& compared);
 
-/// The simulated body coloured by distance, with the scale: a row a part, from the front and from an angle,
-/// or from behind. BGR, 1512 wide. \throw Refusal as draw(); bad_mesh: not one distance a vertex
+/// The simulated body coloured by distance, with the scale: one row per part, from the front and from an
+/// angle, or from behind. BGR, 1512 wide. \throw Refusal as draw(); bad_mesh: not one distance a vertex
 cv::Mat distance_picture(const CorrelationScene& scene);
 
-/// Outlines from the front and from her left, a row a part: the worn body grey, where it is farther out than
-/// the simulated one blue, where the simulated one is red, with the simulated outline dark and the outline
-/// before dotted. BGR, 1512 wide. \throw as above
+/// Outlines from the front and from her left, one row per part: the worn body grey, where it is farther out
+/// than the simulated one blue, where the simulated one is red, with the simulated outline dark and the
+/// outline before dotted. BGR, 1512 wide. \throw as above
 cv::Mat silhouette_picture(const CorrelationScene& scene);
 
 }  // namespace tensegric_fit::inspect

@@ -43,7 +43,7 @@ std::vector<Colour> warned_colours(const FitScene& scene) {
   return colours;
 }
 
-// The border of the skin that there is a warning of, a side at a time.
+// The border of the skin that there is a warning of: one line per side of a triangle.
 std::vector<Polyline> warned_borders(const FitScene& scene) {
   std::vector<char> warned(scene.after.size(), 0);
   for (const int v : scene.warned) warned[v] = 1;

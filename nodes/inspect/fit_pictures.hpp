@@ -19,7 +19,7 @@ struct Part {
   bool behind = false;                 ///< it is seen from behind
 };
 
-/// One a region of the control mesh; behind where most of its skin faces backwards.
+/// One per region of the control mesh; behind where most of its skin faces backwards.
 std::vector<Part> parts_of(const geometry::ControlMesh& control, const Eigen::Isometry3d& body_from_scan);
 
 /// The same of a control mesh whose regions are not known: one a connected piece.
@@ -28,8 +28,8 @@ std::vector<Part> parts_of(const geometry::TriangleMesh& control, const Eigen::I
 /// A body before and after. Only borrowed: the meshes and measures must outlive the scene.
 struct FitScene {
   const geometry::TriangleMesh& before;
-  const std::vector<Eigen::Vector3d>& after;                            ///< one a vertex of `before`
-  const std::vector<double>& distortion;                                ///< one a vertex of `before`
+  const std::vector<Eigen::Vector3d>& after;                            ///< one per vertex of `before`
+  const std::vector<double>& distortion;                                ///< one per vertex of `before`
   const geometry::BodyMeasures& measures;                               ///< for the frame
   std::vector<Part> parts;                                              ///< empty: the whole body
   std::vector<std::vector<Eigen::Vector3d>> lines_before, lines_after;  ///< constraining lines

@@ -24,7 +24,7 @@ class Markers {
  public:
   explicit Markers(const std_msgs::Header& header);
 
-  /// `colours`: one a vertex, with a light baked in (`lit`), since rviz draws coloured triangles unlit.
+  /// `colours`: one per vertex, with a light baked in (`lit`), since rviz draws coloured triangles unlit.
   Markers& body(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours);
 
   /// Edges of the registered model in the colours of its parts.
@@ -49,7 +49,7 @@ class Markers {
   visualization_msgs::MarkerArray array_;
 };
 
-/// Mesh with x y z and rgb a vertex. `colours` is empty or has one a vertex.
+/// Mesh with x y z and rgb per vertex. `colours` is empty or has one per vertex.
 pcl_msgs::PolygonMesh::ConstPtr polygon_mesh(const std_msgs::Header& header,
                                              const geometry::TriangleMesh& mesh,
                                              const std::vector<Colour>& colours);

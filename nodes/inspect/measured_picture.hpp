@@ -12,7 +12,7 @@ namespace tensegric_fit::inspect {
 /// The registered model over its body. Only borrowed.
 struct ModelOverlay {
   const ModelSkin& skin;
-  const std::vector<unsigned char>& mesh_parts;  ///< one a vertex of the body: index into skin.parts
+  const std::vector<unsigned char>& mesh_parts;  ///< one per vertex of the body: index into skin.parts
 };
 
 /// The whole body with its landmarks and the tapes of its girths, each with its name in a margin: BGR,

@@ -40,7 +40,7 @@ void check_model_skin(const ModelSkin& skin) {
       check(vertex >= 0 && vertex < count, geometry::refusal::kBadModel,
             "a quadrilateral of the body model has a corner that is not there");
   check(skin.part.size() == skin.vertices.size(), geometry::refusal::kBadModel,
-        "the body model has not one part a vertex");
+        "the body model has not one part per vertex");
   for (const unsigned char part : skin.part)
     check(part < skin.parts.size(), geometry::refusal::kBadModel, "a part of the body model has no name");
 }

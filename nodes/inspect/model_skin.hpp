@@ -16,7 +16,7 @@ namespace tensegric_fit::inspect {
 struct ModelSkin {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<int, 4>> quads;  ///< counter-clockwise from outside
-  std::vector<unsigned char> part;        ///< one a vertex, index into parts
+  std::vector<unsigned char> part;        ///< one per vertex, index into parts
   std::vector<std::string> parts;         ///< names, as trunk, breast_L
 };
 
@@ -25,11 +25,11 @@ ModelSkin skin_of(const body_model::RegisteredBody& body);
 /// \throw Refusal bad_model: a quad's vertex or a vertex' part that is not there; non_finite
 void check_model_skin(const ModelSkin& skin);
 
-/// One a part; left and right of a pair are shades of one colour, the left one (hers) darker.
+/// One per part; left and right of a pair are shades of one colour, the left one (hers) darker.
 std::vector<Colour> part_colours(const std::vector<std::string>& parts);
 
-/// Neutral skin with a tint of its part's colour. `parts_of_skin`: one a vertex, index into parts; any other
-/// number: neutral.
+/// Neutral skin with a tint of its part's colour. `parts_of_skin`: one per vertex, index into parts; any
+/// other number: neutral.
 std::vector<Colour> tinted_skin(const std::vector<unsigned char>& parts_of_skin,
                                 const std::vector<std::string>& parts);
 

@@ -46,8 +46,8 @@ struct Polyline {
 };
 
 /// BGR picture on white: z-buffered, smoothly shaded by a light above the camera. Lines lie over the skin;
-/// what is hidden behind more than a few millimetres of body is not drawn. `colours` has one a vertex, or is
-/// empty: all neutral. \throw Refusal bad_mesh: colours do not fit; bad_option: a picture without size
+/// what is hidden behind more than a few millimetres of body is not drawn. `colours` has one per vertex, or
+/// is empty: all neutral. \throw Refusal bad_mesh: colours do not fit; bad_option: a picture without size
 cv::Mat draw(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours,
              const std::vector<Polyline>& lines, const View& view, int width, int height);
 
@@ -60,7 +60,7 @@ struct SeenPoint {
   double behind;  ///< metres of body in front of it; 0 or less where it can be seen, or lies outside
 };
 
-/// One a point; view, width and height as for the picture. \throw Refusal as draw()
+/// One per point; view, width and height as for the picture. \throw Refusal as draw()
 std::vector<SeenPoint> seen_points(const geometry::TriangleMesh& mesh,
                                    const std::vector<Eigen::Vector3d>& points, const View& view, int width,
                                    int height);

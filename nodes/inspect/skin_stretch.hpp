@@ -13,7 +13,7 @@ class SkinStretch {
  public:
   explicit SkinStretch(const geometry::TriangleMesh& rest);
 
-  /// One a vertex: mean over the triangles around it, by their areas at rest, of the principal stretch
+  /// One per vertex: mean over the triangles around it, by their areas at rest, of the principal stretch
   /// (length after / before) that is farther from 1. Exactly 1 where nothing around the vertex moved.
   std::vector<double> at(const std::vector<Eigen::Vector3d>& vertices) const;
 

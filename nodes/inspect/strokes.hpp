@@ -19,7 +19,7 @@ struct Stroke {
 struct TenseLine {
   std::vector<int> nodes;  ///< outer nodes of the control mesh that it runs over
   double tension;          ///< pseudo force
-  /// Where it runs, for a line that lies on the skin and not over nodes; m, one a point.
+  /// Where it runs, for a line that lies on the skin and not over nodes; m, one per point.
   std::vector<Eigen::Vector3d> course_at_rest{}, course{};
 };
 
@@ -31,7 +31,7 @@ std::vector<Eigen::Vector3d> lifted(const std::vector<Eigen::Vector3d>& outer,
 std::vector<Stroke> edge_strokes(const geometry::ControlMesh& control,
                                  const std::vector<Eigen::Vector3d>& outer);
 
-/// One a line, coloured by tension. \throw Refusal bad_mesh: a node that the control mesh does not have
+/// One per line, coloured by tension. \throw Refusal bad_mesh: a node that the control mesh does not have
 std::vector<Stroke> line_strokes(const geometry::ControlMesh& control,
                                  const std::vector<Eigen::Vector3d>& outer,
                                  const std::vector<TenseLine>& lines);

@@ -76,7 +76,7 @@ std::optional<Vector3d> find_buttock(const Trunk& trunk, const Vector3d& start_a
       }
       if (squares(0, 0) < kNarrowSeat / Profile::kStep) continue;  // half of the profile's points
       const Vector3d c = squares.ldlt().solve(sums);
-      if (c[2] < kLeastRound * kSeat / 2) continue;  // flat: the wider reach may tell
+      if (c[2] < kLeastRound * kSeat / 2) continue;  // flat: the wider reach may show it
       const double up = std::clamp(-c[1] / (2 * c[2]), -0.5, 0.5);
       apexes.emplace_back(start + kSeat * Vector3d(c[0] + up * (c[1] + up * c[2]), 0, up));
       break;

@@ -19,7 +19,7 @@ constexpr double kSurroundings = 0.03;  // m; 27 cubes of it show how far neighb
 constexpr double kFar = 1.5;            // usual distances
 constexpr double kFillsSpace = 0.2;  // least variance over the sum of all three: 1/3 in a cloud, 0 in a plane
 constexpr double kMostOfAGoodScan = 0.1;  // share of its points that look stray: 0.02 on known ones
-constexpr std::size_t kSampleStep = 16;   // every so many points tell whether the scan is good
+constexpr std::size_t kSampleStep = 16;   // one point in so many shows whether the scan is good
 
 /// Which of every `step`-th point look stray.
 std::vector<char> look_stray(const Points& points, const geometry::PointTree& tree, std::size_t step) {

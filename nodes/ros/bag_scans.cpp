@@ -57,7 +57,7 @@ void ScanChecker::look_at(const std::string& topic, const sensor_msgs::PointClou
 void ScanChecker::check_stamp(const std::string& topic, const std_msgs::Header& header) {
   if (header.stamp.isZero() && said_.insert(topic + " stamp").second)
     find(false, "no_stamp", topic + ": scans carry no stamp",
-         "let the driver stamp them: what belongs to one capture is told by it");
+         "let the driver stamp them: stamps say what belongs to one capture");
   if (header.frame_id.empty() && said_.insert(topic + " frame").second)
     find(false, "no_frame", topic + ": scans carry no frame", "set the driver's frame_id");
   const auto before = last_.find(topic);

@@ -83,7 +83,7 @@ geometry::TriangleMesh mesh_in(const TriangleMesh& message) {
 
 std::vector<char> filled_in(const TriangleMesh& message) {
   if (!message.filled.empty() && 3 * message.filled.size() != message.vertices.size())
-    throw Refusal(geometry::refusal::kBadMesh, "`filled` must be empty or have one entry a vertex");
+    throw Refusal(geometry::refusal::kBadMesh, "`filled` must be empty or have one entry per vertex");
   return flags_in(message.filled);
 }
 

@@ -1,5 +1,5 @@
-/// The body that a garment lies on, as far as the tensegric stage needs it: to lay its bands and lines by points,
-/// and to keep the body's volume.
+/// The body that a garment lies on, as far as the tensegric stage needs it: to lay its bands and lines by
+/// points, and to keep the body's volume.
 #pragma once
 
 #include <tensegric_fit/TriangleMesh.h>
@@ -30,7 +30,7 @@ class BodyUnderGarment {
   /// unknown_line: a node that the control mesh does not have
   std::vector<geometry::LaidLine> lay(const tensegric::Garment& garment) const;
 
-  /// One a region of the control mesh.
+  /// One per region of the control mesh.
   std::vector<tensegric::VolumeFunction> volumes() const;
 
  private:

@@ -23,7 +23,7 @@ class Display {
   KeptPublisher<sensor_msgs::Image> image;
 };
 
-/// Colours in the light that falls on the body from the front, above and her left. One a vertex.
+/// Colours in the light that falls on the body from the front, above and her left. One per vertex.
 std::vector<inspect::Colour> lit_skin(const geometry::TriangleMesh& mesh,
                                       const std::vector<inspect::Colour>& colours,
                                       const Eigen::Isometry3d& body_from_scan);

@@ -34,8 +34,8 @@ struct FittedScan {
 struct FitFigures {
   FittedScan scan;
   geometry::TriangleMesh body;
-  std::vector<Eigen::Vector3d> deformed;  ///< one a vertex of `body`
-  std::vector<double> distortion;         ///< one a vertex of `body`
+  std::vector<Eigen::Vector3d> deformed;  ///< one per vertex of `body`
+  std::vector<double> distortion;         ///< one per vertex of `body`
   geometry::ControlMesh control;
   std::vector<Eigen::Vector3d> control_deformed;  ///< one an outer node
   geometry::BodyMeasures measures;

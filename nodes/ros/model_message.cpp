@@ -151,7 +151,7 @@ inspect::ModelSkin skin_in(const BodyModel& message) {
 }
 
 void check_mesh_parts(const BodyModel& message, std::size_t vertices) {
-  check(message.mesh_parts.size() == vertices, "it has not one part a vertex of the body mesh");
+  check(message.mesh_parts.size() == vertices, "it has not one part per vertex of the body mesh");
   for (const std::uint8_t part : message.mesh_parts)
     check(part < message.parts.size() || part == body_model::kUnknownPart,
           "a part of the body mesh has no name");

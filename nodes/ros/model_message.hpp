@@ -24,7 +24,7 @@ body_model::RegisteredBody registered_in(const BodyModel& message,
 /// What is drawn of it: needs no model file. \throw Refusal bad_model, non_finite, as check_model_skin
 inspect::ModelSkin skin_in(const BodyModel& message);
 
-/// Parts of the mesh's vertices. \throw Refusal bad_model: not one a vertex, or a part that has no name
+/// Parts of the mesh's vertices. \throw Refusal bad_model: not one per vertex, or a part that has no name
 void check_mesh_parts(const BodyModel& message, std::size_t vertices);
 
 }  // namespace tensegric_fit::node

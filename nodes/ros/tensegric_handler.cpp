@@ -129,18 +129,18 @@ std::string TensegricHandler::kept() const {
 
 std::optional<TensegricHandler::Output> TensegricHandler::handle(
     const Input& input, const std::function<bool()>& go_on,
-    const std::function<void(const FitState&)>& tell) {
+    const std::function<void(const FitState&)>& publish) {
   const ControlMesh& control = *input.scene.control;
   const FitName name{tag_in(control), input.request.garment.name, fitter_.solver_of(input.request),
                      setup_.fitter.posture};
   const auto start = Clock::now();
-  double told = 0;
+  double published = 0;
   const auto progress = [&](const tensegric::Iterate& iterate, const std::vector<Eigen::Vector3d>& outer,
                             const std::vector<Eigen::Vector3d>& inner) {
     const double now = milliseconds_since(start);
-    if (now - told >= 1000 * setup_.progress_period) {
-      tell(to_message(name, iterate, outer, inner, now));
-      told = now;
+    if (now - published >= 1000 * setup_.progress_period) {
+      publish(to_message(name, iterate, outer, inner, now));
+      published = now;
     }
     return go_on();
   };

@@ -51,17 +51,17 @@ class TensegricHandler {
     tensegric::Solution solution;
     Facts facts;
   };
-  /// `go_on` is asked after each step; `tell` gets states on the way, none more often than the parameter
+  /// `go_on` is asked after each step; `publish` gets states on the way, none more often than the parameter
   /// `progress_period`. Nothing where it was stopped. \throw Refusal as GarmentFitter::fit
   std::optional<Output> handle(const Input& input, const std::function<bool()>& go_on,
-                               const std::function<void(const FitState&)>& tell);
+                               const std::function<void(const FitState&)>& publish);
 
  private:
   struct Setup {
     FitterOptions fitter;
     double progress_period = 0.05;  ///< seconds
-    std::string garment = "B1";    ///< worn until another is asked for, and after a reset
-    std::string kept;              ///< what it wore when it ended, where it was started again
+    std::string garment = "B1";     ///< worn until another is asked for, and after a reset
+    std::string kept;               ///< what it wore when it ended, where it was started again
     std::string garment_directory;
   };
   static Setup setup_from(Parameters& parameters);

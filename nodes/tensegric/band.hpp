@@ -18,7 +18,7 @@ namespace tensegric_fit::tensegric {
 struct Thread {
   double share;  ///< of its length in the band's
   std::vector<geometry::CarriedPoint> points;
-  std::vector<Eigen::Vector3d> offsets;                    ///< one a point; zero where a point is a node
+  std::vector<Eigen::Vector3d> offsets;                    ///< one per point; zero where a point is a node
   std::vector<std::vector<std::pair<int, double>>> spans;  ///< of each segment: node, and weight in its span
 };
 

@@ -196,7 +196,7 @@ class LoadPath {
     return outcome(at, load, share, true_lengths);
   }
 
-  // Where a segment is shorter than the smooth length can tell, the neutral lengths are moved by as much as
+  // Where a segment is shorter than the smooth length resolves, the neutral lengths are moved by as much as
   // it is off, so that the polyline's own length is what was asked for. False where it is not, in the end.
   bool make_true(Balance& at, Load& load) {
     for (int i = 0;; ++i) {

@@ -62,7 +62,7 @@ void add_fold_hessian(const std::vector<UnitVolume>& units, const Positions& x,
                       const std::vector<StraightPush>& lines, const std::vector<int>& free_index,
                       NodeMatrix& hessian, double whole = 1);
 
-/// What the lines push after `move` of the free nodes, by the shares' first derivatives; one a line.
+/// What the lines push after `move` of the free nodes, by the shares' first derivatives; one per line.
 Eigen::VectorXd pushes_after(const std::vector<UnitVolume>& units, const Positions& x,
                              const std::vector<StraightPush>& lines, const std::vector<int>& free_index,
                              const Eigen::VectorXd& move);

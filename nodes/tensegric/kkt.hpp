@@ -26,16 +26,16 @@ enum class Hold {
 /// Positions and multipliers. Pressure pushes outward where it is positive.
 struct Balance {
   Positions x;
-  Eigen::VectorXd pressures;    ///< one a region, times its area: a force
-  Eigen::VectorXd tensions;     ///< one a band
-  std::vector<Hold> holds;      ///< one a band
+  Eigen::VectorXd pressures;    ///< one per region, times its area: a force
+  Eigen::VectorXd tensions;     ///< one per band
+  std::vector<Hold> holds;      ///< one per band
   Eigen::VectorXd pushes = {};  ///< of units about to fold, as the last step foresaw them; empty: not known
 };
 
 /// What is asked for: changes as the load is followed.
 struct Load {
-  std::vector<double> neutral;  ///< one a band, m
-  std::vector<double> limit;    ///< one a band, pseudo force
+  std::vector<double> neutral;  ///< one per band, m
+  std::vector<double> limit;    ///< one per band, pseudo force
   Eigen::Vector3d gravity;
 };
 
@@ -54,9 +54,9 @@ struct Step {
   Eigen::VectorXd move;             ///< by the free nodes
   Eigen::VectorXd multipliers;      ///< change of pressures, then of tensions
   std::vector<StraightPush> lines;  ///< of the units about to fold
-  Eigen::VectorXd push_change;      ///< one a line
+  Eigen::VectorXd push_change;      ///< one per line
   Eigen::VectorXd left_over;        ///< of the conditions, as far as they contradict each other
-  bool minimum = true;  ///< the balance is a minimum of the energy as far as the second derivative tells
+  bool minimum = true;  ///< the balance is a minimum of the energy as far as the second derivative shows
 };
 
 class Kkt {
@@ -96,7 +96,7 @@ class Kkt {
   // shape that buckles has modes that much more of either would keep from moving.
   double raise_, taken_back_ = 1;
   int factorisations_ = 0;
-  std::vector<LengthCurvature> curvatures_;  // one a band
+  std::vector<LengthCurvature> curvatures_;  // one per band
   NodeMatrix hessian_;
   FrontFactor factor_;
   bool usable_ = false;                        // the last factorisation

@@ -11,7 +11,7 @@
 namespace tensegric_fit::tensegric {
 namespace {
 
-// This near to a balance that is no minimum the model has nothing to tell one way down from the other: a
+// This near to a balance that is no minimum the model cannot distinguish one way down from the other: a
 // symmetric one stays symmetric.
 constexpr Tolerance kAtSaddle{1e-5, 1e-6, 1e-6};
 constexpr int kMostHoldChanges = 20, kMostHalvings = 14;

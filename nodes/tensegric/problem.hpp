@@ -28,7 +28,7 @@ struct Problem {
 /// Where a solver is, and what the bands pull.
 struct State {
   Positions x;
-  std::vector<double> tensions;  ///< one a band
+  std::vector<double> tensions;  ///< one per band
 };
 
 /// How a solver ended.
@@ -61,7 +61,7 @@ void put_positions(const Positions& x, const Model& model, Solution& solution);
 /// net force; infinite where it is not finite.
 double relative_residual(const Problem& problem, const Eigen::VectorXd& gradient);
 
-/// Keeps the history and tells the caller of each iteration.
+/// Keeps the history and reports each iteration to the caller.
 class Recorder {
  public:
   Recorder(const Problem& problem, const Progress& progress) : problem_(problem), progress_(progress) {}

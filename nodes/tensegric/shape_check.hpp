@@ -1,4 +1,4 @@
-/// What to tell people about the shape of a deformed control mesh.
+/// What a status says about the shape of a deformed control mesh.
 #pragma once
 
 #include <string>

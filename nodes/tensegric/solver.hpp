@@ -36,7 +36,7 @@ struct LineResult {
   TensionLaw law;
   double tension_limit = std::numeric_limits<double>::infinity();  ///< pseudo force
   std::vector<int> nodes;  ///< outer nodes that a line by `through` runs over, in order
-  std::vector<Eigen::Vector3d> course_at_rest, course;  ///< its middle thread, scan frame
+  std::vector<Eigen::Vector3d> course_at_rest, course;             ///< its middle thread, scan frame
   std::vector<std::vector<Eigen::Vector3d>> edges_at_rest, edges;  ///< of a band both, of a string its course
   double straight = 0;   ///< m, between the fixed nodes that it runs over: it cannot become shorter
   double reachable = 0;  ///< m, the shortest that it came to: `final` where the request is infeasible
@@ -50,8 +50,8 @@ struct RegionResult {
 /// One row of P2 Fig. 11. `residual` is relative to the mean tensile force at rest.
 struct Iterate {
   int iteration = 0;
-  std::vector<double> line_ratios;       ///< length / length at rest, one a line of the garment
-  std::vector<double> volume_errors;     ///< (V - V0) / V0, one a region
+  std::vector<double> line_ratios;       ///< length / length at rest, one per line of the garment
+  std::vector<double> volume_errors;     ///< (V - V0) / V0, one per region
   std::vector<Eigen::Vector3d> tracked;  ///< the control nodes in SolverOptions::track
   double residual = 0;
   double merit_change =

@@ -58,7 +58,7 @@ class StrutRelaxation {
       pushes_;                // of each strut on its node a, as last processed; the opposite on its node b
   Eigen::VectorXd external_;  // pseudo forces by the free nodes
   std::vector<double> tensions_;
-  std::vector<double> gathered_;  // volume push that has added up, one a region
+  std::vector<double> gathered_;  // volume push that has added up, one per region
   std::vector<double> held_;      // of each node, adaptive: how fast the pseudo forces change as it moves
 };
 

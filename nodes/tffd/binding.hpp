@@ -14,9 +14,9 @@
 namespace tensegric_fit::tffd {
 
 /// `standard`: W from inner to outer centroid, smooth kernel, no tear at a fixed border: q' = q + M (x - x at
-/// rest) with constant M; affine-exact wherever the share of the motion is 1 (reach.hpp); the absolute entries
-/// of a row of M sum to 3 at most, or to what the best triangle in reach makes of the vertex alone. `paper`: as
-/// published, W the unit normal and a linear kernel; the skin tears where the control mesh ends.
+/// rest) with constant M; affine-exact wherever the share of the motion is 1 (reach.hpp); the absolute
+/// entries of a row of M sum to 3 at most, or to what the best triangle in reach makes of the vertex alone.
+/// `paper`: as published, W the unit normal and a linear kernel; the skin tears where the control mesh ends.
 enum class Setting { standard, paper };
 
 /// Of the standard setting's evaluation. `fast`: weights and displacements in single precision, within 0.01
@@ -53,7 +53,7 @@ class Binding {
   Binding posed(const geometry::BoneFrames& bones) const;
 
   /// No vertex is farther from where it were without truncation than this times the farthest that a node
-  /// moved: the largest row sum of |M - M truncated|, metres a metre.
+  /// moved: the largest row sum of |M - M truncated|, metres per metre.
   double truncation_error() const { return truncation_error_; }
 
   /// M, and what carries values. In the paper's setting there is no constant M, and `nodes` is empty.

@@ -35,7 +35,7 @@ struct WornLine {
   double tension = 0;
 };
 
-/// A body's skin before and after, one place a vertex. `rest` in the posture in which it is worn, so that a
+/// A body's skin before and after, one place per vertex. `rest` in the posture in which it is worn, so that a
 /// posture turns nothing. Only borrowed. Metres, scan frame.
 struct WornSkin {
   const std::vector<Eigen::Vector3d>& rest;

@@ -1,4 +1,4 @@
-/// A uniform grid over space that tells which control triangles a point may be in reach of.
+/// A uniform grid over space that finds which control triangles a point may be in reach of.
 #pragma once
 
 #include <Eigen/Core>

@@ -39,7 +39,7 @@ struct CaseOutcome {
   tensegric::Status status;
   int iterations;
   double milliseconds;           ///< of the solution
-  std::vector<double> tensions;  ///< N, one a line
+  std::vector<double> tensions;  ///< N, one per line
   std::vector<Eigen::Vector3d> deformed;
 };
 
@@ -67,7 +67,7 @@ struct CalibrationError {
 struct Calibration {
   fit::Settings settings;  ///< those of the start, with what was fitted on all bodies
   std::vector<CalibrationError> errors;
-  std::vector<fit::Settings> left_out;  ///< one a body: fitted on the others
+  std::vector<fit::Settings> left_out;  ///< one per body: fitted on the others
 };
 
 /// Relative errors of all cases count alike. Each body is left out once. `patterns` as for wear_cases. \throw

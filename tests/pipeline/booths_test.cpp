@@ -60,7 +60,7 @@ class Customer {
   void come(const CaptureGoal& goal) {
     feedback.clear();
     client_.sendGoal(goal, {}, {},
-                     [this](const CaptureFeedbackConstPtr& told) { feedback.push_back(*told); });
+                     [this](const CaptureFeedbackConstPtr& state) { feedback.push_back(*state); });
   }
 
   /// Waits for the answer.
@@ -142,9 +142,9 @@ TEST_F(LeftBoothTest, ThreeCustomersInARow) {
     EXPECT_EQ(result.message, "");
     scans.insert(result.scan_id);
     double share = 0;
-    for (const CaptureFeedback& told : customer_->feedback) {
-      EXPECT_GE(told.progress, share);
-      share = told.progress;
+    for (const CaptureFeedback& state : customer_->feedback) {
+      EXPECT_GE(state.progress, share);
+      share = state.progress;
     }
     EXPECT_GT(share, 0.2);  // it was seen to go on
   }
@@ -226,7 +226,8 @@ TEST_F(LeftBoothTest, BesideAnotherEachMeasuresItsOwnCustomer) {
   EXPECT_EQ(of_left.landmarks.header.frame_id, "left/booth");
   EXPECT_TRUE(of_right.measured) << of_right.code << ": " << of_right.message;
   EXPECT_EQ(of_right.landmarks.header.frame_id, "right/booth");
-  EXPECT_NEAR(height_of(of_right.landmarks, "stature"), booth::random_customer(booth::Family::model, 1).truth.height("stature"), 0.03);
+  EXPECT_NEAR(height_of(of_right.landmarks, "stature"),
+              booth::random_customer(booth::Family::model, 1).truth.height("stature"), 0.03);
   EXPECT_TRUE(wait_for([&] {
     return frames.count("left/booth > left/body") + frames.count("right/booth > right/body") +
                frames.count("right/booth > right/sensor_0") ==

@@ -12,7 +12,7 @@
 namespace tensegric_fit::regression {
 
 struct Recipe {
-  int customer = -1;  ///< drawn by lot with this seed; -1: by the parameters below
+  int customer = -1;  ///< drawn at random with this seed; -1: by the parameters below
   booth::BodyParameters body;
   booth::ScannerOptions scanner;
   double crop_above = std::numeric_limits<double>::infinity();  ///< m above the floor: nothing there is seen

@@ -34,7 +34,7 @@ std::vector<Case> line_cases();
 /// each of `ratios`. `body`: firm, average or full.
 std::vector<Case> garment_cases(const std::string& body, const std::vector<double>& ratios);
 
-/// Every shipped template on a body of the virtual booth that is drawn by lot. Same seed, same body.
+/// Every shipped template on a body of the virtual booth that is drawn at random. Same seed, same body.
 std::vector<geometry::ControlMesh> template_meshes(std::uint64_t seed);
 
 /// Largest net force at a free node of the undeformed model / mean tensile force: zero but for rounding.

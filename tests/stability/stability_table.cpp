@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
   bool garments = true;
   app.add_option("--seeds", seeds, "starts from random positions");
   app.add_option("--first-seed", first_seed, "of the random starts");
-  app.add_option("--bodies", bodies, "drawn by lot, for the prestress of every template");
+  app.add_option("--bodies", bodies, "drawn at random, for the prestress of every template");
   app.add_option("--garments", garments, "the shipped garments on virtual bodies too");
   app.add_option("--only", only, "cases with this text in their name");
   app.add_option("--solver", solver_word, "this one only");

@@ -25,8 +25,8 @@ class ScanFolderTest : public testing::Test {
     fs::last_write_time(root_ / name, fs::file_time_type(std::chrono::seconds(++written_)));
   }
 
-  /// Names told now, with spaces between them.
-  static std::string told(ScanFolder& folder, double now) {
+  /// Names of the files that are complete now, with spaces between them.
+  static std::string played(ScanFolder& folder, double now) {
     std::string names;
     for (const std::string& path : folder.poll(now))
       names += (names.empty() ? "" : " ") + fs::path(path).filename().string();
@@ -39,15 +39,15 @@ class ScanFolderTest : public testing::Test {
 
 TEST_F(ScanFolderTest, AFileIsToldOnceAndOnlyWhenItIsStill) {
   ScanFolder folder(root_, 1);
-  EXPECT_EQ(told(folder, 0), "");
+  EXPECT_EQ(played(folder, 0), "");
   write("a.ply", "half");
-  EXPECT_EQ(told(folder, 0.5), "");
-  EXPECT_EQ(told(folder, 1.4), "");  // still for less than a second
+  EXPECT_EQ(played(folder, 0.5), "");
+  EXPECT_EQ(played(folder, 1.4), "");  // still for less than a second
   write("a.ply", "half and half");
-  EXPECT_EQ(told(folder, 1.6), "");
-  EXPECT_EQ(told(folder, 2.5), "");
-  EXPECT_EQ(told(folder, 2.6), "a.ply");
-  EXPECT_EQ(told(folder, 10), "");
+  EXPECT_EQ(played(folder, 1.6), "");
+  EXPECT_EQ(played(folder, 2.5), "");
+  EXPECT_EQ(played(folder, 2.6), "a.ply");
+  EXPECT_EQ(played(folder, 10), "");
 }
 
 TEST_F(ScanFolderTest, WhatWasThereBeforeIsOldAndNewOnesComeInTheirOrder) {
@@ -56,20 +56,20 @@ TEST_F(ScanFolderTest, WhatWasThereBeforeIsOldAndNewOnesComeInTheirOrder) {
   folder.skip_all();
   write("b.PCD", "first");
   write("a.bag", "second");
-  EXPECT_EQ(told(folder, 0), "");
-  EXPECT_EQ(told(folder, 1), "b.PCD a.bag");
+  EXPECT_EQ(played(folder, 0), "");
+  EXPECT_EQ(played(folder, 1), "b.PCD a.bag");
 }
 
 TEST_F(ScanFolderTest, RenamedInIsNewAndWrittenAgainIsNew) {
   ScanFolder folder(root_, 1);
   write("a.part", "whole");
-  EXPECT_EQ(told(folder, 0), "");
+  EXPECT_EQ(played(folder, 0), "");
   fs::rename(root_ / "a.part", root_ / "a.ply");
-  EXPECT_EQ(told(folder, 1), "");
-  EXPECT_EQ(told(folder, 2), "a.ply");
+  EXPECT_EQ(played(folder, 1), "");
+  EXPECT_EQ(played(folder, 2), "a.ply");
   write("a.ply", "other");  // a booth that has one name for all
-  EXPECT_EQ(told(folder, 3), "");
-  EXPECT_EQ(told(folder, 4), "a.ply");
+  EXPECT_EQ(played(folder, 3), "");
+  EXPECT_EQ(played(folder, 4), "a.ply");
 }
 
 TEST_F(ScanFolderTest, WhatIsNoScanIsLeftOut) {
@@ -77,25 +77,25 @@ TEST_F(ScanFolderTest, WhatIsNoScanIsLeftOut) {
   for (const char* name : {".hidden.ply", "readme.txt", "ply", "a.ply.part"}) write(name, "text");
   fs::create_directories(root_ / "folder.ply");
   fs::create_symlink(root_ / "nowhere", root_ / "dangling.ply");
-  told(folder, 0);
-  EXPECT_EQ(told(folder, 5), "");
+  played(folder, 0);
+  EXPECT_EQ(played(folder, 5), "");
 }
 
 TEST_F(ScanFolderTest, AnotherLifeGoesOnWhereTheFirstEnded) {
   write("a.ply", "a");
   ScanFolder first(root_, 1);
-  told(first, 0);
-  EXPECT_EQ(told(first, 1), "a.ply");
+  played(first, 0);
+  EXPECT_EQ(played(first, 1), "a.ply");
   write("b.ply", "while nobody watched");
   write("c.ply", "c");
   ScanFolder second(root_, 1);
-  second.skip(first.told());
-  EXPECT_EQ(second.told().size(), 1u);
-  told(second, 0);
-  EXPECT_EQ(told(second, 1), "b.ply c.ply");
+  second.skip(first.played());
+  EXPECT_EQ(second.played().size(), 1u);
+  played(second, 0);
+  EXPECT_EQ(played(second, 1), "b.ply c.ply");
   fs::remove(root_ / "a.ply");
-  told(second, 2);
-  EXPECT_EQ(second.told().size(), 2u);  // what is gone need not be remembered
+  played(second, 2);
+  EXPECT_EQ(second.played().size(), 2u);  // what is gone need not be remembered
 }
 
 TEST_F(ScanFolderTest, AFolderThatIsGoneIsSaidAndMayComeBack) {
@@ -104,8 +104,8 @@ TEST_F(ScanFolderTest, AFolderThatIsGoneIsSaidAndMayComeBack) {
   EXPECT_THROW(folder.poll(0), geometry::Refusal);
   fs::create_directories(root_);
   write("a.ply", "a");
-  told(folder, 1);
-  EXPECT_EQ(told(folder, 2), "a.ply");
+  played(folder, 1);
+  EXPECT_EQ(played(folder, 2), "a.ply");
 }
 
 }  // namespace

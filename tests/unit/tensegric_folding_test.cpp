@@ -239,7 +239,7 @@ TEST_F(Folding, VeryStiffBandsAreAsGoodAsRigid) {
     EXPECT_EQ(s.status, Status::converged) << s.note;
     expect_balance(s);
     const LineResult& chest_line = s.lines[0];
-    // T = stiffness (L / l - 1), as far as the stretch can be told from 1
+    // T = stiffness (L / l - 1), as far as the stretch differs from 1
     EXPECT_NEAR(chest_line.final / chest_line.neutral - 1, chest_line.tension / stiffness, 1e-11);
     // The tension stretches the band by tension / stiffness, and falls by 450 per stretch.
     EXPECT_NEAR(chest_line.tension, rigid.lines[0].tension, 500 * rigid.lines[0].tension / stiffness);

@@ -23,7 +23,7 @@ class Lot {
 
 using Pairs = std::vector<std::pair<int, int>>;
 
-// A chain, so that it hangs together, and as many pairs again drawn by lot.
+// A chain, so that it hangs together, and as many pairs again drawn at random.
 Pairs joined_by_lot(int nodes, Lot& lot) {
   Pairs pairs;
   for (int i = 1; i < nodes; ++i) pairs.emplace_back(i - 1, i);

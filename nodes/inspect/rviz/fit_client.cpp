@@ -16,9 +16,9 @@ constexpr char kGarmentCall[] = "garment", kExportCall[] = "export";
 }  // namespace
 
 template <typename Message>
-void FitClient::listen(const char* topic, std::function<void(const Message&)> FitClient::*told) {
+void FitClient::listen(const char* topic, std::function<void(const Message&)> FitClient::*callback) {
   const boost::function<void(const boost::shared_ptr<const Message>&)> on_message =
-      [this, told](const boost::shared_ptr<const Message>& message) { (this->*told)(*message); };
+      [this, callback](const boost::shared_ptr<const Message>& message) { (this->*callback)(*message); };
   subscribers_.push_back(
       node_.subscribe<Message>(topic, 4, on_message, {}, ros::TransportHints().tcpNoDelay()));
 }
@@ -82,7 +82,7 @@ bool FitClient::is_asking() {
   return calling_ == kGarmentCall || waiting_.count(kGarmentCall) != 0;
 }
 
-void FitClient::tell(const Answer& answer, bool done, const std::string& words) {
+void FitClient::report(const Answer& answer, bool done, const std::string& words) {
   QMetaObject::invokeMethod(
       this, [answer, done, words] { answer(done, words); }, Qt::QueuedConnection);
 }
@@ -91,16 +91,16 @@ void FitClient::wear(const SetGarment::Request& request) {
   post(kGarmentCall, [this, request] {
     SetGarment call;
     call.request = request;
-    if (!wear_.exists() || !wear_.call(call)) return tell(on_worn, false, words::kPipelineNotRunning);
-    tell(on_worn, call.response.accepted, call.response.message);
+    if (!wear_.exists() || !wear_.call(call)) return report(on_worn, false, words::kPipelineNotRunning);
+    report(on_worn, call.response.accepted, call.response.message);
   });
 }
 
 void FitClient::reset() {
   post(kGarmentCall, [this] {
     std_srvs::Trigger call;
-    if (!reset_.exists() || !reset_.call(call)) return tell(on_worn, false, words::kPipelineNotRunning);
-    tell(on_worn, call.response.success, call.response.message);
+    if (!reset_.exists() || !reset_.call(call)) return report(on_worn, false, words::kPipelineNotRunning);
+    report(on_worn, call.response.success, call.response.message);
   });
 }
 
@@ -109,10 +109,11 @@ void FitClient::export_to(const std::string& folder, const std::string& scan_id)
     ExportFit call;
     call.request.directory = folder;
     call.request.scan_id = scan_id;
-    if (!export_.exists() || !export_.call(call)) return tell(on_exported, false, words::kPipelineNotRunning);
-    tell(on_exported, call.response.exported,
-         call.response.exported ? words::exported(static_cast<int>(call.response.files.size()), folder)
-                                : call.response.message);
+    if (!export_.exists() || !export_.call(call))
+      return report(on_exported, false, words::kPipelineNotRunning);
+    report(on_exported, call.response.exported,
+           call.response.exported ? words::exported(static_cast<int>(call.response.files.size()), folder)
+                                  : call.response.message);
   });
 }
 

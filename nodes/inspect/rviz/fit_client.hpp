@@ -25,8 +25,8 @@
 namespace tensegric_fit::inspect {
 
 /// Services are called in a thread of their own, so that a pipeline that hangs never stops rviz. Of garments
-/// asked for while a call is on its way only the newest is sent. Everything is told in the thread that made
-/// the client.
+/// asked for while a call is on its way only the newest is sent. Everything is reported in the thread that
+/// made the client.
 class FitClient : public QObject {
   Q_OBJECT
  public:
@@ -57,9 +57,9 @@ class FitClient : public QObject {
 
   void serve();
   void post(const std::string& kind, std::function<void()> call);
-  void tell(const Answer& answer, bool done, const std::string& words);
+  void report(const Answer& answer, bool done, const std::string& words);
   template <typename Message>
-  void listen(const char* topic, std::function<void(const Message&)> FitClient::*told);
+  void listen(const char* topic, std::function<void(const Message&)> FitClient::*callback);
 
   ros::NodeHandle node_;
   std::vector<ros::Subscriber> subscribers_;
