@@ -1,7 +1,7 @@
 /// body/mesh + body/landmarks + body/model -> control/mesh
-#include "inspect/markers.hpp"
-#include "ros/control_mesh_handler.hpp"
+#include "control_mesh/control_mesh_handler.hpp"
 #include "ros/display.hpp"
+#include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
 

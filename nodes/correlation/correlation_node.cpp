@@ -1,18 +1,37 @@
 /// body/mesh + body/landmarks + control/mesh + body/deformed + worn/points -> worn/correlation
+#include "correlation/correlation_handler.hpp"
 #include "inspect/correlation_pictures.hpp"
-#include "inspect/markers.hpp"
-#include "ros/correlation_handler.hpp"
+#include "landmarks/find_landmarks.hpp"
+#include "reconstruction/reconstruction_handler.hpp"
 #include "ros/display.hpp"
+#include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
 
 namespace tensegric_fit::node {
 namespace {
 
+// As reconstruction and landmarks measure the scan without the garment.
+MeasureScan measure_with(Parameters& parameters) {
+  return [options = reconstruction_options(parameters), anatomy = shipped_anatomy(),
+          precision = landmarks::shipped_precision()](const geometry::PointCloud& scan) -> MeasuredScan {
+    reconstruction::Reconstruction worn = reconstruction::reconstruct(scan, options, anatomy);
+    geometry::BodyMeasures measures =
+        landmarks::find_landmarks(worn.body.mesh, worn.body.filled, worn.model, precision);
+    return {std::move(worn.body.mesh), std::move(worn.body.filled), std::move(measures)};
+  };
+}
+
+CorrelationHandler handler_of(const ros::NodeHandle& private_node) {
+  Parameters parameters(private_node);
+  MeasureScan measure = measure_with(parameters);
+  return CorrelationHandler(std::move(parameters), std::move(measure));
+}
+
 class CorrelationNode {
  public:
   CorrelationNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
-      : handler_(Parameters(private_node)),
+      : handler_(handler_of(private_node)),
         correlation_(node.advertise<Correlation>("worn/correlation", 1, true)),
         display_(private_node),
         stage_("correlation", node) {

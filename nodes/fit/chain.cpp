@@ -3,11 +3,10 @@
 #include <chrono>
 
 #include "body_model/recognition.hpp"
-#include "tensegric/band.hpp"
+#include "fit/bind_body.hpp"
 #include "tffd/body_volume.hpp"
 #include "tffd/distortion.hpp"
 #include "tffd/garment_check.hpp"
-#include "tffd/lay_line.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -26,16 +25,6 @@ class Stopwatch {
   double& sum_;
   std::chrono::steady_clock::time_point start_;
 };
-
-// One per region, where the body's volume is to be kept.
-std::vector<tensegric::VolumeFunction> body_volumes(const Fitting& fitting, const Settings& settings) {
-  std::vector<tensegric::VolumeFunction> volumes;
-  if (settings.solver.volume == tensegric::KeptVolume::control) return volumes;
-  for (std::size_t r = 0; r < fitting.carried.size(); ++r)
-    volumes.push_back(tffd::BodyVolume(fitting.binding, fitting.carried[r],
-                                       geometry::region_apex(fitting.control, fitting.control.regions[r])));
-  return volumes;
-}
 
 geometry::BodyMeasures measures_of(const Body& body) {
   geometry::BodyMeasures measures = landmarks::find_landmarks(body.mesh.mesh, body.mesh.filled, *body.model,
@@ -110,7 +99,8 @@ Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings&
   tffd::Binding binding = tffd::Binding(body.mesh.mesh, control, settings.tffd).posed(settings.solver.bones);
   auto carried = tffd::carried_triangles(binding, body.mesh.mesh.triangles, control);
   Fitting fitting{std::move(control), std::move(model), std::move(binding), std::move(carried), {}};
-  fitting.body_volumes = body_volumes(fitting, settings);
+  if (settings.solver.volume == tensegric::KeptVolume::body)
+    fitting.body_volumes = body_volumes(fitting.binding, fitting.carried, fitting.control);
   return fitting;
 }
 
@@ -119,10 +109,8 @@ std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitt
   std::vector<geometry::LaidLine> laid;
   for (const tensegric::GarmentLine& line : garment.lines) {
     if (!line.on_body()) continue;
-    const tensegric::Course course = tensegric::course_of(fitting.control, line);
     laid.push_back(
-        {line.name, tffd::lay_line({course.points, line.width, line.smooth, line.taut, course.held},
-                                   body.mesh.mesh, fitting.binding)});
+        {line.name, tffd::lay_line(on_body(fitting.control, line), body.mesh.mesh, fitting.binding)});
   }
   return laid;
 }

@@ -147,7 +147,8 @@ class Run {
       if (warning.is_warning())
         scene.warned.insert(scene.warned.end(), warning.vertices.begin(), warning.vertices.end());
     for (const auto& line : fit.solution.lines) {
-      scene.lines_before.insert(scene.lines_before.end(), line.edges_at_rest.begin(), line.edges_at_rest.end());
+      scene.lines_before.insert(scene.lines_before.end(), line.edges_at_rest.begin(),
+                                line.edges_at_rest.end());
       scene.lines_after.insert(scene.lines_after.end(), line.edges.begin(), line.edges.end());
     }
     save_picture("front.png", beside_measured(inspect::front_picture, inspect::front_picture(scene)));
@@ -163,8 +164,9 @@ class Run {
   cv::Mat measured(MeasuredPicture picture, int height) const {
     const geometry::TriangleMesh& mesh = body_.mesh.mesh;
     if (!line_.overlay) return picture(mesh, body_.measures, height, nullptr);
-    const inspect::ModelSkin skin = inspect::skin_of(*body_.model);
-    const std::vector<unsigned char> parts = body_model::parts_of(mesh, *body_.model);
+    const body_model::RegisteredBody& body = *body_.model;
+    const inspect::ModelSkin skin{body.skin, body.model->quads, body.model->part, body.model->parts};
+    const std::vector<unsigned char> parts = body_model::parts_of(mesh, body);
     const inspect::ModelOverlay overlay{skin, parts};
     return picture(mesh, body_.measures, height, &overlay);
   }

@@ -24,10 +24,6 @@ Colour mixed(const Colour& from, const Colour& to, double share) {
 
 }  // namespace
 
-ModelSkin skin_of(const body_model::RegisteredBody& body) {
-  return {body.skin, body.model->quads, body.model->part, body.model->parts};
-}
-
 void check_model_skin(const ModelSkin& skin) {
   const auto check = [](bool holds, const char* code, const char* what) {
     if (!holds) throw geometry::Refusal(code, what);

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "body_model/registered_body.hpp"
 #include "inspect/colours.hpp"
 #include "inspect/strokes.hpp"
 
@@ -19,8 +18,6 @@ struct ModelSkin {
   std::vector<unsigned char> part;        ///< one per vertex, index into parts
   std::vector<std::string> parts;         ///< names, as trunk, breast_L
 };
-
-ModelSkin skin_of(const body_model::RegisteredBody& body);
 
 /// \throw Refusal bad_model: a quad's vertex or a vertex' part that is not there; non_finite
 void check_model_skin(const ModelSkin& skin);

@@ -1,7 +1,7 @@
 /// body/mesh + body/model -> body/landmarks
-#include "inspect/markers.hpp"
+#include "landmarks/landmarks_handler.hpp"
 #include "ros/display.hpp"
-#include "ros/landmarks_handler.hpp"
+#include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
 

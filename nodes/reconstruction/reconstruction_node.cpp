@@ -1,7 +1,7 @@
 /// scan/points -> body/model, body/mesh
-#include "inspect/markers.hpp"
+#include "reconstruction/reconstruction_handler.hpp"
 #include "ros/display.hpp"
-#include "ros/reconstruction_handler.hpp"
+#include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
 
@@ -38,7 +38,9 @@ class ReconstructionNode {
     const std::shared_ptr<const geometry::TriangleMesh> body(result, &result->body.mesh);
     const auto colours = [body] { return skin_colours(*body, {}, facing(*body)); };
     display_.markers.offer([=] {
-      return inspect::Markers(header).body(*body, colours()).model(inspect::skin_of(result->model)).share();
+      const body_model::RegisteredBody& model = result->model;
+      const inspect::ModelSkin skin{model.skin, model.model->quads, model.model->part, model.model->parts};
+      return inspect::Markers(header).body(*body, colours()).model(skin).share();
     });
     display_.polygon_mesh.offer([=] { return inspect::polygon_mesh(header, *body, {}); });
     display_.image.offer([=] { return front_image(header, *body, {}, {}, facing(*body)); });

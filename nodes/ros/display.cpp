@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "inspect/markers.hpp"
+#include "ros/markers.hpp"
 
 namespace tensegric_fit::node {
 namespace {

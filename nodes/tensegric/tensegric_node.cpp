@@ -1,11 +1,12 @@
 /// control/mesh + garment -> control/deformed
 #include <std_srvs/Trigger.h>
 
-#include "inspect/markers.hpp"
+#include "fit/bind_body.hpp"
 #include "ros/display.hpp"
+#include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
-#include "ros/tensegric_handler.hpp"
+#include "tensegric/tensegric_handler.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 class TensegricNode {
  public:
   TensegricNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
-      : handler_(Parameters(private_node)),
+      : handler_(Parameters(private_node), fit::bind_body),
         private_node_(private_node),
         fit_(node.advertise<FitState>("control/deformed", 4, true)),
         progress_(node.advertise<FitState>("control/deformed", 4)),

@@ -1,11 +1,11 @@
 /// body/mesh + body/landmarks + control/mesh + control/deformed -> body/deformed, body/warnings
-#include "inspect/markers.hpp"
 #include "ros/display.hpp"
 #include "ros/export_desk.hpp"
 #include "ros/flat.hpp"
+#include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
-#include "ros/tffd_handler.hpp"
+#include "tffd/tffd_handler.hpp"
 
 namespace tensegric_fit::node {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "customer.hpp"
 #include "fit/chain.hpp"
-#include "inspect/markers.hpp"
 #include "peak_memory.hpp"
 #include "ros/display.hpp"
+#include "ros/markers.hpp"
 
 namespace tensegric_fit::benchmarks {
 namespace {

@@ -6,13 +6,14 @@
 #include <chrono>
 
 #include "booth/assembler_handler.hpp"
+#include "control_mesh/control_mesh_handler.hpp"
+#include "fit/bind_body.hpp"
 #include "geometry/status.hpp"
+#include "landmarks/landmarks_handler.hpp"
 #include "peak_memory.hpp"
-#include "ros/control_mesh_handler.hpp"
-#include "ros/landmarks_handler.hpp"
-#include "ros/reconstruction_handler.hpp"
-#include "ros/tensegric_handler.hpp"
-#include "ros/tffd_handler.hpp"
+#include "reconstruction/reconstruction_handler.hpp"
+#include "tensegric/tensegric_handler.hpp"
+#include "tffd/tffd_handler.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
@@ -24,7 +25,7 @@ class Chain {
         reconstruction_(parameters("reconstruction")),
         landmarks_(parameters("landmarks")),
         control_mesh_(parameters("control_mesh")),
-        tensegric_(parameters("tensegric")),
+        tensegric_(parameters("tensegric"), fit::bind_body),
         tffd_(parameters("tffd")),
         measure_only_(measure_only) {
     if (pipeline["assembler"]) assembler_.emplace(parameters("assembler"));

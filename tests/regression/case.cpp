@@ -9,7 +9,7 @@
 
 #include "geometry/checked_yaml.hpp"
 #include "geometry/shipped_files.hpp"
-#include "ros/wardrobe.hpp"
+#include "tensegric/wardrobe.hpp"
 
 namespace tensegric_fit::regression {
 namespace {

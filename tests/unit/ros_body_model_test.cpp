@@ -8,13 +8,14 @@
 #include <functional>
 #include <limits>
 
+#include "body_model/model_message.hpp"
 #include "body_model/parts.hpp"
 #include "body_model/registration.hpp"
 #include "geometry/status.hpp"
+#include "landmarks/landmarks_handler.hpp"
+#include "reconstruction/reconstruction_handler.hpp"
 #include "ros/body_messages.hpp"
-#include "ros/landmarks_handler.hpp"
-#include "ros/model_message.hpp"
-#include "ros/reconstruction_handler.hpp"
+#include "ros/model_skin_message.hpp"
 
 namespace tensegric_fit::node {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "ros/bag_check.hpp"
 #include "ros/body_messages.hpp"
-#include "ros/fit_messages.hpp"
+#include "tensegric/fit_messages.hpp"
 
 namespace tensegric_fit::node {
 namespace {

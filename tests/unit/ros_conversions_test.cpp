@@ -7,10 +7,10 @@
 
 #include "geometry/status.hpp"
 #include "ros/body_messages.hpp"
-#include "ros/fit_messages.hpp"
 #include "ros/scan_join.hpp"
 #include "ros/scan_tag.hpp"
-#include "ros/wardrobe.hpp"
+#include "tensegric/fit_messages.hpp"
+#include "tensegric/wardrobe.hpp"
 
 namespace tensegric_fit::node {
 namespace {

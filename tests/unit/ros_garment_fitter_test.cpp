@@ -3,9 +3,10 @@
 
 #include <boost/make_shared.hpp>
 
+#include "fit/bind_body.hpp"
 #include "geometry/status.hpp"
 #include "ros/body_messages.hpp"
-#include "ros/garment_fitter.hpp"
+#include "tensegric/garment_fitter.hpp"
 #include "tensegric_bust.hpp"
 #include "tffd/binding.hpp"
 
@@ -36,11 +37,11 @@ class GarmentFitterTest : public testing::Test {
 
   const ControlMesh::ConstPtr control_ =
       boost::make_shared<ControlMesh>(to_message(ScanTag(), tensegric::bust_mesh()));
-  GarmentFitter fitter_{FitterOptions()};
+  GarmentFitter fitter_{FitterOptions(), fit::bind_body};
 };
 
 TEST_F(GarmentFitterTest, AStoppedFitIsNoneAndTheNextIsAsIfItHadNotBeen) {
-  GarmentFitter undisturbed{FitterOptions()};
+  GarmentFitter undisturbed{FitterOptions(), fit::bind_body};
   for (GarmentFitter* fitter : {&fitter_, &undisturbed})
     ASSERT_TRUE(fitter->fit({control_, nullptr, nullptr}, chest_at(0.95), 0, kGoOn));
   int steps = 0;
@@ -70,7 +71,7 @@ TEST_F(GarmentFitterTest, KeepsTheBodysVolumeWhereItIsAskedTo) {
   const geometry::TriangleMesh skin{control.outer, control.triangles};
   FitterOptions options;
   options.solver.volume = tensegric::KeptVolume::body;
-  GarmentFitter fitter(options);
+  GarmentFitter fitter(options, fit::bind_body);
   const auto body = boost::make_shared<TriangleMesh>(to_message(ScanTag(), skin, {}));
   const auto solution = fitter.fit({control_, nullptr, body}, chest_at(0.93), 0, kGoOn);
   ASSERT_TRUE(solution);
@@ -86,7 +87,7 @@ TEST_F(GarmentFitterTest, KeepsTheBodysVolumeWhereItIsAskedTo) {
 TEST_F(GarmentFitterTest, APostureTakesTheBoundNodesAlong) {
   FitterOptions options;
   options.posture.twist = 0.2;
-  GarmentFitter fitter(options);
+  GarmentFitter fitter(options, fit::bind_body);
   geometry::BodyMeasures measures;
   measures.heights = {{"hip", 0.9, 1, ""}, {"underbust", 1.12, 1, ""}};
   measures.landmarks = {{"crotch", {0, 0, 0.8}, 1, ""}};

@@ -5,12 +5,13 @@
 #include <chrono>
 #include <thread>
 
+#include "fit/bind_body.hpp"
 #include "geometry/status.hpp"
 #include "ros/body_messages.hpp"
-#include "ros/kept_garment.hpp"
-#include "ros/tensegric_handler.hpp"
-#include "ros/tffd_handler.hpp"
+#include "tensegric/kept_garment.hpp"
+#include "tensegric/tensegric_handler.hpp"
 #include "tensegric_bust.hpp"
+#include "tffd/tffd_handler.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -94,7 +95,8 @@ class TensegricHandlerTest : public testing::Test {
   TensegricHandler handler(const std::string& more = "") const {
     return TensegricHandler(
         Parameters(YAML::Load("{garment_directory: " + kGarments + (more.empty() ? "" : ", " + more) + "}"),
-                   "tensegric"));
+                   "tensegric"),
+        fit::bind_body);
   }
   static Landmarks::ConstPtr landmarks_of(const std::string& scan_id) {
     geometry::BodyMeasures measures;

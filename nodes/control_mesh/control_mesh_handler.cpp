@@ -1,0 +1,85 @@
+#include "control_mesh/control_mesh_handler.hpp"
+
+#include <boost/make_shared.hpp>
+
+#include <sstream>
+
+#include "body_model/model_message.hpp"
+#include "body_model/registration.hpp"
+#include "geometry/shipped_files.hpp"
+#include "geometry/status.hpp"
+#include "ros/body_messages.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+std::optional<body_model::RegisteredBody> registered(const geometry::TriangleMesh& mesh,
+                                                     const BodyModel::ConstPtr& message,
+                                                     std::string& origin) {
+  const body_model::Registrar& registrar = body_model::shipped_registrar();
+  if (message) return registered_in(*message, registrar.shared_model());
+  try {
+    origin = "registered to the mesh";
+    return body_model::register_mesh(registrar, mesh);
+  } catch (const geometry::Refusal& refusal) {
+    origin = "none: " + refusal.code();
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+ControlMeshHandler::ControlMeshHandler(Parameters parameters) {
+  options_.control_triangles = parameters.integer("control_triangles", options_.control_triangles, 1, 100000);
+  options_.thickness =
+      parameters.number("thickness", options_.thickness, control_mesh::kThinnest, control_mesh::kThickest);
+  std::istringstream names(parameters.text("template", "bust+hips"));
+  const std::string folder = parameters.text("template_directory", geometry::shipped_folder("templates"));
+  parameters.check_all_known();
+  for (std::string name; std::getline(names, name, '+');)
+    patterns_.push_back(
+        control_mesh::load_template(geometry::yaml_file(folder, name, geometry::refusal::kBadTemplate)));
+  if (patterns_.empty()) throw geometry::Refusal(geometry::refusal::kBadOption, "template is empty");
+}
+
+std::optional<ControlMeshHandler::Input> ControlMeshHandler::with_model(
+    const std::optional<Join::Joined>& joined) const {
+  if (!joined) return std::nullopt;
+  const auto& [landmarks, mesh] = *joined;
+  const bool its = model_ && model_->scan_id == mesh->scan_id;
+  return Input{landmarks, mesh, its ? model_ : nullptr};
+}
+
+ControlMeshHandler::Output ControlMeshHandler::handle(const Input& input) const {
+  const auto& [landmarks, mesh, model_message] = input;
+  Output output;
+  output.body = mesh_in(*mesh);
+  const geometry::BodyMeasures measures = measures_in(*landmarks);
+  output.body_from_scan = measures.body_from_scan;
+
+  std::string origin = "came with the mesh";
+  const std::optional<body_model::RegisteredBody> model = registered(output.body, model_message, origin);
+
+  std::vector<geometry::ControlMesh> parts;
+  std::optional<geometry::Refusal> first;
+  for (const control_mesh::Template& pattern : patterns_) {
+    try {
+      parts.push_back(
+          control_mesh::fit_template(pattern, output.body, measures, options_, model ? &*model : nullptr));
+    } catch (const geometry::Refusal& refusal) {
+      if (!first) first = refusal;
+      output.left_out += (output.left_out.empty() ? "" : "; ") + pattern.name + ": " + refusal.what();
+    }
+  }
+  if (parts.empty()) throw *first;
+
+  output.control_mesh = geometry::joined(parts);
+  output.control = boost::make_shared<ControlMesh>(to_message(tag_in(*mesh), output.control_mesh));
+  output.facts = {{"nodes", std::to_string(output.control_mesh.outer.size())},
+                  {"triangles", std::to_string(output.control_mesh.triangles.size())},
+                  {"body_model", origin},
+                  {"left_out", output.left_out}};
+  return output;
+}
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,95 @@
+#include "fit/bind_body.hpp"
+
+#include <algorithm>
+#include <mutex>
+
+#include "tensegric/band.hpp"
+#include "tffd/body_volume.hpp"
+
+namespace tensegric_fit::fit {
+namespace {
+
+bool same(const tffd::LineOnBody& a, const tffd::LineOnBody& b) {
+  return a.points == b.points && a.width == b.width && a.smooth == b.smooth && a.taut == b.taut &&
+         a.held == b.held;
+}
+
+class BoundBody : public tensegric::BodyUnderGarment {
+ public:
+  BoundBody(std::function<geometry::TriangleMesh()> body, const geometry::ControlMesh& control,
+            const geometry::BoneFrames& bones)
+      : body_(std::move(body)), control_(control), bones_(bones) {}
+
+  std::vector<geometry::LaidLine> lay(const tensegric::Garment& garment) const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::vector<geometry::LaidLine> laid;
+    std::vector<Line> lines;
+    for (const tensegric::GarmentLine& line : garment.lines) {
+      if (!line.on_body()) continue;
+      const tffd::LineOnBody way = on_body(control_, line);
+      const auto known =
+          std::find_if(lines_.begin(), lines_.end(), [&way](const Line& one) { return same(one.way, way); });
+      lines.push_back(known != lines_.end() ? *known
+                                            : Line{way, tffd::lay_line(way, bound().mesh, bound().binding)});
+      laid.push_back({line.name, lines.back().fibres});
+    }
+    lines_ = std::move(lines);
+    return laid;
+  }
+
+  std::vector<tensegric::VolumeFunction> volumes() const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return body_volumes(bound().binding,
+                        tffd::carried_triangles(bound().binding, bound().mesh.triangles, control_), control_);
+  }
+
+ private:
+  struct Bound {
+    geometry::TriangleMesh mesh;
+    tffd::Binding binding;
+  };
+  struct Line {
+    tffd::LineOnBody way;
+    std::vector<geometry::Fibre> fibres;
+  };
+
+  const Bound& bound() const {
+    if (bound_) return *bound_;
+    geometry::TriangleMesh mesh = body_();
+    tffd::Binding binding = tffd::Binding(mesh, control_, {}).posed(bones_);
+    bound_ = std::make_unique<const Bound>(Bound{std::move(mesh), std::move(binding)});
+    return *bound_;
+  }
+
+  const std::function<geometry::TriangleMesh()> body_;
+  const geometry::ControlMesh control_;
+  const geometry::BoneFrames bones_;
+  mutable std::mutex mutex_;
+  mutable std::unique_ptr<const Bound> bound_;
+  mutable std::vector<Line> lines_;  // of the last garment
+};
+
+}  // namespace
+
+tffd::LineOnBody on_body(const geometry::ControlMesh& control, const tensegric::GarmentLine& line) {
+  const tensegric::Course course = tensegric::course_of(control, line);
+  return {course.points, line.width, line.smooth, line.taut, course.held};
+}
+
+std::vector<tensegric::VolumeFunction> body_volumes(const tffd::Binding& binding,
+                                                    const std::vector<std::vector<Eigen::Vector3i>>& carried,
+                                                    const geometry::ControlMesh& control) {
+  std::vector<tensegric::VolumeFunction> volumes;
+  for (std::size_t r = 0; r < carried.size(); ++r)
+    volumes.push_back(
+        tffd::BodyVolume(binding, carried[r], geometry::region_apex(control, control.regions[r])));
+  return volumes;
+}
+
+std::unique_ptr<const tensegric::BodyUnderGarment> bind_body(std::function<geometry::TriangleMesh()> body,
+                                                             const geometry::ControlMesh& control,
+                                                             const geometry::BoneFrames& bones) {
+  return std::make_unique<const BoundBody>(std::move(body), control, bones);
+}
+
+}  // namespace tensegric_fit::fit

@@ -1,0 +1,28 @@
+/// The body under a garment, bound to its control mesh by t-FFD.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "tensegric/body_under_garment.hpp"
+#include "tffd/binding.hpp"
+#include "tffd/lay_line.hpp"
+
+namespace tensegric_fit::fit {
+
+/// A garment's line as it lies on the body. \throw Refusal unknown_line: a node that the control mesh lacks
+tffd::LineOnBody on_body(const geometry::ControlMesh& control, const tensegric::GarmentLine& line);
+
+/// One per region: the volume under its triangles of the body, metres and m^3.
+/// `carried`: as tffd::carried_triangles
+std::vector<tensegric::VolumeFunction> body_volumes(const tffd::Binding& binding,
+                                                    const std::vector<std::vector<Eigen::Vector3i>>& carried,
+                                                    const geometry::ControlMesh& control);
+
+/// A tensegric::BindBody: `body` is called and bound when the first line is laid or volumes are asked for.
+/// Lines stay laid while they are asked for: a change of ratio does not move them.
+std::unique_ptr<const tensegric::BodyUnderGarment> bind_body(std::function<geometry::TriangleMesh()> body,
+                                                             const geometry::ControlMesh& control,
+                                                             const geometry::BoneFrames& bones);
+
+}  // namespace tensegric_fit::fit

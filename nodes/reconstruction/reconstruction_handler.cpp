@@ -1,0 +1,81 @@
+#include "reconstruction/reconstruction_handler.hpp"
+
+#include <fmt/format.h>
+#include <pcl_conversions/pcl_conversions.h>
+
+#include <boost/make_shared.hpp>
+
+#include "body_model/model_message.hpp"
+#include "body_model/parts.hpp"
+#include "body_model/registration.hpp"
+#include "geometry/point_cloud.hpp"
+#include "ros/body_messages.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+Hole to_message(const reconstruction::Hole& hole) {
+  Hole message;
+  for (int k = 0; k < 3; ++k) message.centre[k] = hole.centre[k];
+  message.area = hole.area;
+  message.confidence = hole.confidence;
+  return message;
+}
+
+std::string words(const std::vector<body_model::Unexplained>& things) {
+  std::string text;
+  for (const body_model::Unexplained& thing : things) text += (text.empty() ? "" : "; ") + thing.reason;
+  return text;
+}
+
+}  // namespace
+
+reconstruction::Options reconstruction_options(Parameters& parameters) {
+  reconstruction::Options options;
+  options.body_triangles = parameters.integer("body_triangles", options.body_triangles, 1000, 2000000);
+  options.poisson_depth = parameters.integer("poisson_depth", options.poisson_depth, 5, 10);
+  options.min_points = parameters.integer("min_points", options.min_points, 100, 10000000);
+  options.max_points = parameters.integer("max_points", options.max_points, 100, 100000000);
+  options.support_distance = parameters.number("support_distance", options.support_distance, 0.001, 0.1);
+  options.bust_only = parameters.flag("bust_only", options.bust_only);
+  return options;
+}
+
+reconstruction::Anatomy shipped_anatomy() {
+  const body_model::Registrar& registrar = body_model::shipped_registrar();
+  return {[&registrar](const body_model::Samples& samples) { return registrar(samples); },
+          registrar.standing()};
+}
+
+ReconstructionHandler::ReconstructionHandler(Parameters parameters)
+    : options_(reconstruction_options(parameters)), anatomy_(shipped_anatomy()) {
+  parameters.check_all_known();
+}
+
+ReconstructionHandler::Output ReconstructionHandler::handle(const sensor_msgs::PointCloud2& scan,
+                                                            const ScanTag& tag) const {
+  pcl::PCLPointCloud2 cloud;
+  pcl_conversions::toPCL(scan, cloud);
+  const auto result = std::make_shared<const reconstruction::Reconstruction>(
+      reconstruction::reconstruct(geometry::points_of(cloud), options_, anatomy_));
+  const reconstruction::BodyMesh& body = result->body;
+  const auto mesh = boost::make_shared<TriangleMesh>(node::to_message(tag, body.mesh, body.filled));
+  for (const reconstruction::Hole& hole : body.holes) mesh->holes.push_back(to_message(hole));
+  for (const geometry::Fracture& fracture : body.fractures)
+    mesh->fractures.push_back(node::to_message(fracture));
+  const auto model = boost::make_shared<BodyModel>(
+      to_message(tag, result->model, body_model::parts_of(body.mesh, result->model)));
+  return {mesh,
+          model,
+          result,
+          {{"points_used", std::to_string(body.points_used)},
+           {"vertices", std::to_string(body.mesh.vertices.size())},
+           {"triangles", std::to_string(body.mesh.triangles.size())},
+           {"holes_closed", std::to_string(body.holes.size())},
+           {"fractures", std::to_string(body.fractures.size())},
+           {"model_residual_mm", fmt::format("{:.2f}", 1e3 * result->model.residual)},
+           {"unexplained", words(result->model.unexplained)},
+           {"note", result->model.note}}};
+}
+
+}  // namespace tensegric_fit::node

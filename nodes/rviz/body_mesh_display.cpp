@@ -1,0 +1,213 @@
+#include "rviz/body_mesh_display.hpp"
+
+#include <OgreCamera.h>
+#include <OgreSceneNode.h>
+#include <rviz/display_context.h>
+#include <rviz/frame_manager.h>
+#include <rviz/properties/ros_topic_property.h>
+#include <rviz/render_panel.h>
+#include <rviz/view_controller.h>
+#include <rviz/view_manager.h>
+
+#include <QMouseEvent>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "inspect/words.hpp"
+#include "ros/body_messages.hpp"
+#include "ros/flat.hpp"
+#include "ros/model_skin_message.hpp"
+#include "rviz/qt_text.hpp"
+
+namespace tensegric_fit::inspect {
+namespace {
+
+using rviz::StatusProperty;
+
+constexpr int kStill = 3;  // pixels that a click may move
+
+}  // namespace
+
+BodyMeshDisplay::BodyMeshDisplay()
+    : properties_(std::make_unique<LookProperties>(this, this, SLOT(change_topics()), SLOT(change_look()))) {}
+
+// Qt takes the event filter back itself; rviz may have deleted its render panel before its displays.
+BodyMeshDisplay::~BodyMeshDisplay() = default;
+
+void BodyMeshDisplay::onInitialize() {
+  scene_ = std::make_unique<BodyScene>(scene_manager_, scene_node_);
+  context_->getViewManager()->getRenderPanel()->installEventFilter(this);
+}
+
+template <typename Message>
+void BodyMeshDisplay::subscribe(rviz::RosTopicProperty* topic,
+                                void (BodyMeshDisplay::*take)(const Message&)) {
+  const QString name = topic->getName();
+  if (topic->getTopicStd().empty()) return;
+  const boost::function<void(const boost::shared_ptr<const Message>&)> on_message =
+      [this, name, take](const boost::shared_ptr<const Message>& message) {
+        try {
+          (this->*take)(*message);
+          setStatus(StatusProperty::Ok, name, text(words::of_scan(message->scan_id)));
+          changed_ = true;
+        } catch (const geometry::Refusal& refusal) {
+          setStatus(StatusProperty::Error, name, text(words::refused(refusal.code(), refusal.what())));
+        }
+      };
+  try {
+    subscribers_.push_back(update_nh_.subscribe<Message>(topic->getTopicStd(), 1, on_message, {},
+                                                         ros::TransportHints().tcpNoDelay()));
+    setStatus(StatusProperty::Warn, name, words::kNothingYet);
+  } catch (const ros::Exception& error) {
+    setStatus(StatusProperty::Error, name, error.what());
+  }
+}
+
+void BodyMeshDisplay::change_topics() {
+  subscribers_.clear();
+  if (!isEnabled()) return;
+  subscribe(properties_->body, &BodyMeshDisplay::take_body);
+  subscribe(properties_->worn, &BodyMeshDisplay::take_worn);
+  subscribe(properties_->landmarks, &BodyMeshDisplay::take_landmarks);
+  subscribe(properties_->control, &BodyMeshDisplay::take_control);
+  subscribe(properties_->fit, &BodyMeshDisplay::take_fit);
+  if (properties_->look().members)  // made only while someone listens
+    subscribe(properties_->members, &BodyMeshDisplay::take_members);
+  else
+    deleteStatus(properties_->members->getName());
+  if (properties_->look().model)  // large, and seldom looked at
+    subscribe(properties_->model, &BodyMeshDisplay::take_model);
+  else
+    deleteStatus(properties_->model->getName());
+  listens_to_members_ = properties_->look().members;
+  listens_to_model_ = properties_->look().model;
+}
+
+void BodyMeshDisplay::change_look() {
+  const Look look = properties_->look();
+  if (look.members != listens_to_members_ || look.model != listens_to_model_) change_topics();
+  changed_ = true;
+}
+
+void BodyMeshDisplay::setTopic(const QString& topic, const QString&) {
+  properties_->body->setString(topic);
+}
+
+void BodyMeshDisplay::onEnable() {
+  change_topics();
+  changed_ = true;
+}
+
+void BodyMeshDisplay::onDisable() {
+  subscribers_.clear();
+  scene_->show(false);
+}
+
+void BodyMeshDisplay::reset() {
+  rviz::Display::reset();
+  place_.clear();
+  change_topics();
+}
+
+void BodyMeshDisplay::take_body(const TriangleMesh& message) {
+  body_.take_body(message.scan_id, node::mesh_in(message));
+  frame_ = message.header.frame_id;
+  new_body_ = true;
+}
+
+void BodyMeshDisplay::take_worn(const DeformedMesh& message) {
+  body_.take_worn({message.scan_id,
+                   message.garment,
+                   node::points_in(message.vertices),
+                   {message.distortion.begin(), message.distortion.end()}});
+}
+
+void BodyMeshDisplay::take_landmarks(const Landmarks& message) {
+  overlays_.take_measures(message.scan_id, node::measures_in(message));
+}
+
+void BodyMeshDisplay::take_model(const BodyModel& message) {
+  overlays_.take_model(message.scan_id, node::skin_in(message));
+}
+
+void BodyMeshDisplay::take_control(const ControlMesh& message) {
+  overlays_.take_control(message.scan_id, node::control_in(message));
+}
+
+void BodyMeshDisplay::take_fit(const FitState& message) {
+  std::vector<TenseLine> lines;
+  for (const LineResult& line : message.lines)
+    lines.push_back({{line.nodes.begin(), line.nodes.end()},
+                     line.tension,
+                     node::points_in(line.course_at_rest),
+                     node::points_in(line.course)});
+  overlays_.take_fit(message.scan_id, node::points_in(message.outer), std::move(lines));
+}
+
+void BodyMeshDisplay::take_members(const MemberForces& message) {
+  overlays_.take_members(message.scan_id, {node::points_in(message.nodes),
+                                           {message.ends.begin(), message.ends.end()},
+                                           {message.forces.begin(), message.forces.end()}});
+}
+
+void BodyMeshDisplay::update(float, float) {
+  if (body_.empty()) return;
+  place();
+  if (!changed_) return;
+  changed_ = false;
+  if (new_body_) scene_->take_triangles(body_);
+  new_body_ = false;
+  try {
+    scene_->draw(body_, overlays_, properties_->look());
+    setStatus(StatusProperty::Ok, words::kDrawing, text(body_.note()));
+  } catch (const geometry::Refusal& refusal) {
+    setStatus(StatusProperty::Error, words::kDrawing, text(words::refused(refusal.code(), refusal.what())));
+  }
+  properties_->show_pointed(nullptr);
+  context_->queueRender();
+}
+
+// Where tf has the scan's frame now: it outlives the scan's stamp.
+void BodyMeshDisplay::place() {
+  Ogre::Vector3 position;
+  Ogre::Quaternion turn;
+  const bool placed = context_->getFrameManager()->getTransform(frame_, ros::Time(), position, turn);
+  if (placed) {
+    scene_node_->setPosition(position);
+    scene_node_->setOrientation(turn);
+  }
+  const std::string words = placed ? frame_ : words::no_transform(frame_, fixed_frame_.toStdString());
+  if (words == place_) return;
+  place_ = words;
+  setStatus(placed ? StatusProperty::Ok : StatusProperty::Error, words::kPlace, text(words));
+}
+
+bool BodyMeshDisplay::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::MouseButtonPress || event->type() == QEvent::MouseButtonRelease) {
+    const auto* mouse = static_cast<QMouseEvent*>(event);
+    if (event->type() == QEvent::MouseButtonPress)
+      pressed_at_ = mouse->pos();
+    else if (mouse->button() == Qt::LeftButton && (mouse->pos() - pressed_at_).manhattanLength() <= kStill)
+      point(mouse->pos());
+  }
+  return rviz::Display::eventFilter(watched, event);
+}
+
+void BodyMeshDisplay::point(const QPoint& pixel) {
+  if (!isEnabled() || body_.empty() || new_body_) return;
+  const rviz::RenderPanel* panel = context_->getViewManager()->getRenderPanel();
+  const Ogre::Camera* camera = context_->getViewManager()->getCurrent()->getCamera();
+  const Ogre::Ray ray = camera->getCameraToViewportRay(static_cast<float>(pixel.x()) / panel->width(),
+                                                       static_cast<float>(pixel.y()) / panel->height());
+  const std::optional<Pointed> pointed = scene_->point_at(ray, body_, overlays_);
+  properties_->show_pointed(pointed ? &*pointed : nullptr);
+  if (pointed)
+    scene_->mark(&pointed->place, words::pointed(properties_->look().colour_by, pointed->value,
+                                                 pointed->landmark, pointed->distance));
+  else
+    scene_->mark(nullptr, words::kPointedHelp);
+  context_->queueRender();
+}
+
+}  // namespace tensegric_fit::inspect
+
+PLUGINLIB_EXPORT_CLASS(tensegric_fit::inspect::BodyMeshDisplay, rviz::Display)

@@ -1,0 +1,320 @@
+#include "rviz/fit_panel.hpp"
+
+#include <QTimer>
+#include <algorithm>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "geometry/moved_skin.hpp"
+#include "geometry/status.hpp"
+#include "inspect/panel_words.hpp"
+#include "inspect/pointing.hpp"
+#include "ros/body_messages.hpp"
+#include "ros/flat.hpp"
+#include "rviz/qt_text.hpp"
+
+namespace tensegric_fit::inspect {
+namespace {
+
+constexpr int kTick = 250;  // milliseconds
+constexpr std::chrono::milliseconds kOwnEcho{
+    400};  // after an answer: what was asked for is still coming back
+constexpr std::chrono::seconds kPatience{3};
+
+double seconds(std::chrono::steady_clock::time_point time) {
+  return std::chrono::duration<double>(time.time_since_epoch()).count();
+}
+
+std::vector<AskedLine> lines_in(const Garment& garment) {
+  std::vector<AskedLine> lines;
+  for (const GarmentLine& line : garment.lines) lines.push_back({line.name, line.ratio, ""});
+  return lines;
+}
+
+// The region in which the middle of a line lies.
+std::string region_of(const LineResult& line, const ControlMesh& control) {
+  if (line.nodes.empty()) return "";
+  const std::uint32_t node = line.nodes[line.nodes.size() / 2];
+  for (const ControlRegion& region : control.regions)
+    for (const std::uint32_t t : region.triangles)
+      for (int corner = 0; corner < 3; ++corner)
+        if (3 * t + corner < control.triangles.size() && control.triangles[3 * t + corner] == node)
+          return region.name;
+  return "";
+}
+
+}  // namespace
+
+FitPanel::~FitPanel() = default;
+
+void FitPanel::onInitialize() {
+  client_ = std::make_unique<FitClient>();
+  client_->on_garment = [this](const Garment& garment) { take_garment(garment); };
+  client_->on_fit = [this](const FitState& fit) { take_fit(fit); };
+  client_->on_deformed = [this](const DeformedMesh& deformed) { take_deformed(deformed); };
+  client_->on_warnings = [this](const FitWarnings& warnings) { take_warnings(warnings); };
+  client_->on_body = [this](const TriangleMesh& body) { take_body(body); };
+  client_->on_landmarks = [this](const Landmarks& landmarks) { take_landmarks(landmarks); };
+  client_->on_control = [this](const ControlMesh& control) {
+    control_ = control;
+    show_outcome();
+  };
+  client_->on_diagnostics = [this](const auto& status) { take_diagnostics(status); };
+  client_->on_worn = [this](bool done, const std::string& words) { take_answer(done, words); };
+  client_->on_exported = [this](bool done, const std::string& words) {
+    export_->setEnabled(true);
+    answer(done ? words : words::not_exported(words), done);
+  };
+  auto* timer = new QTimer(this);
+  connect(timer, &QTimer::timeout, this, [this] {
+    show_state();
+    show_girths();
+    follow_pipeline();
+  });
+  timer->start(kTick);
+}
+
+void FitPanel::choose(const QString& garment) {
+  SetGarment::Request request;
+  request.name = garment.trimmed().toStdString();
+  if (request.name.empty()) return;
+  typing_ = false;
+  session_.settle();
+  changed_here_ = false;
+  worn_asked(request);
+}
+
+void FitPanel::ask(const QString& line, double ratio) {
+  if (!session_.ask(line.toStdString(), ratio)) return;
+  show_lines();
+  send();
+}
+
+void FitPanel::undo() {
+  if (!session_.undo()) return;
+  build_lines();
+  build_regions();
+  send();
+}
+
+void FitPanel::send() {
+  const Wish& wish = session_.now();
+  const auto known = known_.find(wish.garment);
+  if (known == known_.end()) return;
+  SetGarment::Request request;
+  request.garment = known->second;
+  auto& lines = request.garment.lines;
+  lines.clear();
+  for (const AskedLine& asked : wish.worn())
+    for (const GarmentLine& line : known->second.lines)
+      if (line.name == asked.name) {
+        lines.push_back(line);
+        lines.back().ratio = asked.ratio;
+      }
+  auto& regions = request.garment.regions;
+  regions.erase(std::remove_if(regions.begin(), regions.end(),
+                               [&](const std::string& region) { return wish.off.count(region) != 0; }),
+                regions.end());
+  changed_here_ = true;
+  worn_asked(request);
+}
+
+void FitPanel::worn_asked(const SetGarment::Request& request) {
+  asked_at_ = Clock::now();
+  answer("");
+  client_->wear(request);
+}
+
+void FitPanel::take_answer(bool done, const std::string& words) {
+  asked_at_ = Clock::now();
+  if (done) return answer("");
+  answer(words::not_accepted(words));
+  if (worn_) session_.adopt(worn_->name, lines_in(*worn_));
+  build_lines();
+  build_regions();
+}
+
+void FitPanel::take_garment(const Garment& garment) {
+  worn_ = std::make_shared<const Garment>(garment);
+  const auto known = known_.find(garment.name);
+  const auto is_known = [&](const GarmentLine& line) {
+    const auto& lines = known->second.lines;
+    return std::any_of(lines.begin(), lines.end(),
+                       [&](const auto& other) { return other.name == line.name; });
+  };
+  if (known == known_.end() || !std::all_of(garment.lines.begin(), garment.lines.end(), is_known))
+    known_[garment.name] = garment;
+  follow_pipeline();
+}
+
+void FitPanel::follow_pipeline() {
+  const bool held =
+      std::any_of(rows_.begin(), rows_.end(), [](const LineRow* row) { return row->is_held(); });
+  const bool coming_back = changed_here_ && Clock::now() - asked_at_ < kOwnEcho;
+  if (!worn_ || held || coming_back || client_->is_asking()) return;
+  const std::string garment = session_.now().garment;
+  const std::vector<AskedLine> lines = session_.now().lines;
+  if (!session_.adopt(worn_->name, lines_in(*worn_))) return;
+  const bool same_lines = garment == session_.now().garment && lines.size() == rows_.size() &&
+                          lines.size() == session_.now().lines.size();
+  if (!same_lines) build_lines();
+  show_outcome();
+}
+
+void FitPanel::take_fit(const FitState& fit) {
+  if (fit.status == FitState::SOLVING) {
+    fit_->setText(text(words::solving(static_cast<int>(fit.iteration))));
+    const std::vector<AskedLine> worn = session_.now().worn();
+    for (std::size_t i = 0; i < std::min(worn.size(), fit.line_ratios.size()); ++i)
+      for (LineRow* row : rows_)
+        if (row->line() == worn[i].name) row->set_ratio_now(fit.line_ratios[i]);
+    return;
+  }
+  fitted_ = std::make_shared<const FitState>(fit);
+  show_outcome();
+}
+
+void FitPanel::show_outcome() {
+  if (!fitted_) return;
+  const FitState& fit = *fitted_;
+  fit_->setText(text(words::fit_ended(fit.garment, fit.status, fit.note, fit.milliseconds)));
+  std::map<std::string, std::string> regions;
+  for (const LineResult& line : fit.lines) {
+    if (fit.garment == session_.now().garment) session_.set_length(line.name, line.initial);
+    if (fit.scan_id == control_.scan_id) regions[line.name] = region_of(line, control_);
+    const words::LineOutcome outcome{line.request, line.ratio, line.tension, line.reachable,
+                                     fit.status == FitState::INFEASIBLE};
+    const std::string warning = words::line_warning(outcome);
+    for (LineRow* row : rows_)
+      if (row->line() == line.name)
+        row->set_outcome(line.ratio, line.tension, warning.empty() ? lack_of(line) : warning);
+  }
+  session_.place(regions);
+  QStringList volumes;
+  for (const RegionResult& region : fit.regions)
+    volumes << text(words::volume(region.name, region.volume_before, region.volume_after));
+  volumes_->setText(volumes.join(" \u00b7 "));
+  build_regions();
+  show_lines();
+}
+
+void FitPanel::take_warnings(const FitWarnings& warnings) {
+  warnings_ = warnings;
+  show_outcome();
+  show_warnings();
+}
+
+void FitPanel::show_warnings() {
+  std::vector<std::string> messages;
+  for (const FitWarning& warning : warnings_.warnings) messages.push_back(warning.message);
+  const std::string words = words::warnings(messages);
+  if (!words.empty() && folds_->text() != text(words)) ROS_WARN("fit panel: %s", words.c_str());
+  folds_->setText(text(words));
+  folds_->setVisible(!words.empty());
+}
+
+std::string FitPanel::lack_of(const LineResult& line) const {
+  if (!fitted_ || warnings_.scan_id != fitted_->scan_id || warnings_.garment != fitted_->garment) return "";
+  for (const FitWarning& notice : warnings_.notices)
+    if (notice.code == FitWarning::UNDER_CONSTRICTED && notice.line == line.name) return notice.message;
+  return "";
+}
+
+void FitPanel::take_body(const TriangleMesh& body) {
+  try {
+    body_.take_body(body.scan_id, node::mesh_in(body));
+    new_girths_ = true;
+  } catch (const geometry::Refusal& refusal) {
+    answer(refusal.what());
+  }
+}
+
+void FitPanel::take_landmarks(const Landmarks& landmarks) {
+  try {
+    measures_ = node::measures_in(landmarks);
+    measured_scan_ = landmarks.scan_id;
+    new_girths_ = true;
+  } catch (const geometry::Refusal& refusal) {
+    answer(refusal.what());
+  }
+}
+
+void FitPanel::take_deformed(const DeformedMesh& deformed) {
+  if (deformed.status == FitState::SOLVING) return;  // figures are those of fits that have ended
+  try {
+    body_.take_worn({deformed.scan_id,
+                     deformed.garment,
+                     node::points_in(deformed.vertices),
+                     {deformed.distortion.begin(), deformed.distortion.end()}});
+    new_girths_ = true;
+  } catch (const geometry::Refusal& refusal) {
+    answer(refusal.what());
+  }
+}
+
+void FitPanel::take_diagnostics(const diagnostic_msgs::DiagnosticStatus& status) {
+  // "<namespace>/<node>: <stage>"; another booth's stages are no concern of ours.
+  const std::size_t colon = status.name.find(": ");
+  if (colon == std::string::npos) return;
+  const std::string node = "/" + status.name.substr(0, colon), ours = ros::this_node::getNamespace();
+  if (node.substr(0, node.rfind('/')) != (ours == "/" ? "" : ours)) return;
+  StageReport report{status.name.substr(colon + 2), "", status.message, ""};
+  for (const auto& pair : status.values) {
+    if (pair.key == "state") report.state = pair.value;
+    if (pair.key == "scan_id") report.scan_id = pair.value;
+  }
+  watch_.hear(report, seconds(Clock::now()));
+}
+
+void FitPanel::show_lines() {
+  for (LineRow* row : rows_)
+    for (const AskedLine& line : session_.now().lines)
+      if (line.name == row->line()) {
+        row->set_asked(line.ratio, session_.length(line.name));
+        row->set_enabled(session_.now().off.count(line.region) == 0);
+      }
+  undo_->setEnabled(session_.can_undo());
+}
+
+void FitPanel::show_girths() {
+  if (!new_girths_ || body_.empty() || measured_scan_ != body_.scan_id()) return;
+  new_girths_ = false;
+  const std::vector<Eigen::Vector3d> worn = body_.vertices(1);
+  table_->show_girths(geometry::girths_after(measures_, {body_.mesh(), worn}));
+
+  const std::vector<double> distortion = body_.values(ColourBy::distortion, 1);
+  const auto tightest = std::min_element(distortion.begin(), distortion.end());
+  const Eigen::Vector3d place = body_.mesh().vertices[tightest - distortion.begin()];
+  const auto& landmarks = measures_.landmarks;
+  const auto nearest =
+      std::min_element(landmarks.begin(), landmarks.end(), [&](const auto& a, const auto& b) {
+        return (a.position - place).squaredNorm() < (b.position - place).squaredNorm();
+      });
+  const std::string words =
+      words::over_constriction(*tightest, nearest == landmarks.end() ? "" : spoken(nearest->name));
+  tightness_->setText(text(words));
+  tightness_->setVisible(!words.empty());
+}
+
+void FitPanel::answer(const std::string& words, bool done) {
+  if (answer_->text() == text(words)) return;
+  answer_->setText(text(words));
+  answer_->setStyleSheet(done ? "" : "color: #8a4b00");
+  if (!words.empty()) ROS_INFO("fit panel: %s", words.c_str());
+}
+
+void FitPanel::show_state() {
+  const PipelineWatch::State state = watch_.state(seconds(Clock::now()));
+  if (state.trouble && pipeline_->text() != text(state.words)) ROS_WARN("fit panel: %s", state.words.c_str());
+  pipeline_->setText(text(state.words));
+  pipeline_->setStyleSheet(state.trouble ? "color: #b2182b" : "");
+  const QString garment = text(session_.now().garment);
+  if (!(typing_ && garment_->hasFocus()) && !client_->is_asking() && garment_->currentText() != garment)
+    garment_->setCurrentText(garment);
+  progress_->setMaximum(state.all);
+  progress_->setValue(state.done);
+  if (client_->is_asking() && Clock::now() - asked_at_ > kPatience) answer(words::kNoAnswer);
+}
+
+}  // namespace tensegric_fit::inspect
+
+PLUGINLIB_EXPORT_CLASS(tensegric_fit::inspect::FitPanel, rviz::Panel)

@@ -1,0 +1,114 @@
+/// rviz panel `tensegric_fit/FitPanel`: garment, lines, regions, girths, export.
+#pragma once
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSlider>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#ifndef Q_MOC_RUN
+#include <rviz/panel.h>
+
+#include "geometry/body_measures.hpp"
+#include "inspect/body_view.hpp"
+#include "inspect/fit_session.hpp"
+#include "inspect/pipeline_watch.hpp"
+#include "rviz/fit_client.hpp"
+#include "rviz/girth_table.hpp"
+#include "rviz/line_row.hpp"
+#endif
+
+class QVBoxLayout;
+
+namespace tensegric_fit::inspect {
+
+/// What is on it is what the pipeline wears, whoever asked for it; only while this panel's own request is on
+/// its way, or a slider is held, does it show that request.
+class FitPanel : public rviz::Panel {
+  Q_OBJECT
+ public:
+  explicit FitPanel(QWidget* parent = nullptr);
+  ~FitPanel() override;
+
+  void onInitialize() override;
+  void load(const rviz::Config& config) override;
+  void save(rviz::Config config) const override;
+
+ private:
+  // What the panel is made of.
+  void build_garment(QVBoxLayout* layout);
+  void build_buttons(QVBoxLayout* layout);
+  void build_export(QVBoxLayout* layout);
+  void build_lines();
+  void build_regions();
+  void order_tabs();
+
+  // What the clerk does.
+  void choose(const QString& garment);
+  void ask(const QString& line, double ratio);
+  void undo();
+  void send();
+  void worn_asked(const SetGarment::Request& request);
+  void blend(int per_cent);
+  void compare(bool on);
+  void set_display(const char* property, const QVariant& value);
+  void start_export();
+
+  // What the pipeline says.
+  void take_garment(const Garment& garment);
+  void take_fit(const FitState& fit);
+  void take_body(const TriangleMesh& body);
+  void take_landmarks(const Landmarks& landmarks);
+  void take_deformed(const DeformedMesh& deformed);
+  void take_warnings(const FitWarnings& warnings);
+  void take_diagnostics(const diagnostic_msgs::DiagnosticStatus& status);
+  void take_answer(bool done, const std::string& words);
+
+  void follow_pipeline();  // unless a request is on its way
+  void show_outcome();
+  void show_warnings();
+  std::string lack_of(const LineResult& line) const;  // "" where the line holds
+  void show_lines();
+  void show_girths();
+  void show_state();
+  void answer(const std::string& words, bool done = false);  // to the clerk, and to the log
+
+  using Clock = std::chrono::steady_clock;
+
+  FitSession session_;
+  PipelineWatch watch_;
+  std::map<std::string, Garment> known_;  // whole garments by name: laws and courses of their lines
+  std::shared_ptr<const Garment> worn_;
+  std::shared_ptr<const FitState> fitted_;  // the last that has ended
+  FitWarnings warnings_;                    // of the last that has ended, or the one before
+  ControlMesh control_;
+  BodyView body_;
+  std::string measured_scan_;
+  geometry::BodyMeasures measures_;
+  bool new_girths_ = false;
+  Clock::time_point asked_at_{};
+  bool changed_here_ = false;  // what was asked for last is on the panel already
+  bool typing_ = false;        // a garment's name
+
+  QComboBox* garment_;
+  QLabel *pipeline_, *fit_, *answer_, *folds_, *tightness_, *volumes_;
+  QProgressBar* progress_;
+  QWidget *lines_box_, *regions_box_;
+  std::vector<LineRow*> rows_;
+  QPushButton *put_on_, *undo_, *reset_, *export_;
+  QCheckBox* compare_;
+  QSlider* blend_;
+  GirthTable* table_;
+  QLineEdit* folder_;
+  std::unique_ptr<FitClient> client_;  // last: it calls all of the above
+};
+
+}  // namespace tensegric_fit::inspect

@@ -1,0 +1,265 @@
+// What the panel is made of, and what is on it.
+#include <rviz/display.h>
+#include <rviz/display_group.h>
+#include <rviz/view_controller.h>
+#include <rviz/view_manager.h>
+#include <rviz/visualization_manager.h>
+
+#include <QDateTime>
+#include <QDir>
+#include <QHBoxLayout>
+#include <QShortcut>
+#include <QVBoxLayout>
+
+#include "geometry/shipped_files.hpp"
+#include "inspect/panel_words.hpp"
+#include "inspect/words.hpp"
+#include "rviz/fit_panel.hpp"
+#include "rviz/qt_text.hpp"
+#include "rviz/upright_scroll.hpp"
+
+namespace tensegric_fit::inspect {
+namespace {
+
+constexpr int kWidth = 430;        // pixels
+constexpr float kStepBack = 1.7F;  // of the camera, to see two bodies in place of one
+constexpr char kDisplay[] = "tensegric_fit/BodyMesh";
+
+QLabel* sentence(QVBoxLayout* layout, const char* style = "") {
+  auto* label = new QLabel;
+  label->setWordWrap(true);
+  label->setStyleSheet(style);
+  layout->addWidget(label);
+  return label;
+}
+
+void empty(QWidget* box) {
+  delete box->layout();
+  qDeleteAll(box->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly));
+}
+
+QStringList shipped_garments() {
+  std::string folder = geometry::shipped_folder("garments");
+  ros::NodeHandle().getParam("tensegric/garment_directory", folder);
+  QStringList names;
+  for (const QString& file : QDir(text(folder)).entryList({"*.yaml"}, QDir::Files, QDir::Name))
+    names << file.left(file.size() - 5);
+  return names;
+}
+
+}  // namespace
+
+FitPanel::FitPanel(QWidget* parent) : rviz::Panel(parent) {
+  auto* inside = new QWidget;
+  auto* layout = new QVBoxLayout(inside);
+  pipeline_ = sentence(layout);
+  progress_ = new QProgressBar;
+  progress_->setTextVisible(false);
+  progress_->setMaximumHeight(8);
+  layout->addWidget(progress_);
+  build_garment(layout);
+  fit_ = sentence(layout);
+  folds_ = sentence(layout, "color: #b2182b; font-weight: bold");
+  folds_->hide();
+  tightness_ = sentence(layout, "color: #b2182b; font-weight: bold");
+  tightness_->hide();
+  layout->addWidget(lines_box_ = new QWidget);
+  layout->addWidget(regions_box_ = new QWidget);
+  build_buttons(layout);
+  layout->addWidget(table_ = new GirthTable, 1);
+  volumes_ = sentence(layout);
+  build_export(layout);
+  answer_ = sentence(layout);
+  build_lines();
+
+  auto* all = new QVBoxLayout(this);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->addWidget(new UprightScroll(inside));
+  setMinimumWidth(kWidth);
+  const auto* back =
+      new QShortcut(QKeySequence::Undo, this, nullptr, nullptr, Qt::WidgetWithChildrenShortcut);
+  connect(back, &QShortcut::activated, this, &FitPanel::undo);
+}
+
+void FitPanel::build_garment(QVBoxLayout* layout) {
+  auto* row = new QHBoxLayout;
+  auto* label = new QLabel(words::kGarment);
+  garment_ = new QComboBox;
+  garment_->setEditable(true);
+  garment_->setInsertPolicy(QComboBox::NoInsert);
+  garment_->addItems(shipped_garments());
+  garment_->setCurrentText("");
+  garment_->setToolTip(words::kGarmentHelp);
+  label->setBuddy(garment_);
+  put_on_ = new QPushButton(words::kPutOn);
+  row->addWidget(label);
+  row->addWidget(garment_, 1);
+  row->addWidget(put_on_);
+  layout->addLayout(row);
+  connect(garment_, qOverload<int>(&QComboBox::activated), this, [this] { choose(garment_->currentText()); });
+  connect(garment_->lineEdit(), &QLineEdit::textEdited, this, [this] { typing_ = true; });
+  connect(garment_->lineEdit(), &QLineEdit::returnPressed, this, [this] { choose(garment_->currentText()); });
+  connect(put_on_, &QPushButton::clicked, this, [this] { choose(garment_->currentText()); });
+}
+
+void FitPanel::build_buttons(QVBoxLayout* layout) {
+  auto* row = new QHBoxLayout;
+  row->addWidget(undo_ = new QPushButton(words::kUndo));
+  row->addWidget(reset_ = new QPushButton(words::kReset));
+  row->addWidget(compare_ = new QCheckBox(words::kCompare));
+  layout->addLayout(row);
+  undo_->setEnabled(false);
+  auto* blending = new QHBoxLayout;
+  auto* label = new QLabel(words::kBlendLabel);
+  blend_ = new QSlider(Qt::Horizontal);
+  blend_->setRange(0, 100);
+  blend_->setValue(100);
+  label->setBuddy(blend_);
+  blending->addWidget(label);
+  blending->addWidget(blend_, 1);
+  layout->addLayout(blending);
+  connect(undo_, &QPushButton::clicked, this, &FitPanel::undo);
+  connect(reset_, &QPushButton::clicked, this, [this] {
+    changed_here_ = false;
+    asked_at_ = Clock::now();
+    client_->reset();
+  });
+  connect(compare_, &QCheckBox::toggled, this, &FitPanel::compare);
+  connect(blend_, &QSlider::valueChanged, this, &FitPanel::blend);
+}
+
+void FitPanel::build_export(QVBoxLayout* layout) {
+  auto* row = new QHBoxLayout;
+  auto* label = new QLabel(words::kFolder);
+  folder_ = new QLineEdit(QDir::home().filePath("tensegric_fit_exports"));
+  label->setBuddy(folder_);
+  row->addWidget(label);
+  row->addWidget(folder_, 1);
+  row->addWidget(export_ = new QPushButton(words::kExport));
+  layout->addLayout(row);
+  connect(export_, &QPushButton::clicked, this, &FitPanel::start_export);
+  connect(folder_, &QLineEdit::textChanged, this, [this] { Q_EMIT configChanged(); });
+}
+
+void FitPanel::build_lines() {
+  empty(lines_box_);
+  rows_.clear();
+  auto* grid = new QGridLayout(lines_box_);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setVerticalSpacing(2);
+  grid->setColumnStretch(LineRow::kSlider, 1);
+  if (session_.now().lines.empty()) {
+    grid->addWidget(new QLabel(words::kNoLines), 0, 0);
+    return;
+  }
+  grid->addWidget(new QLabel(words::kLine), 0, LineRow::kName);
+  grid->addWidget(new QLabel(words::kNeutral), 0, LineRow::kSlider, 1, 3);
+  grid->addWidget(new QLabel(words::kNow), 0, LineRow::kNow, Qt::AlignRight);
+  grid->addWidget(new QLabel(words::kPull), 0, LineRow::kPull, Qt::AlignRight);
+  for (const AskedLine& line : session_.now().lines) {
+    auto* row = new LineRow(line.name, 1 + static_cast<int>(rows_.size()), grid);
+    row->setParent(lines_box_->layout());
+    connect(row, &LineRow::asked, this, &FitPanel::ask);
+    connect(row, &LineRow::settled, this, [this] { session_.settle(); });
+    rows_.push_back(row);
+  }
+  order_tabs();
+  show_lines();
+  show_outcome();
+}
+
+// Qt's own order is that in which things were made; lines and regions come and go.
+void FitPanel::order_tabs() {
+  setTabOrder(garment_, put_on_);
+  QWidget* last = put_on_;
+  for (LineRow* row : rows_) last = row->follow(last);
+  const auto follow = [&last](QWidget* next) {
+    setTabOrder(last, next);
+    last = next;
+  };
+  for (QCheckBox* box : regions_box_->findChildren<QCheckBox*>()) follow(box);
+  for (QWidget* next :
+       std::initializer_list<QWidget*>{undo_, reset_, compare_, blend_, table_, folder_, export_})
+    follow(next);
+}
+
+void FitPanel::build_regions() {
+  const Wish& wish = session_.now();
+  QStringList names;
+  for (const std::string& region : wish.regions()) names << text(region);
+  QStringList shown;
+  for (const QCheckBox* box : regions_box_->findChildren<QCheckBox*>()) shown << box->text();
+  if (shown != names) {
+    empty(regions_box_);
+    auto* row = new QHBoxLayout(regions_box_);
+    row->setContentsMargins(0, 0, 0, 0);
+    if (!names.empty()) row->addWidget(new QLabel(words::kRegions));
+    for (const QString& name : names) {
+      auto* box = new QCheckBox(name);
+      box->setToolTip(words::kRegionHelp);
+      row->addWidget(box);
+      connect(box, &QCheckBox::clicked, this, [this, name](bool on) {
+        if (session_.switch_region(name.toStdString(), on))
+          send();
+        else
+          answer(words::kRegionHelp);
+        build_regions();
+        show_lines();
+      });
+    }
+    row->addStretch(1);
+    order_tabs();
+  }
+  for (QCheckBox* box : regions_box_->findChildren<QCheckBox*>())
+    box->setChecked(wish.off.count(box->text().toStdString()) == 0);
+}
+
+void FitPanel::set_display(const char* property, const QVariant& value) {
+  rviz::DisplayGroup* all = vis_manager_->getRootDisplayGroup();
+  for (int i = 0; i < all->numDisplays(); ++i)
+    if (all->getDisplayAt(i)->getClassId() == kDisplay)
+      all->getDisplayAt(i)->subProp(property)->setValue(value);
+}
+
+void FitPanel::blend(int per_cent) {
+  compare_->setChecked(false);
+  set_display("Blend", per_cent / 100.0);
+  set_display("Show", words::kBlend);
+}
+
+void FitPanel::compare(bool on) {
+  set_display("Show", on ? words::kSideBySide : words::kAfter);
+  rviz::Property* distance = vis_manager_->getViewManager()->getCurrent()->subProp("Distance");
+  distance->setValue(distance->getValue().toFloat() * (on ? kStepBack : 1 / kStepBack));
+}
+
+void FitPanel::start_export() {
+  const QString folder = folder_->text().trimmed();
+  if (folder.isEmpty()) {
+    answer(words::kEmptyFolder);
+    return;
+  }
+  if (!body_.is_worn()) {
+    answer(words::kNothingToExport);
+    return;
+  }
+  QString name = text(body_.scan_id() + "_" + body_.garment()).replace('/', '-');
+  name += QDateTime::currentDateTime().toString("_yyyyMMdd-hhmmss");
+  QDir().mkpath(folder);  // where that cannot be, the export says why
+  export_->setEnabled(false);
+  answer("");
+  client_->export_to(QDir(folder).filePath(name).toStdString(), body_.scan_id());
+}
+
+void FitPanel::load(const rviz::Config& config) {
+  rviz::Panel::load(config);
+  QString folder;
+  if (config.mapGetString("Export folder", &folder)) folder_->setText(folder);
+}
+
+void FitPanel::save(rviz::Config config) const {
+  rviz::Panel::save(config);
+  config.mapSetValue("Export folder", folder_->text());
+}
+
+}  // namespace tensegric_fit::inspect

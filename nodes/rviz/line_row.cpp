@@ -1,0 +1,114 @@
+#include "rviz/line_row.hpp"
+
+#include <QSignalBlocker>
+#include <algorithm>
+#include <cmath>
+
+#include "inspect/fit_session.hpp"
+#include "inspect/panel_words.hpp"
+#include "rviz/qt_text.hpp"
+
+namespace tensegric_fit::inspect {
+namespace {
+
+constexpr int kTicks = 200;                  // of the slider, for a ratio of 1: half a per cent each
+constexpr double kWholeCircumference = 300;  // cm
+constexpr int kShortestSlider = 60, kLongestName = 110;  // pixels
+
+QDoubleSpinBox* box(const char* unit, double low, double high, double step) {
+  auto* made = new QDoubleSpinBox;
+  made->setSuffix(QString(" ") + unit);
+  made->setDecimals(1);
+  made->setRange(low, high);
+  made->setSingleStep(step);
+  made->setKeyboardTracking(false);  // a number that is typed counts when it is whole
+  return made;
+}
+
+}  // namespace
+
+LineRow::LineRow(const std::string& line, int number, QGridLayout* grid)
+    : line_(line),
+      slider_(new QSlider(Qt::Horizontal)),
+      per_cent_(box("%", 100 * FitSession::kLeast, 100 * FitSession::kMost, 0.5)),
+      centimetres_(box("cm", 0, kWholeCircumference, 0.5)),
+      now_(new QLabel),
+      pull_(new QLabel),
+      warning_(new QLabel) {
+  slider_->setObjectName(text("slider_" + line));
+  slider_->setRange(static_cast<int>(std::lround(kTicks * FitSession::kLeast)),
+                    static_cast<int>(std::lround(kTicks * FitSession::kMost)));
+  slider_->setPageStep(kTicks / 20);
+  slider_->setMinimumWidth(kShortestSlider);
+  warning_->setWordWrap(true);
+  warning_->setStyleSheet("color: #b2182b");
+  warning_->hide();
+  const QString name = text(line);
+  for (QWidget* widget : {static_cast<QWidget*>(slider_), static_cast<QWidget*>(per_cent_),
+                          static_cast<QWidget*>(centimetres_)})
+    widget->setAccessibleName(name);
+  auto* label = new QLabel;
+  label->setText(QString("&%1 %2").arg(number).arg(
+      label->fontMetrics().elidedText(name, Qt::ElideMiddle, kLongestName)));
+  label->setToolTip(name);
+  label->setBuddy(slider_);
+  const int row = 2 * number - 1;  // below the headings
+  grid->addWidget(label, row, kName);
+  grid->addWidget(slider_, row, kSlider);
+  grid->addWidget(per_cent_, row, kPerCent);
+  grid->addWidget(centimetres_, row, kCentimetres);
+  grid->addWidget(now_, row, kNow, Qt::AlignRight);
+  grid->addWidget(pull_, row, kPull, Qt::AlignRight);
+  grid->addWidget(warning_, row + 1, kName, 1, kColumns);
+
+  const auto ask = [this](double ratio) { Q_EMIT asked(text(line_), ratio); };
+  connect(slider_, &QSlider::valueChanged, this,
+          [ask](int ticks) { ask(static_cast<double>(ticks) / kTicks); });
+  connect(slider_, &QSlider::sliderReleased, this, &LineRow::settled);
+  const auto changed = qOverload<double>(&QDoubleSpinBox::valueChanged);
+  connect(per_cent_, changed, this, [ask](double value) { ask(value / 100); });
+  connect(centimetres_, changed, this, [this, ask](double value) {
+    if (length_ > 0) ask(value / 100 / length_);
+  });
+  for (QDoubleSpinBox* each : {per_cent_, centimetres_})
+    connect(each, &QDoubleSpinBox::editingFinished, this, &LineRow::settled);
+}
+
+void LineRow::set_asked(double ratio, double length) {
+  const QSignalBlocker slider(slider_), share(per_cent_), cm(centimetres_);
+  length_ = length;
+  if (!slider_->isSliderDown()) slider_->setValue(static_cast<int>(std::lround(kTicks * ratio)));
+  per_cent_->setRange(100 * std::min(FitSession::kLeast, ratio), 100 * std::max(FitSession::kMost, ratio));
+  per_cent_->setValue(100 * ratio);
+  centimetres_->setEnabled(length > 0);
+  if (length > 0) {
+    centimetres_->setRange(100 * length * FitSession::kLeast, 100 * length * FitSession::kMost);
+    centimetres_->setValue(100 * length * ratio);
+  }
+}
+
+void LineRow::set_ratio_now(double ratio) {
+  now_->setText(text(words::per_cent(ratio)));
+}
+
+void LineRow::set_outcome(double ratio, double tension, const std::string& warning) {
+  set_ratio_now(ratio);
+  pull_->setText(QString::number(tension, 'f', 2));
+  warning_->setText(text(warning));
+  warning_->setVisible(!warning.empty());
+}
+
+QWidget* LineRow::follow(QWidget* before) {
+  QWidget::setTabOrder(before, slider_);
+  QWidget::setTabOrder(slider_, per_cent_);
+  QWidget::setTabOrder(per_cent_, centimetres_);
+  return centimetres_;
+}
+
+void LineRow::set_enabled(bool enabled) {
+  slider_->setEnabled(enabled);
+  per_cent_->setEnabled(enabled);
+  centimetres_->setEnabled(enabled && length_ > 0);
+}
+
+}  // namespace tensegric_fit::inspect

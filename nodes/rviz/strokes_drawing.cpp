@@ -1,0 +1,77 @@
+#include "rviz/strokes_drawing.hpp"
+
+#include <OgreSceneManager.h>
+#include <OgreSceneNode.h>
+#include <rviz/ogre_helpers/billboard_line.h>
+#include <rviz/ogre_helpers/movable_text.h>
+#include <rviz/ogre_helpers/point_cloud.h>
+
+#include <algorithm>
+
+namespace tensegric_fit::inspect {
+namespace {
+
+constexpr float kDot = 0.012F, kLetter = 0.02F;  // metres
+constexpr Colour kInk{30, 30, 30};
+
+}  // namespace
+
+StrokesDrawing::StrokesDrawing(Ogre::SceneManager* scene, Ogre::SceneNode* parent, double width)
+    : lines_(std::make_unique<rviz::BillboardLine>(scene, parent)) {
+  lines_->setLineWidth(static_cast<float>(width));
+}
+
+StrokesDrawing::~StrokesDrawing() = default;
+
+void StrokesDrawing::draw(const std::vector<Stroke>& strokes) {
+  std::size_t longest = 2;
+  for (const Stroke& stroke : strokes) longest = std::max(longest, stroke.points.size());
+  lines_->clear();
+  if (strokes.empty()) return;
+  lines_->setMaxPointsPerLine(static_cast<std::uint32_t>(longest));
+  lines_->setNumLines(static_cast<std::uint32_t>(strokes.size()));
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    if (i > 0) lines_->newLine();
+    for (const Eigen::Vector3d& point : strokes[i].points)
+      lines_->addPoint(ogre(point), ogre(strokes[i].colour));
+  }
+}
+
+DotsDrawing::DotsDrawing(Ogre::SceneManager* scene, Ogre::SceneNode* parent)
+    : scene_(scene), node_(parent->createChildSceneNode()), dots_(std::make_unique<rviz::PointCloud>()) {
+  dots_->setRenderMode(rviz::PointCloud::RM_SPHERES);
+  dots_->setDimensions(kDot, kDot, kDot);
+  node_->attachObject(dots_.get());
+}
+
+DotsDrawing::~DotsDrawing() {
+  forget_names();
+  node_->detachAllObjects();
+  scene_->destroySceneNode(node_);
+}
+
+void DotsDrawing::forget_names() {
+  node_->removeAndDestroyAllChildren();
+  names_.clear();
+}
+
+void DotsDrawing::draw(const std::vector<NamedDot>& dots, bool with_names) {
+  dots_->clear();
+  forget_names();
+  if (dots.empty()) return;
+  std::vector<rviz::PointCloud::Point> points(dots.size());
+  for (std::size_t i = 0; i < dots.size(); ++i) {
+    points[i].position = ogre(dots[i].position);
+    points[i].color = ogre(dots[i].colour);
+  }
+  dots_->addPoints(points.data(), static_cast<std::uint32_t>(points.size()));
+  if (!with_names) return;
+  for (const NamedDot& dot : dots) {
+    auto name = std::make_unique<rviz::MovableText>("   " + dot.name, "Liberation Sans", kLetter, ogre(kInk));
+    name->setTextAlignment(rviz::MovableText::H_LEFT, rviz::MovableText::V_CENTER);
+    node_->createChildSceneNode(ogre(dot.position))->attachObject(name.get());
+    names_.push_back(std::move(name));
+  }
+}
+
+}  // namespace tensegric_fit::inspect

@@ -1,0 +1,254 @@
+#include "tensegric/fit_messages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "geometry/status.hpp"
+#include "ros/flat.hpp"
+#include "tensegric/members.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+using tensegric::TensionLaw;
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void refuse(const GarmentLine& line, const std::string& what) {
+  throw geometry::Refusal(geometry::refusal::kBadGarment, fmt::format("line '{}': {}", line.name, what));
+}
+
+// The rules of garment files.
+std::vector<std::pair<double, double>> table_in(const GarmentLine& line) {
+  if (line.stretch.empty() || line.stretch.size() != line.tension.size())
+    refuse(line, "a table needs a tension for each stretch");
+  std::vector<std::pair<double, double>> table;
+  for (std::size_t i = 0; i < line.stretch.size(); ++i) {
+    const double stretch = line.stretch[i], tension = line.tension[i];
+    if (!std::isfinite(stretch) || stretch < 1 || !(tension >= 0 && tension <= tensegric::kHighestTension))
+      refuse(line, "a table needs stretches of at least 1 and tensions of at least 0");
+    if (stretch == 1 && tension != 0) refuse(line, "a table must have no tension at stretch 1");
+    if (table.empty() && stretch > 1) table.emplace_back(1, 0);
+    if (!table.empty() && (stretch <= table.back().first || tension < table.back().second))
+      refuse(line, "stretch and tension must ascend");
+    table.emplace_back(stretch, tension);
+  }
+  if (table.size() < 2) refuse(line, "a table needs a row beyond stretch 1");
+  return table;
+}
+
+TensionLaw law_in(const GarmentLine& line) {
+  TensionLaw law;
+  if (line.law.empty() || line.law == GarmentLine::RIGID) return law;
+  if (line.law == GarmentLine::STIFFNESS) {
+    if (!(line.stiffness > 0 && line.stiffness <= tensegric::kHighestTension))
+      refuse(line,
+             fmt::format("stiffness {:g} is not in (0, {:g}]", line.stiffness, tensegric::kHighestTension));
+    law.kind = TensionLaw::Kind::stiffness;
+    law.stiffness = line.stiffness;
+    return law;
+  }
+  if (line.law != GarmentLine::TABLE)
+    refuse(line, fmt::format("law '{}' is not one of: rigid, stiffness, table", line.law));
+  law.kind = TensionLaw::Kind::table;
+  law.table = table_in(line);
+  return law;
+}
+
+std::vector<Eigen::Vector3d> course_in(const GarmentLine& line) {
+  for (const double value : {line.width, line.smooth})
+    if (!(value >= 0 && value <= tensegric::kWidestBand))
+      refuse(line, fmt::format("width {:g} and smooth {:g} must be in [0, {:g}] metres", line.width,
+                               line.smooth, tensegric::kWidestBand));
+  if (line.points.empty() && line.width == 0 && line.smooth > 0)
+    refuse(line, "smooth is for bands and for lines that are given by points");
+  if (line.points.empty()) return {};
+  if (line.points.size() % 3 != 0 || line.points.size() < 6)
+    refuse(line, "it needs x y z of two points or more");
+  return points_in(line.points);
+}
+
+tensegric::GarmentLine line_in(const GarmentLine& message) {
+  tensegric::GarmentLine line;
+  line.name = message.name;
+  if (message.name.empty()) refuse(message, "a line needs a name");
+  if (!(message.ratio >= tensegric::kLowestRatio && message.ratio <= tensegric::kHighestRatio))
+    refuse(message, fmt::format("ratio {:g} is not in [{:g}, {:g}]", message.ratio, tensegric::kLowestRatio,
+                                tensegric::kHighestRatio));
+  line.ratio = message.ratio;
+  line.law = law_in(message);
+  if (!(message.tension_limit >= 0)) refuse(message, "tension_limit must not be negative");
+  line.tension_limit = message.tension_limit == 0 ? kNoLimit : message.tension_limit;
+  line.taut = message.taut;
+  line.points = course_in(message);
+  if (line.points.empty())
+    line.through = message.through;
+  else if (!message.through.empty())
+    line.held = tensegric::held_in(message.through, "line '" + message.name + "' by points");
+  line.width = message.width;
+  line.smooth = message.smooth;
+  return line;
+}
+
+std::string word_of(TensionLaw::Kind kind) {
+  switch (kind) {
+    case TensionLaw::Kind::rigid:
+      return GarmentLine::RIGID;
+    case TensionLaw::Kind::stiffness:
+      return GarmentLine::STIFFNESS;
+    case TensionLaw::Kind::table:
+      break;
+  }
+  return GarmentLine::TABLE;
+}
+
+double limit_of(double tension_limit) {
+  return tension_limit == kNoLimit ? 0 : tension_limit;
+}
+
+GarmentLine line_of(const tensegric::GarmentLine& line) {
+  GarmentLine message;
+  message.name = line.name;
+  message.ratio = line.ratio;
+  message.law = word_of(line.law.kind);
+  message.stiffness = line.law.stiffness;
+  for (const auto& [stretch, tension] : line.law.table) {
+    message.stretch.push_back(stretch);
+    message.tension.push_back(tension);
+  }
+  message.tension_limit = limit_of(line.tension_limit);
+  message.through = line.through;
+  if (!line.points.empty())
+    for (const bool held : line.held)
+      message.through.emplace_back(held ? tensegric::kHeldByBone : tensegric::kCarriedBySkin);
+  message.taut = line.taut;
+  message.points = flat<double>(line.points);
+  message.width = line.width;
+  message.smooth = line.smooth;
+  return message;
+}
+
+FitState named(const FitName& name) {
+  FitState message;
+  message.header = name.tag.header;
+  message.scan_id = name.tag.scan_id;
+  message.garment = name.garment;
+  message.solver = to_string(name.solver);
+  message.twist = name.posture.twist;
+  message.side_lean = name.posture.side_lean;
+  return message;
+}
+
+}  // namespace
+
+Garment to_message(const std_msgs::Header& header, const GarmentRequest& request) {
+  Garment message;
+  message.header = header;
+  message.name = request.garment.name;
+  message.regions = request.garment.regions;
+  for (const tensegric::GarmentLine& line : request.garment.lines) message.lines.push_back(line_of(line));
+  message.solver = request.solver;
+  return message;
+}
+
+GarmentRequest request_in(const Garment& message) {
+  GarmentRequest request;
+  request.garment.name = message.name;
+  request.garment.regions = message.regions;
+  if (message.lines.empty())
+    throw geometry::Refusal(geometry::refusal::kBadGarment, "the garment has no lines");
+  std::set<std::string> names;
+  for (const GarmentLine& line : message.lines) {
+    if (!names.insert(line.name).second) refuse(line, "another line has the same name");
+    request.garment.lines.push_back(line_in(line));
+  }
+  if (!message.solver.empty()) tensegric::solver_from(message.solver);
+  request.solver = message.solver;
+  return request;
+}
+
+FitState to_message(const FitName& name, const tensegric::Solution& solution, double milliseconds) {
+  FitState message = named(name);
+  message.status = to_string(solution.status);
+  message.iteration = static_cast<std::uint32_t>(solution.iterations);
+  message.residual = solution.residual;
+  message.milliseconds = milliseconds;
+  message.note = solution.note;
+  message.outer = flat<double>(solution.outer);
+  message.inner = flat<double>(solution.inner);
+  for (const tensegric::LineResult& line : solution.lines) {
+    LineResult result;
+    result.name = line.name;
+    result.nodes.assign(line.nodes.begin(), line.nodes.end());
+    result.course_at_rest = flat<double>(line.course_at_rest);
+    result.course = flat<double>(line.course);
+    result.initial = line.initial;
+    result.neutral = line.neutral;
+    result.final = line.final;
+    result.request = line.request;
+    result.ratio = line.final / line.initial;
+    result.straight = line.straight;
+    result.reachable = line.reachable;
+    result.tension = line.tension;
+    result.law = word_of(line.law.kind);
+    result.stiffness = line.law.stiffness;
+    for (const auto& [stretch, tension] : line.law.table) {
+      result.table_stretch.push_back(stretch);
+      result.table_tension.push_back(tension);
+    }
+    result.tension_limit = limit_of(line.tension_limit);
+    message.line_ratios.push_back(result.ratio);
+    message.lines.push_back(std::move(result));
+  }
+  for (const tensegric::RegionResult& region : solution.regions) {
+    RegionResult result;
+    result.name = region.name;
+    result.volume_before = region.volume_before;
+    result.volume_after = region.volume_after;
+    message.volume_errors.push_back(region.volume_after / region.volume_before - 1);
+    message.regions.push_back(std::move(result));
+  }
+  return message;
+}
+
+FitState to_message(const FitName& name, const tensegric::Iterate& iterate,
+                    const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner,
+                    double milliseconds) {
+  FitState message = named(name);
+  message.status = FitState::SOLVING;
+  message.iteration = static_cast<std::uint32_t>(iterate.iteration);
+  message.residual = iterate.residual;
+  message.milliseconds = milliseconds;
+  message.outer = flat<double>(outer);
+  message.inner = flat<double>(inner);
+  message.line_ratios = iterate.line_ratios;
+  message.volume_errors = iterate.volume_errors;
+  return message;
+}
+
+MemberForces to_message(const ScanTag& tag, const std::string& garment, const tensegric::Model& model,
+                        const tensegric::Solution& solution) {
+  tensegric::Positions nodes = solution.outer;
+  nodes.insert(nodes.end(), solution.inner.begin(), solution.inner.end());
+  nodes.insert(nodes.end(), solution.between.begin(), solution.between.end());
+  const double mean = model.mean_tension();
+  MemberForces message;
+  message.header = tag.header;
+  message.scan_id = tag.scan_id;
+  message.garment = garment;
+  message.nodes = flat<double>(nodes);
+  for (const tensegric::Member& member : model.members) {
+    message.ends.push_back(static_cast<std::uint32_t>(member.a));
+    message.ends.push_back(static_cast<std::uint32_t>(member.b));
+    message.struts.push_back(member.strut);
+    const double length = (nodes[member.b] - nodes[member.a]).norm();
+    message.forces.push_back(tensegric::tension(member, length) / mean);
+  }
+  return message;
+}
+
+}  // namespace tensegric_fit::node

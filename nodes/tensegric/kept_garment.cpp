@@ -1,0 +1,48 @@
+#include "tensegric/kept_garment.hpp"
+
+#include <fmt/format.h>
+#include <ros/serialization.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+constexpr char kEnd = '|';  // of the first garment's name; then the message, two hexadecimal digits a byte
+
+int digit_in(char digit) {
+  const std::size_t value = std::string("0123456789abcdef").find(digit);
+  if (value == std::string::npos) throw geometry::Refusal(geometry::refusal::kBadGarment, "no digit");
+  return static_cast<int>(value);
+}
+
+}  // namespace
+
+std::string kept_text(const std::string& first, const GarmentRequest& worn) {
+  const Garment message = to_message({}, worn);
+  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
+  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(stream, message);
+  return first + kEnd + fmt::format("{:02x}", fmt::join(bytes, ""));
+}
+
+std::optional<GarmentRequest> kept_garment(const std::string& text, const std::string& first) {
+  const std::size_t end = text.rfind(kEnd);
+  if (end == std::string::npos || text.substr(0, end) != first) return std::nullopt;
+  try {
+    std::vector<std::uint8_t> bytes;
+    for (std::size_t i = end + 1; i + 1 < text.size(); i += 2)
+      bytes.push_back(static_cast<std::uint8_t>(16 * digit_in(text[i]) + digit_in(text[i + 1])));
+    ros::serialization::IStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+    Garment message;
+    ros::serialization::deserialize(stream, message);
+    return request_in(message);
+  } catch (const std::exception&) {  // of another version of the message
+    return std::nullopt;
+  }
+}
+
+}  // namespace tensegric_fit::node

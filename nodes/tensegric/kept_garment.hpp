@@ -1,0 +1,17 @@
+/// A garment as a text that outlives its node: what a node that was started again goes on with.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tensegric/fit_messages.hpp"
+
+namespace tensegric_fit::node {
+
+/// `first` is the garment that the node was started with: under another one the text counts no more.
+std::string kept_text(const std::string& first, const GarmentRequest& worn);
+
+/// Nothing where the text belongs to another `first` garment, or is none of kept_text().
+std::optional<GarmentRequest> kept_garment(const std::string& text, const std::string& first);
+
+}  // namespace tensegric_fit::node

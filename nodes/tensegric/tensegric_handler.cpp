@@ -1,0 +1,160 @@
+#include "tensegric/tensegric_handler.hpp"
+
+#include <boost/make_shared.hpp>
+
+#include <chrono>
+
+#include "geometry/shipped_files.hpp"
+#include "tensegric/kept_garment.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+TensegricHandler::Setup TensegricHandler::setup_from(Parameters& parameters) {
+  Setup setup;
+  tensegric::ModelOptions& model = setup.fitter.model;
+  model.inner = tensegric::inner_nodes_from(
+      parameters.choice("inner_nodes", to_string(model.inner), {"free", "bound"}));
+  model.layers = parameters.integer("layers", model.layers, 1, tensegric::kMostLayers);
+  model.uniform = parameters.flag("uniform_stiffness", model.uniform);
+  model.lateral_stiffness = parameters.number("lateral_stiffness", model.lateral_stiffness,
+                                              tensegric::kSoftestLateral, tensegric::kStiffestLateral);
+  model.skin = parameters.number("skin", model.skin, 0, tensegric::kThickestSkin);
+  model.volume_stiffness =
+      parameters.number("volume_stiffness", model.volume_stiffness, 0, tensegric::kStiffestVolume);
+  model.stiffening = parameters.number("stiffening", model.stiffening, 0, tensegric::kMostStiffening);
+  model.modulus =
+      parameters.number("modulus", model.modulus, tensegric::kLeastModulus, tensegric::kMostModulus);
+  model.strut_stiffness = parameters.number("strut_stiffness", model.strut_stiffness,
+                                            tensegric::kSoftestStrut, tensegric::kStiffestStrut);
+  model.prestress = parameters.number("prestress", model.prestress, tensegric::kLowestPrestress,
+                                      tensegric::kHighestPrestress);
+  tensegric::SolverOptions& solver = setup.fitter.solver;
+  solver.solver = tensegric::solver_from(
+      parameters.choice("solver", to_string(solver.solver), {"equilibrium", "adaptive", "relaxation"}));
+  solver.max_iterations = parameters.integer("max_iterations", solver.max_iterations, 0, 10000000);
+  solver.time_budget = parameters.number("time_budget", solver.time_budget, 0, 3600);
+  solver.volume = parameters.choice("volume", "control", {"control", "body"}) == "body"
+                      ? tensegric::KeptVolume::body
+                      : tensegric::KeptVolume::control;
+  solver.gravity = parameters.vector("gravity", solver.gravity);
+  solver.line_force = parameters.number("line_force", solver.line_force, 0, 1e6);
+  solver.volume_force = parameters.number("volume_force", solver.volume_force, 0, 1e6);
+  geometry::Posture& posture = setup.fitter.posture;
+  posture.twist =
+      parameters.number("twist", posture.twist, -geometry::kLargestTwist, geometry::kLargestTwist);
+  posture.side_lean =
+      parameters.number("side_lean", posture.side_lean, -geometry::kLargestLean, geometry::kLargestLean);
+  setup.progress_period = parameters.number("progress_period", setup.progress_period, 0.001, 60);
+  setup.garment = parameters.text("garment", setup.garment);
+  setup.kept = parameters.text("worn", "");
+  setup.garment_directory = parameters.text("garment_directory", geometry::shipped_folder("garments"));
+  parameters.check_all_known();
+  return setup;
+}
+
+TensegricHandler::TensegricHandler(Parameters parameters, tensegric::BindBody bind_body)
+    : setup_(setup_from(parameters)),
+      wardrobe_(setup_.garment_directory),
+      first_(wardrobe_.take(setup_.garment)),
+      worn_(kept_garment(setup_.kept, setup_.garment).value_or(first_)),
+      fitter_(setup_.fitter, std::move(bind_body)) {}
+
+std::optional<TensegricHandler::Input> TensegricHandler::add(const ControlMesh::ConstPtr& control) {
+  control_ = control;
+  fresh_ = true;
+  return newly_complete();
+}
+
+std::optional<TensegricHandler::Input> TensegricHandler::add(const Landmarks::ConstPtr& landmarks) {
+  landmarks_ = landmarks;
+  return newly_complete();
+}
+
+std::optional<TensegricHandler::Input> TensegricHandler::add(const TriangleMesh::ConstPtr& body) {
+  body_ = body;
+  return newly_complete();
+}
+
+std::optional<TensegricHandler::Input> TensegricHandler::newly_complete() {
+  if (!fresh_ || !complete()) return std::nullopt;
+  fresh_ = false;
+  return input();
+}
+
+std::optional<TensegricHandler::Input> TensegricHandler::wear(GarmentRequest request) {
+  fitter_.check(request.garment);
+  worn_ = std::move(request);
+  if (!complete()) return std::nullopt;
+  return input();
+}
+
+std::optional<TensegricHandler::Input> TensegricHandler::reset() {
+  fitter_.check(first_.garment);
+  ++rests_;
+  return wear(first_);
+}
+
+// The body says which scan is the newest: one that was refused later on has no control mesh.
+bool TensegricHandler::complete() const {
+  const auto fits = [this](const auto& message) { return message && message->scan_id == control_->scan_id; };
+  return control_ && fits(body_) && (!needs_landmarks() || fits(landmarks_));
+}
+
+TensegricHandler::Input TensegricHandler::input() const {
+  return {{control_, needs_landmarks() ? landmarks_ : nullptr, body_}, worn_, rests_};
+}
+
+bool TensegricHandler::needs_landmarks() const {
+  return setup_.fitter.posture.twist != 0 || setup_.fitter.posture.side_lean != 0;
+}
+
+std::string TensegricHandler::outlook() const {
+  if (complete()) return "fitting to scan " + control_->scan_id;
+  if (body_) return "kept: scan " + body_->scan_id + " has no control mesh so far";
+  return "kept until a scan comes";
+}
+
+std::string TensegricHandler::kept() const {
+  return kept_text(setup_.garment, worn_);
+}
+
+std::optional<TensegricHandler::Output> TensegricHandler::handle(
+    const Input& input, const std::function<bool()>& go_on,
+    const std::function<void(const FitState&)>& publish) {
+  const ControlMesh& control = *input.scene.control;
+  const FitName name{tag_in(control), input.request.garment.name, fitter_.solver_of(input.request),
+                     setup_.fitter.posture};
+  const auto start = Clock::now();
+  double published = 0;
+  const auto progress = [&](const tensegric::Iterate& iterate, const std::vector<Eigen::Vector3d>& outer,
+                            const std::vector<Eigen::Vector3d>& inner) {
+    const double now = milliseconds_since(start);
+    if (now - published >= 1000 * setup_.progress_period) {
+      publish(to_message(name, iterate, outer, inner, now));
+      published = now;
+    }
+    return go_on();
+  };
+  std::optional<tensegric::Solution> solution = fitter_.fit(input.scene, input.request, input.rest, progress);
+  if (!solution) return std::nullopt;
+
+  const auto message = boost::make_shared<FitState>(to_message(name, *solution, milliseconds_since(start)));
+  return Output{message,
+                fitter_.model(),
+                std::move(*solution),
+                {{"garment", message->garment},
+                 {"solver", message->solver},
+                 {"status", message->status},
+                 {"iterations", std::to_string(message->iteration)}}};
+}
+
+}  // namespace tensegric_fit::node

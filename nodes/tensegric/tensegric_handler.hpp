@@ -1,0 +1,86 @@
+/// control/mesh + garment -> control/deformed
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "ros/facts.hpp"
+#include "ros/parameters.hpp"
+#include "tensegric/garment_fitter.hpp"
+#include "tensegric/wardrobe.hpp"
+
+namespace tensegric_fit::node {
+
+class TensegricHandler {
+ public:
+  /// `bind_body`: fit::bind_body. \throw Refusal bad_option, bad_garment
+  TensegricHandler(Parameters parameters, tensegric::BindBody bind_body);
+
+  // What comes in, for one thread. Each returns the fit that it asks for, if all that it takes is there and
+  // of the newest body.
+
+  struct Input {
+    FittingScene scene;
+    GarmentRequest request;
+    int rest;  ///< as GarmentFitter::fit
+  };
+  std::optional<Input> add(const ControlMesh::ConstPtr& control);
+  std::optional<Input> add(const Landmarks::ConstPtr& landmarks);
+  std::optional<Input> add(const TriangleMesh::ConstPtr& body);
+
+  /// \throw Refusal unknown_line, bad_garment, bad_option: the garment worn before stays
+  std::optional<Input> put_on(const Garment& garment) { return wear(request_in(garment)); }
+  std::optional<Input> put_on(const SetGarment::Request& request) { return wear(wardrobe_.take(request)); }
+  /// Back to the first garment, from the body at rest.
+  std::optional<Input> reset();
+
+  const GarmentRequest& worn() const { return worn_; }
+  /// What becomes of the garment worn: a sentence for people.
+  std::string outlook() const;
+  /// The garment worn, as the parameter `worn` of a node that is started again.
+  std::string kept() const;
+  bool needs_landmarks() const;
+
+  // What goes out, for one thread, which may be another.
+
+  struct Output {
+    FitState::ConstPtr fit;
+    std::shared_ptr<const tensegric::Model> model;
+    tensegric::Solution solution;
+    Facts facts;
+  };
+  /// `go_on` is asked after each step; `publish` gets states on the way, none more often than the parameter
+  /// `progress_period`. Nothing where it was stopped. \throw Refusal as GarmentFitter::fit
+  std::optional<Output> handle(const Input& input, const std::function<bool()>& go_on,
+                               const std::function<void(const FitState&)>& publish);
+
+ private:
+  struct Setup {
+    FitterOptions fitter;
+    double progress_period = 0.05;  ///< seconds
+    std::string garment = "B1";     ///< worn until another is asked for, and after a reset
+    std::string kept;               ///< what it wore when it ended, where it was started again
+    std::string garment_directory;
+  };
+  static Setup setup_from(Parameters& parameters);
+
+  std::optional<Input> wear(GarmentRequest request);
+  std::optional<Input> newly_complete();
+  bool complete() const;
+  Input input() const;
+
+  const Setup setup_;
+  const Wardrobe wardrobe_;
+  const GarmentRequest first_;
+  GarmentRequest worn_;
+  ControlMesh::ConstPtr control_;  // newest of each
+  Landmarks::ConstPtr landmarks_;
+  TriangleMesh::ConstPtr body_;
+  bool fresh_ = false;  // no fit to control_ was asked for so far
+  int rests_ = 0;
+  GarmentFitter fitter_;
+};
+
+}  // namespace tensegric_fit::node
