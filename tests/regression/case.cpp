@@ -97,6 +97,24 @@ void read_scene(const YAML::Node& root, Case& read) {
   if (scene != "measure") read.pipeline["control_mesh"]["template"] = scene;
 }
 
+void read_updates(const YAML::Node& updates, Case& read) {
+  const std::string where = read.file + ": updates";
+  if (updates && !updates.IsSequence()) throw Refusal(kBadCase, where + ": must be a list");
+  for (const YAML::Node& node : updates) {
+    if (node.IsScalar()) {
+      read.updates.push_back({node.Scalar(), {}, {}, {}});
+      continue;
+    }
+    geometry::check_keys(node, {"date", "commit", "reason", "values"}, where, kBadCase);
+    using Pair = std::pair<std::string, std::string>;
+    read.updates.push_back(
+        {geometry::required<std::string>(node, "reason", where, kBadCase),
+         geometry::required<std::string>(node, "date", where, kBadCase),
+         geometry::required<std::string>(node, "commit", where, kBadCase),
+         geometry::optional(node, "values", std::map<std::string, Pair>(), where, kBadCase)});
+  }
+}
+
 }  // namespace
 
 std::string to_text(const Value& value) {
@@ -131,7 +149,7 @@ Case load_case(const std::string& file) {
   }
   add_expectations(root["metrics"], file, read.expectations);
   if (read.expectations.empty()) throw Refusal(kBadCase, file + ": nothing is expected");
-  read.updates = geometry::optional(root, "updates", std::vector<std::string>(), file, kBadCase);
+  read_updates(root["updates"], read);
   return read;
 }
 

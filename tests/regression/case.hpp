@@ -4,8 +4,10 @@
 #include <tensegric_fit/Garment.h>
 #include <yaml-cpp/yaml.h>
 
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -28,6 +30,13 @@ struct Expectation {
   bool golden = false;         ///< recorded from a run, so that --update may replace it; else it is asked for
 };
 
+/// Why golden values were replaced.
+struct Update {
+  std::string reason;
+  std::string date, commit;                                           ///< empty: of before they were kept
+  std::map<std::string, std::pair<std::string, std::string>> values;  ///< old and new, by metric
+};
+
 struct Case {
   std::string name;  ///< the file's, without its ending
   std::string file;
@@ -37,15 +46,16 @@ struct Case {
   YAML::Node pipeline;            ///< parameters by stage, over those of launch/config/pipeline.yaml
   std::vector<Garment> garments;  ///< worn one after the other; none: measured only. No two have one name
   std::vector<Expectation> expectations;
-  std::vector<std::string> updates;  ///< why golden values were replaced, oldest first
+  std::vector<Update> updates;  ///< oldest first
 
   bool measure_only() const { return garments.empty(); }
 };
 
 /// Keys: about, booth or bag, scene (bust, hips, bust+hips; measure), pipeline, garments (names of shipped
 /// garments, or maps of name, ratio, ratios, stiffness), expect (names of files in cases/expect with further
-/// metrics), metrics (name: {expected or golden, tolerance, reason}), updates. \throw Refusal bad_case naming
-/// file and key; bad_garment, unknown_line
+/// metrics), metrics (name: {expected or golden, tolerance, reason}), updates (a reason, or {date, commit,
+/// reason, values: {metric: [old, new]}}). \throw Refusal bad_case naming file and key; bad_garment,
+/// unknown_line
 Case load_case(const std::string& file);
 
 /// All cases of a folder by name, or only those named. \throw Refusal bad_case: no such case

@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "geometry/status.hpp"
+#include "stamp.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
@@ -39,6 +40,15 @@ std::string with_golden(const std::string& text, const Row& row, const std::stri
   return match.prefix().str() + match[1].str() + to_text(*row.found) + match.suffix().str();
 }
 
+// Old and new, one line per metric.
+std::string changed_values(const Verdict& verdict) {
+  std::string lines;
+  for (const Row& row : verdict.rows)
+    if (row.expectation.golden && row.found && old_of(row) != to_text(*row.found))
+      lines += fmt::format("      {}: [{}, {}]\n", row.expectation.metric, old_of(row), to_text(*row.found));
+  return lines;
+}
+
 }  // namespace
 
 std::string update_table(const Case& asked, const Verdict& verdict) {
@@ -64,7 +74,11 @@ void update_goldens(const Case& asked, const Verdict& verdict, const std::string
   if (text == old && !moved) return;
   if (text.back() != '\n') text += '\n';
   if (asked.updates.empty()) text += "updates:\n";
-  text += "  - " + quoted(reason) + "\n";
+  const Stamp stamp = stamp_of(asked.file);
+  text +=
+      fmt::format("  - date: {}\n    commit: {}\n    reason: {}\n", stamp.date, stamp.commit, quoted(reason));
+  const std::string values = changed_values(verdict);
+  if (!values.empty()) text += "    values:\n" + values;
 
   const std::string unfinished = asked.file + ".new";
   std::ofstream out(unfinished);

@@ -6,23 +6,33 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <limits>
+#include <map>
 
-#include "geometry/status.hpp"
+#include "geometry/checked_yaml.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/flat.hpp"
-#include "surface_distance.hpp"
+#include "stamp.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
 
 namespace fs = std::filesystem;
+using Eigen::Vector3d;
 
-constexpr std::size_t kPoints = 2500;
-constexpr double kUnit = 1e-4;  // m
+/// Of a piece of skin, by area. Spread: standard deviation along x, y and z.
+struct Summary {
+  double area = 0;
+  Vector3d centre = Vector3d::Zero(), spread = Vector3d::Zero();
+};
+
+struct Shape {
+  std::string hash;
+  std::map<std::string, Summary> parts;
+};
 
 fs::path file_of(const Case& asked) {
-  return fs::path(asked.file).parent_path() / "shapes" / (asked.name + ".txt");
+  return fs::path(asked.file).parent_path() / "shapes" / (asked.name + ".yaml");
 }
 
 geometry::TriangleMesh skin_of(const Recording& recording) {
@@ -31,14 +41,59 @@ geometry::TriangleMesh skin_of(const Recording& recording) {
   return skin;
 }
 
-std::vector<Eigen::Vector3d> read_shape(const fs::path& path) {
-  std::vector<Eigen::Vector3d> points;
-  std::ifstream file(path);
-  for (int x, y, z; file >> x >> y >> z;) points.push_back(kUnit * Eigen::Vector3d(x, y, z));
-  if (!file.eof() || points.empty())
-    throw geometry::Refusal(
-        kBadCase, fmt::format("{}: line {}: not x y z in whole numbers", path.string(), points.size() + 1));
-  return points;
+std::string part_of(const Eigen::Vector3i& triangle, const BodyModel::ConstPtr& model) {
+  if (!model) return "skin";
+  const auto label = [&](int corner) { return model->mesh_parts.at(triangle[corner]); };
+  const auto most = label(1) == label(2) ? label(1) : label(0);
+  return most < model->parts.size() ? model->parts[most] : "unknown";
+}
+
+Shape shape_of(const Recording& recording) {
+  Shape shape;
+  const geometry::TriangleMesh skin = skin_of(recording);
+  for (const Eigen::Vector3i& t : skin.triangles) {
+    const Vector3d &a = skin.vertices[t[0]], &b = skin.vertices[t[1]], &c = skin.vertices[t[2]];
+    const double area = geometry::area_vector(a, b, c).norm() / 2;
+    Summary& part = shape.parts[part_of(t, recording.model)];
+    part.area += area;
+    part.centre += area * (a + b + c) / 3;
+    // The mean of x^2 over a triangle.
+    part.spread += area * (a.cwiseAbs2() + b.cwiseAbs2() + c.cwiseAbs2() + (a + b + c).cwiseAbs2()) / 12;
+  }
+  for (auto& [name, part] : shape.parts) {
+    if (part.area == 0) continue;
+    part.centre /= part.area;
+    part.spread = (part.spread / part.area - part.centre.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
+  }
+  const auto hashes = hashes_of(recording);
+  shape.hash = hashes.at(recording.deformed.empty() ? "body/mesh" : "body/deformed");
+  return shape;
+}
+
+Vector3d vector_in(const YAML::Node& map, const char* key, const std::string& where) {
+  const auto values = geometry::required<std::vector<double>>(map, key, where, kBadCase);
+  if (values.size() != 3)
+    throw geometry::Refusal(kBadCase, where + ": '" + std::string(key) + "' is not [x, y, z]");
+  return {values[0], values[1], values[2]};
+}
+
+Shape read_shape(const std::string& file) {
+  const YAML::Node root = geometry::load_yaml_map(file, kBadCase);
+  geometry::check_keys(root, {"date", "commit", "hash", "parts"}, file, kBadCase);
+  Shape shape;
+  shape.hash = geometry::required<std::string>(root, "hash", file, kBadCase);
+  if (!root["parts"].IsMap()) throw geometry::Refusal(kBadCase, file + ": 'parts' must be a map");
+  for (const auto& entry : root["parts"]) {
+    const std::string name = entry.first.Scalar(), where = file + ": " + name;
+    geometry::check_keys(entry.second, {"area", "centre", "spread"}, where, kBadCase);
+    shape.parts[name] = {geometry::required<double>(entry.second, "area", where, kBadCase),
+                         vector_in(entry.second, "centre", where), vector_in(entry.second, "spread", where)};
+  }
+  return shape;
+}
+
+std::string row(const Vector3d& v) {
+  return fmt::format("[{:.6f}, {:.6f}, {:.6f}]", v.x(), v.y(), v.z());
 }
 
 }  // namespace
@@ -51,21 +106,37 @@ bool wants_shape(const Case& asked) {
 Metrics shape_metrics(const Case& asked, const Recording& recording) {
   const fs::path file = file_of(asked);
   if (!wants_shape(asked) || !recording.body || !fs::exists(file)) return {};
-  const std::vector<double> off = gauge::distances(read_shape(file), {}, skin_of(recording));
-  return {{"shape/p95", gauge::quantile(off, 0.95)}, {"shape/most", gauge::quantile(off, 1)}};
+  const Shape then = read_shape(file), now = shape_of(recording);
+  const auto same_name = [](const auto& a, const auto& b) { return a.first == b.first; };
+  double centre = 0, spread = 0, area = 0;
+  if (!std::equal(then.parts.begin(), then.parts.end(), now.parts.begin(), now.parts.end(), same_name))
+    centre = spread = area = std::numeric_limits<double>::infinity();
+  else
+    for (const auto& [name, part] : now.parts) {
+      const Summary& before = then.parts.at(name);
+      centre = std::max(centre, (part.centre - before.centre).cwiseAbs().maxCoeff());
+      spread = std::max(spread, (part.spread - before.spread).cwiseAbs().maxCoeff());
+      area = std::max(area, std::abs(part.area / before.area - 1));
+    }
+  return {{"shape/centre", centre},
+          {"shape/spread", spread},
+          {"shape/area", area},
+          {"shape/bits", then.hash == now.hash ? "same" : "other"}};
 }
 
 bool write_shape(const Case& asked, const Recording& recording) {
-  const std::vector<Eigen::Vector3d> points = skin_of(recording).vertices;
-  std::string text;
-  for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(1, points.size() / kPoints)) {
-    const Eigen::Vector3d tenths = points[i] / kUnit;
-    text +=
-        fmt::format("{} {} {}\n", std::lround(tenths.x()), std::lround(tenths.y()), std::lround(tenths.z()));
-  }
   const fs::path file = file_of(asked);
-  std::ifstream in(file);
-  if (text == std::string{std::istreambuf_iterator<char>(in), {}}) return false;
+  const Shape shape = shape_of(recording);
+  if (fs::exists(file) && read_shape(file).hash == shape.hash) return false;
+  const Stamp stamp = stamp_of(asked.file);
+  std::string text = fmt::format(
+      "# Skin by parts of the body, as `regression --update` recorded it: area in m^2, centre and spread\n"
+      "# (standard deviation by area) along x, y and z of the scan in metres; hash: SHA-256 of the payload.\n"
+      "date: {}\ncommit: {}\nhash: {}\nparts:\n",
+      stamp.date, stamp.commit, shape.hash);
+  for (const auto& [name, part] : shape.parts)
+    text += fmt::format("  {}: {{area: {:.6f}, centre: {}, spread: {}}}\n", name, part.area, row(part.centre),
+                        row(part.spread));
   fs::create_directories(file.parent_path());
   std::ofstream out(file);
   out << text;

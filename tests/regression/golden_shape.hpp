@@ -1,4 +1,5 @@
-/// A recorded shape, kept small: some thousand points of the skin, to a tenth of a millimetre.
+/// A recorded shape: area, centre and spread of the skin of each part of the body, which a reviewer can read,
+/// and the hash of its bits.
 #pragma once
 
 #include <string>
@@ -12,13 +13,15 @@ namespace tensegric_fit::regression {
 /// Whether a case expects anything of it (metrics shape/...).
 bool wants_shape(const Case& asked);
 
-/// How far the recorded points of a case are from the skin now, metres: shape/p95, shape/most. The skin is
-/// that of the last garment worn, or the body's. Nothing where nothing was recorded or came out. \throw
-/// Refusal bad_case: its file is broken
+/// How far the skin of now is from the recorded one. It is that of the last garment worn, or the body's.
+///   shape/centre, shape/spread   metres; the largest over all parts and axes
+///   shape/area                   share; the largest over all parts
+///   shape/bits                   same, or other (on a machine that rounds otherwise, too)
+/// Nothing where nothing was recorded or came out; infinite where the parts are others.
+/// \throw Refusal bad_case: its file is broken
 Metrics shape_metrics(const Case& asked, const Recording& recording);
 
-/// Records the skin of now: cases/shapes/NAME.txt, x y z in tenths of a millimetre a line. False where it was
-/// recorded like that before.
+/// Records the skin of now: cases/shapes/NAME.yaml. False where the same bits were recorded before.
 bool write_shape(const Case& asked, const Recording& recording);
 
 }  // namespace tensegric_fit::regression

@@ -110,7 +110,14 @@ std::string section_of(const Outcome& outcome) {
   }
   if (!outcome.asked.updates.empty()) {
     html += "<details><summary>Why golden values were replaced</summary><ol>\n";
-    for (const std::string& reason : outcome.asked.updates) html += "<li>" + markup_safe(reason) + "</li>\n";
+    for (const Update& update : outcome.asked.updates) {
+      html += "<li>" + markup_safe(update.reason);
+      if (!update.date.empty()) html += fmt::format(" ({}, {})", update.date, markup_safe(update.commit));
+      for (const auto& [metric, values] : update.values)
+        html += fmt::format("<br>{}: {} → {}", markup_safe(metric), markup_safe(values.first),
+                            markup_safe(values.second));
+      html += "</li>\n";
+    }
     html += "</ol></details>\n";
   }
   return html;
