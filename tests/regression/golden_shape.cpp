@@ -135,7 +135,7 @@ bool write_shape(const Case& asked, const Recording& recording) {
       "date: {}\ncommit: {}\nhash: {}\nparts:\n",
       stamp.date, stamp.commit, shape.hash);
   for (const auto& [name, part] : shape.parts)
-    text += fmt::format("  {}: {{area: {:.6f}, centre: {}, spread: {}}}\n", name, part.area, row(part.centre),
+    text += fmt::format("  {}: {{area: {:.6g}, centre: {}, spread: {}}}\n", name, part.area, row(part.centre),
                         row(part.spread));
   fs::create_directories(file.parent_path());
   std::ofstream out(file);
