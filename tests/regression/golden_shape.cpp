@@ -41,11 +41,12 @@ geometry::TriangleMesh skin_of(const Recording& recording) {
   return skin;
 }
 
+// Empty where the model does not know it: a few square millimetres, or nothing on another machine.
 std::string part_of(const Eigen::Vector3i& triangle, const BodyModel::ConstPtr& model) {
   if (!model) return "skin";
   const auto label = [&](int corner) { return model->mesh_parts.at(triangle[corner]); };
   const auto most = label(1) == label(2) ? label(1) : label(0);
-  return most < model->parts.size() ? model->parts[most] : "unknown";
+  return most < model->parts.size() ? model->parts[most] : "";
 }
 
 Shape shape_of(const Recording& recording) {
@@ -54,7 +55,9 @@ Shape shape_of(const Recording& recording) {
   for (const Eigen::Vector3i& t : skin.triangles) {
     const Vector3d &a = skin.vertices[t[0]], &b = skin.vertices[t[1]], &c = skin.vertices[t[2]];
     const double area = geometry::area_vector(a, b, c).norm() / 2;
-    Summary& part = shape.parts[part_of(t, recording.model)];
+    const std::string name = part_of(t, recording.model);
+    if (name.empty()) continue;
+    Summary& part = shape.parts[name];
     part.area += area;
     part.centre += area * (a + b + c) / 3;
     // The mean of x^2 over a triangle.
