@@ -116,4 +116,14 @@ std::string per_cent(double ratio) {
   return fmt::format("{:.1f} %", 100 * ratio);
 }
 
+std::string pull(double newtons) {
+  return fmt::format("{:.{}f} N", newtons, newtons < 9.95 ? 1 : 0);
+}
+
+std::string pull_help(double newtons, double kilopascals) {
+  std::string words = "The line pulls with " + pull(newtons);
+  if (kilopascals > 0) words += fmt::format(" and presses with up to {:.1f} kPa", kilopascals);
+  return words + ". Checked against a finer model of tissue, not on people.";
+}
+
 }  // namespace tensegric_fit::inspect::words

@@ -61,5 +61,8 @@ std::string volume(const std::string& region, double before, double after);
 std::string centimetres(double metres);
 std::string change(double metres);
 std::string per_cent(double ratio);
+std::string pull(double newtons);
+/// What that figure means; pressure 0: unknown.
+std::string pull_help(double newtons, double kilopascals);
 
 }  // namespace tensegric_fit::inspect::words

@@ -39,9 +39,16 @@ void ExportDesk::keep(const FittedScan& scan) {
   fitted_ = scan;
 }
 
+void ExportDesk::keep(const LineForces::ConstPtr& forces) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  forces_ = forces;
+}
+
 FittedScan ExportDesk::kept() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return fitted_;
+  FittedScan scan = fitted_;
+  scan.forces = forces_;
+  return scan;
 }
 
 bool ExportDesk::on_export(ExportFit::Request& request, ExportFit::Response& response) {

@@ -19,6 +19,8 @@ class ExportDesk {
 
   /// What is exported from now on.
   void keep(const FittedScan& scan);
+  /// Exported with the fit that they belong to.
+  void keep(const LineForces::ConstPtr& forces);
 
  private:
   FittedScan kept();
@@ -27,6 +29,7 @@ class ExportDesk {
 
   std::mutex mutex_;
   FittedScan fitted_;
+  LineForces::ConstPtr forces_;
   ros::CallbackQueue queue_;
   std::vector<ros::ServiceServer> services_;
   ros::AsyncSpinner spinner_;  // last: it uses all of the above

@@ -9,6 +9,7 @@
 
 #include "geometry/csv.hpp"
 #include "inspect/warning_words.hpp"
+#include "ros/line_force.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -42,9 +43,11 @@ ordered_json law_of(const LineResult& line) {
   return {{"table", std::move(table)}};
 }
 
-ordered_json garment_of(const FitState& fit) {
+ordered_json garment_of(const FittedScan& scan) {
+  const FitState& fit = *scan.fit;
   ordered_json lines = ordered_json::array();
-  for (const LineResult& line : fit.lines)
+  for (std::size_t i = 0; i < fit.lines.size(); ++i) {
+    const LineResult& line = fit.lines[i];
     lines.push_back(
         {{"name", line.name},
          {"rest_mm", millimetres(line.initial)},
@@ -55,6 +58,11 @@ ordered_json garment_of(const FitState& fit) {
          {"tension", line.tension},
          {"law", law_of(line)},
          {"tension_limit", line.tension_limit > 0 ? ordered_json(line.tension_limit) : ordered_json()}});
+    if (const auto force = scan.forces ? force_of(*scan.forces, fit, i) : std::nullopt) {
+      lines.back()["tension_N"] = force->newtons;
+      if (force->kilopascals > 0) lines.back()["pressure_kPa"] = force->kilopascals;
+    }
+  }
   return {{"name", fit.garment}, {"lines", std::move(lines)}};
 }
 
@@ -143,7 +151,7 @@ std::string fit_json(const FitFigures& figures, const std::vector<std::string>& 
   document["scan"] = {{"scan_id", figures.scan.body->scan_id},
                       {"frame", figures.scan.body->header.frame_id},
                       {"body_from_scan", rows_of(figures.measures.body_from_scan)}};
-  document["garment"] = garment_of(fit);
+  document["garment"] = garment_of(figures.scan);
   document["solver"] = {{"name", fit.solver},
                         {"status", fit.status},
                         {"note", fit.note},

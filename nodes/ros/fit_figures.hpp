@@ -5,6 +5,7 @@
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
 #include <tensegric_fit/Landmarks.h>
+#include <tensegric_fit/LineForces.h>
 #include <tensegric_fit/TriangleMesh.h>
 
 #include <optional>
@@ -28,6 +29,7 @@ struct FittedScan {
   FitState::ConstPtr fit;
   DeformedMesh::ConstPtr deformed;
   std::vector<geometry::FitWarning> warnings = {};  ///< and notices
+  LineForces::ConstPtr forces = nullptr;            ///< null: unknown
 };
 
 /// The same as core types, and what follows from it. Metres.

@@ -29,6 +29,7 @@ FitClient::FitClient()
       export_(node_.serviceClient<ExportFit>("export_fit")) {
   listen("garment", &FitClient::on_garment);
   listen("control/deformed", &FitClient::on_fit);
+  listen("control/forces", &FitClient::on_forces);
   listen("body/deformed", &FitClient::on_deformed);
   listen("body/warnings", &FitClient::on_warnings);
   listen("body/mesh", &FitClient::on_body);

@@ -18,6 +18,7 @@
 #include <tensegric_fit/FitWarnings.h>
 #include <tensegric_fit/Garment.h>
 #include <tensegric_fit/Landmarks.h>
+#include <tensegric_fit/LineForces.h>
 #include <tensegric_fit/SetGarment.h>
 #include <tensegric_fit/TriangleMesh.h>
 #endif
@@ -43,6 +44,7 @@ class FitClient : public QObject {
   // What came; set before use.
   std::function<void(const Garment&)> on_garment;
   std::function<void(const FitState&)> on_fit;
+  std::function<void(const LineForces&)> on_forces;
   std::function<void(const DeformedMesh&)> on_deformed;
   std::function<void(const FitWarnings&)> on_warnings;
   std::function<void(const TriangleMesh&)> on_body;

@@ -10,6 +10,7 @@
 #include "inspect/pointing.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/flat.hpp"
+#include "ros/line_force.hpp"
 #include "rviz/qt_text.hpp"
 
 namespace tensegric_fit::inspect {
@@ -50,6 +51,7 @@ void FitPanel::onInitialize() {
   client_ = std::make_unique<FitClient>();
   client_->on_garment = [this](const Garment& garment) { take_garment(garment); };
   client_->on_fit = [this](const FitState& fit) { take_fit(fit); };
+  client_->on_forces = [this](const LineForces& forces) { take_forces(forces); };
   client_->on_deformed = [this](const DeformedMesh& deformed) { take_deformed(deformed); };
   client_->on_warnings = [this](const FitWarnings& warnings) { take_warnings(warnings); };
   client_->on_body = [this](const TriangleMesh& body) { take_body(body); };
@@ -178,15 +180,19 @@ void FitPanel::show_outcome() {
   const FitState& fit = *fitted_;
   fit_->setText(text(words::fit_ended(fit.garment, fit.status, fit.note, fit.milliseconds)));
   std::map<std::string, std::string> regions;
-  for (const LineResult& line : fit.lines) {
+  for (std::size_t i = 0; i < fit.lines.size(); ++i) {
+    const LineResult& line = fit.lines[i];
     if (fit.garment == session_.now().garment) session_.set_length(line.name, line.initial);
     if (fit.scan_id == control_.scan_id) regions[line.name] = region_of(line, control_);
     const words::LineOutcome outcome{line.request, line.ratio, line.tension, line.reachable,
                                      fit.status == FitState::INFEASIBLE};
     const std::string warning = words::line_warning(outcome);
+    const auto force = node::force_of(forces_, fit, i);
     for (LineRow* row : rows_)
       if (row->line() == line.name)
-        row->set_outcome(line.ratio, line.tension, warning.empty() ? lack_of(line) : warning);
+        row->set_outcome(line.ratio, force ? words::pull(force->newtons) : "",
+                         force ? words::pull_help(force->newtons, force->kilopascals) : "",
+                         warning.empty() ? lack_of(line) : warning);
   }
   session_.place(regions);
   QStringList volumes;
@@ -195,6 +201,11 @@ void FitPanel::show_outcome() {
   volumes_->setText(volumes.join(" \u00b7 "));
   build_regions();
   show_lines();
+}
+
+void FitPanel::take_forces(const LineForces& forces) {
+  forces_ = forces;
+  show_outcome();
 }
 
 void FitPanel::take_warnings(const FitWarnings& warnings) {

@@ -65,6 +65,7 @@ class FitPanel : public rviz::Panel {
   // What the pipeline says.
   void take_garment(const Garment& garment);
   void take_fit(const FitState& fit);
+  void take_forces(const LineForces& forces);
   void take_body(const TriangleMesh& body);
   void take_landmarks(const Landmarks& landmarks);
   void take_deformed(const DeformedMesh& deformed);
@@ -88,7 +89,8 @@ class FitPanel : public rviz::Panel {
   std::map<std::string, Garment> known_;  // whole garments by name: laws and courses of their lines
   std::shared_ptr<const Garment> worn_;
   std::shared_ptr<const FitState> fitted_;  // the last that has ended
-  FitWarnings warnings_;                    // of the last that has ended, or the one before
+  LineForces forces_;
+  FitWarnings warnings_;  // of the last that has ended, or the one before
   ControlMesh control_;
   BodyView body_;
   std::string measured_scan_;

@@ -91,9 +91,11 @@ void LineRow::set_ratio_now(double ratio) {
   now_->setText(text(words::per_cent(ratio)));
 }
 
-void LineRow::set_outcome(double ratio, double tension, const std::string& warning) {
+void LineRow::set_outcome(double ratio, const std::string& pull, const std::string& pull_help,
+                          const std::string& warning) {
   set_ratio_now(ratio);
-  pull_->setText(QString::number(tension, 'f', 2));
+  pull_->setText(text(pull));
+  pull_->setToolTip(text(pull_help));
   warning_->setText(text(warning));
   warning_->setVisible(!warning.empty());
 }

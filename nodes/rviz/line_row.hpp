@@ -25,7 +25,9 @@ class LineRow : public QObject {
 
   /// The length at rest in metres; 0: not known, and no centimetres.
   void set_asked(double ratio, double length);
-  void set_outcome(double ratio, double tension, const std::string& warning);
+  /// `pull`: empty where it is not known in newtons.
+  void set_outcome(double ratio, const std::string& pull, const std::string& pull_help,
+                   const std::string& warning);
   void set_ratio_now(double ratio);
   void set_enabled(bool enabled);
   /// Tab comes to it after `before`; the last of its parts.

@@ -38,8 +38,9 @@ std::vector<int> nodes_of(const geometry::ControlMesh& control, const GarmentLin
     nodes = stops_of(control, line);
     if (!line.taut || line.on_body()) nodes = geometry::route_over_edges(control, nodes);
   } else {
-    const auto own = std::find_if(control.lines.begin(), control.lines.end(),
-                                  [&line](const geometry::ControlLine& one) { return one.name == line.name; });
+    const auto own =
+        std::find_if(control.lines.begin(), control.lines.end(),
+                     [&line](const geometry::ControlLine& one) { return one.name == line.name; });
     if (own == control.lines.end())
       throw Refusal(refusal::kUnknownLine, "the control mesh has no line '" + line.name + "'");
     nodes = own->nodes;
@@ -88,8 +89,7 @@ Thread thread_of(const geometry::Fibre& fibre, const Positions& rest) {
 const geometry::LaidLine& laid_line(const std::vector<geometry::LaidLine>& laid, const std::string& name) {
   for (const geometry::LaidLine& line : laid)
     if (line.name == name) return line;
-  throw Refusal(refusal::kBadGarment,
-                "line '" + name + "' is a band on a body, and was not laid on one");
+  throw Refusal(refusal::kBadGarment, "line '" + name + "' is a band on a body, and was not laid on one");
 }
 
 }  // namespace

@@ -230,6 +230,22 @@ FitState to_message(const FitName& name, const tensegric::Iterate& iterate,
   return message;
 }
 
+LineForces forces_message(const FitName& name, const tensegric::Model& model,
+                          const tensegric::Solution& solution) {
+  LineForces message;
+  message.header = name.tag.header;
+  message.scan_id = name.tag.scan_id;
+  message.garment = name.garment;
+  if (model.options.uniform || name.solver != tensegric::SolverName::equilibrium) return message;
+  for (const tensegric::LineResult& line : solution.lines) {
+    message.lines.push_back(line.name);
+    message.tension.push_back(line.tension);
+    message.newtons.push_back(line.newtons);
+    message.kilopascals.push_back(1e-3 * line.pressure);
+  }
+  return message;
+}
+
 MemberForces to_message(const ScanTag& tag, const std::string& garment, const tensegric::Model& model,
                         const tensegric::Solution& solution) {
   tensegric::Positions nodes = solution.outer;

@@ -4,6 +4,7 @@
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
 #include <tensegric_fit/Garment.h>
+#include <tensegric_fit/LineForces.h>
 #include <tensegric_fit/MemberForces.h>
 
 #include <string>
@@ -44,6 +45,10 @@ FitState to_message(const FitName& name, const tensegric::Solution& solution, do
 FitState to_message(const FitName& name, const tensegric::Iterate& iterate,
                     const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner,
                     double milliseconds);
+
+/// Forces of the lines in a fit that has ended, as far as they were calibrated.
+LineForces forces_message(const FitName& name, const tensegric::Model& model,
+                          const tensegric::Solution& solution);
 
 /// Forces of the model's members in a fit that has ended.
 MemberForces to_message(const ScanTag& tag, const std::string& garment, const tensegric::Model& model,

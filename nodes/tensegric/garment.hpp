@@ -14,7 +14,8 @@ namespace tensegric_fit::tensegric {
 inline constexpr double kLowestRatio = 0.05, kHighestRatio = 10;
 inline constexpr double kHighestTension = 1e9;  ///< pseudo force; of stiffnesses too
 inline constexpr double kWidestBand = 0.2;      ///< m, of `smooth` too
-/// What files say of a line by `through` that does not state them, m: a band of cloth, not the papers' string.
+/// What files say of a line by `through` that does not state them, m: a band of cloth, not the papers'
+/// string.
 inline constexpr double kBandWidth = 0.030, kBandSmooth = 0.020;
 
 /// How the one tension T along a line follows from its length L and neutral length l. A line never pushes.
@@ -34,8 +35,8 @@ struct GarmentLine {
       through;        ///< names of control nodes; empty: the control mesh's own line of this name
   bool taut = false;  ///< straight from stop to stop; else over the control mesh's edges, or over the skin
   std::vector<Eigen::Vector3d> points{};  ///< in place of `through`: on the body, scan frame, m
-  /// m: the band is `width` wide (0: a string, by `through` one over the control mesh itself, as in the papers),
-  /// and its fibres average over `smooth` to either side along it.
+  /// m: the band is `width` wide (0: a string, by `through` one over the control mesh itself, as in the
+  /// papers), and its fibres average over `smooth` to either side along it.
   double width = 0, smooth = 0;
   /// Of a line by points: does bone hold its first and its last end, so that it stays in space and moves with
   /// the posture? Else the skin carries it. A line by `through` ends as its last node does.

@@ -148,8 +148,10 @@ std::optional<TensegricHandler::Output> TensegricHandler::handle(
   if (!solution) return std::nullopt;
 
   const auto message = boost::make_shared<FitState>(to_message(name, *solution, milliseconds_since(start)));
+  const std::shared_ptr<const tensegric::Model> model = fitter_.model();
   return Output{message,
-                fitter_.model(),
+                boost::make_shared<LineForces>(forces_message(name, *model, *solution)),
+                model,
                 std::move(*solution),
                 {{"garment", message->garment},
                  {"solver", message->solver},

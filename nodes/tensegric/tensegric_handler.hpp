@@ -1,4 +1,4 @@
-/// control/mesh + garment -> control/deformed
+/// control/mesh + garment -> control/deformed, control/forces
 #pragma once
 
 #include <functional>
@@ -47,6 +47,7 @@ class TensegricHandler {
 
   struct Output {
     FitState::ConstPtr fit;
+    LineForces::ConstPtr forces;
     std::shared_ptr<const tensegric::Model> model;
     tensegric::Solution solution;
     Facts facts;

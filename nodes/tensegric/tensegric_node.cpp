@@ -1,4 +1,4 @@
-/// control/mesh + garment -> control/deformed
+/// control/mesh + garment -> control/deformed, control/forces
 #include <std_srvs/Trigger.h>
 
 #include "fit/bind_body.hpp"
@@ -18,6 +18,7 @@ class TensegricNode {
         private_node_(private_node),
         fit_(node.advertise<FitState>("control/deformed", 4, true)),
         progress_(node.advertise<FitState>("control/deformed", 4)),
+        forces_(node.advertise<LineForces>("control/forces", 4, true)),
         garment_(node.advertise<Garment>("garment", 1, true)),
         display_(private_node),
         members_(private_node, "members"),
@@ -109,6 +110,7 @@ class TensegricNode {
   }
 
   void publish(const std::shared_ptr<const Output>& output) {
+    forces_.publish(output->forces);  // first, as who shows the fit shows them with it
     fit_.publish(output->fit);
     const std_msgs::Header header = output->fit->header;
     display_.markers.offer([=] {
@@ -132,7 +134,7 @@ class TensegricNode {
   TensegricHandler handler_;
   ros::NodeHandle private_node_;
   ros::Publisher fit_, progress_;  // one topic: how a fit ended is kept for late joiners, how it went is not
-  ros::Publisher garment_;
+  ros::Publisher forces_, garment_;
   Display display_;
   KeptPublisher<MemberForces> members_;
   std::vector<ros::Subscriber> subscribers_;

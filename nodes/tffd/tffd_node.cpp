@@ -23,7 +23,10 @@ class TffdNode {
     subscribers_ = {node.subscribe("body/mesh", 2, &TffdNode::on_body, this, kPrompt),
                     node.subscribe("body/landmarks", 2, &TffdNode::on<Landmarks>, this, kPrompt),
                     node.subscribe("control/mesh", 2, &TffdNode::on<ControlMesh>, this, kPrompt),
-                    node.subscribe("control/deformed", 8, &TffdNode::on<FitState>, this, kPrompt)};
+                    node.subscribe("control/deformed", 8, &TffdNode::on<FitState>, this, kPrompt),
+                    node.subscribe<LineForces>(
+                        "control/forces", 4,
+                        [this](const LineForces::ConstPtr& forces) { exports_.keep(forces); }, {}, kPrompt)};
   }
 
  private:

@@ -51,6 +51,7 @@ ChainClient::ChainClient() : scans_(node_.advertise<sensor_msgs::PointCloud2>("s
                   collect(node_, "body/landmarks", landmarks),
                   collect(node_, "control/mesh", controls),
                   collect(node_, "control/deformed", fits),
+                  collect(node_, "control/forces", forces),
                   collect(node_, "body/deformed", deformed),
                   node_.subscribe("/diagnostics", 1000, &ChainClient::on_diagnostics, this)};
 }
@@ -86,6 +87,7 @@ void ChainClient::forget() {
   landmarks.clear();
   controls.clear();
   fits.clear();
+  forces.clear();
   deformed.clear();
 }
 

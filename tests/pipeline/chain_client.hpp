@@ -9,6 +9,7 @@
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
 #include <tensegric_fit/Landmarks.h>
+#include <tensegric_fit/LineForces.h>
 #include <tensegric_fit/TriangleMesh.h>
 
 #include <functional>
@@ -49,6 +50,7 @@ class ChainClient {
   std::vector<Landmarks::ConstPtr> landmarks;
   std::vector<ControlMesh::ConstPtr> controls;
   std::vector<FitState::ConstPtr> fits;
+  std::vector<LineForces::ConstPtr> forces;
   std::vector<DeformedMesh::ConstPtr> deformed;
 
   /// Newest words of each stage on /diagnostics, by stage and key.

@@ -16,6 +16,7 @@
 #include <memory>
 
 #include "chain_client.hpp"
+#include "ros/line_force.hpp"
 
 namespace tensegric_fit::tests {
 namespace {
@@ -101,6 +102,11 @@ TEST_F(PipelineTest, EveryTopicOnceWithOneScanId) {
   EXPECT_EQ(client_->deformed.front()->distortion.size() * 3, client_->bodies.front()->vertices.size());
   EXPECT_EQ(client_->fits.front()->outer.size(), client_->controls.front()->outer.size());
   EXPECT_EQ(client_->fits.front()->status, FitState::CONVERGED);
+  ASSERT_TRUE(wait_for([] { return !client_->forces.empty(); }));
+  const auto chest = node::force_of(*client_->forces.front(), *client_->fits.front(), 0);
+  ASSERT_TRUE(chest);
+  EXPECT_GT(chest->newtons, 1);
+  EXPECT_GT(chest->kilopascals, 0.1);
 }
 
 TEST_F(PipelineTest, StagesSayWhatTheyDid) {

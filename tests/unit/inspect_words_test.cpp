@@ -17,6 +17,14 @@ TEST(Words, SayWhetherTheSkinIsTighterOrLooser) {
   EXPECT_EQ(position({0.121, -0.08, 1.182}), "12.1 cm forward, 8.0 cm to her right, 118.2 cm up");
 }
 
+TEST(Words, SayPullsInNewtons) {
+  EXPECT_EQ(pull(0.04), "0.0 N");
+  EXPECT_EQ(pull(9.94), "9.9 N");
+  EXPECT_EQ(pull(23.4), "23 N");
+  EXPECT_NE(pull_help(23.4, 1.66).find("23 N and presses with up to 1.7 kPa"), std::string::npos);
+  EXPECT_EQ(pull_help(23.4, 0).find("kPa"), std::string::npos);
+}
+
 TEST(Words, WarnOfOverConstrictionOnly) {
   EXPECT_EQ(over_constriction(0.85, "left bust point"), "");
   EXPECT_NE(over_constriction(0.72, "left bust point").find("near the left bust point"), std::string::npos);

@@ -7,6 +7,7 @@
 
 #include "geometry/status.hpp"
 #include "ros/body_messages.hpp"
+#include "ros/line_force.hpp"
 #include "ros/scan_join.hpp"
 #include "ros/scan_tag.hpp"
 #include "tensegric/fit_messages.hpp"
@@ -307,6 +308,42 @@ TEST(FitMessages, ResultsKeepTheirValues) {
   EXPECT_EQ(state.milliseconds, 12.5);
   EXPECT_EQ(to_message(name, tensegric::Iterate(), solution.outer, solution.inner, 1).status,
             FitState::SOLVING);
+}
+
+TEST(Messages, ForcesOfLinesAreThoseOfTheirFitAndOfCalibratedTissue) {
+  tensegric::Solution solution;
+  tensegric::LineResult line;
+  line.name = "chest";
+  line.tension = 1.5;
+  line.newtons = 20;
+  line.pressure = 1700;
+  line.initial = line.final = 0.5;
+  solution.lines = {line};
+  FitName name{some_tag(), "B1", tensegric::SolverName::equilibrium};
+  tensegric::Model model;
+  const LineForces forces = forces_message(name, model, solution);
+  const FitState fit = to_message(name, solution, 1);
+  const auto force = force_of(forces, fit, 0);
+  ASSERT_TRUE(force);
+  EXPECT_EQ(force->newtons, 20);
+  EXPECT_DOUBLE_EQ(force->kilopascals, 1.7);
+
+  solution.lines[0].tension = 1.6;
+  EXPECT_FALSE(force_of(forces, to_message(name, solution, 1), 0)) << "the next fit of that garment";
+  FitState other = fit;
+  other.scan_id = "2.000000000-00000002";
+  EXPECT_FALSE(force_of(forces, other, 0));
+  LineForces broken = forces;
+  broken.newtons.clear();
+  EXPECT_FALSE(force_of(broken, fit, 0));
+  broken.newtons = {std::nan("")};
+  EXPECT_FALSE(force_of(broken, fit, 0));
+
+  name.solver = tensegric::SolverName::relaxation;
+  EXPECT_TRUE(forces_message(name, model, solution).lines.empty());
+  name.solver = tensegric::SolverName::equilibrium;
+  model.options.uniform = true;
+  EXPECT_TRUE(forces_message(name, model, solution).lines.empty());
 }
 
 TEST(ScanTag, SameScanSameIdAndAnyChangeAnother) {

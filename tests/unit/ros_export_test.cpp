@@ -210,6 +210,26 @@ TEST_F(ExportFitTest, TheMakerLearnsHowEachBandResists) {
   EXPECT_EQ(lines[2]["law"], json::parse(R"({"table": [[1, 0], [1.2, 3]]})"));
 }
 
+TEST_F(ExportFitTest, ForcesAreWrittenWhereTheyAreOfThisFit) {
+  const auto forces = boost::make_shared<LineForces>();
+  forces->scan_id = scan_.fit->scan_id;
+  forces->garment = scan_.fit->garment;
+  forces->lines = {"chest"};
+  forces->tension = {scan_.fit->lines[0].tension};
+  forces->newtons = {12.5};
+  forces->kilopascals = {1.25};
+  scan_.forces = forces;
+  export_fit(scan_, root_ / "one");
+  EXPECT_TRUE(is_valid(root_ / "one" / "fit.json"));
+  json line = json::parse(text_of(root_ / "one" / "fit.json"))["garment"]["lines"][0];
+  EXPECT_EQ(line["tension_N"], 12.5);
+  EXPECT_EQ(line["pressure_kPa"], 1.25);
+  forces->tension[0] += 0.1;
+  export_fit(scan_, root_ / "other");
+  line = json::parse(text_of(root_ / "other" / "fit.json"))["garment"]["lines"][0];
+  EXPECT_FALSE(line.contains("tension_N"));
+}
+
 TEST_F(ExportFitTest, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
   export_fit(scan_, root_ / "one");
   const std::string page = text_of(root_ / "one" / "fit.html");
