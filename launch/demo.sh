@@ -2,7 +2,7 @@
 # Installs, builds and runs the demo: virtual-booth scan -> whole chain -> pictures and report; rviz where there is a display.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-"$root/launch/build.sh" -DCATKIN_ENABLE_TESTING=OFF
+TARGET=product "$root/launch/build.sh"
 programs=$root/build/devel/lib/tensegric_fit
 demo=$root/build/demo
 

@@ -3,5 +3,5 @@
 # wherever --out says. Arguments go to benchmarks/speed_page.py.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-"$root/launch/build.sh" -DCATKIN_ENABLE_TESTING=ON
+"$root/launch/build.sh"
 exec /usr/bin/python3 "$root/tests/benchmarks/speed_page.py" "$@"

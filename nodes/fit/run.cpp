@@ -214,6 +214,7 @@ int run(const CommandLine& line) {
     fs::create_directories(line.out);
     remove_results(line.out, kResults);
     chain();
+    if (!line.quiet) fmt::print(stderr, "results: {}\n", fs::absolute(line.out).lexically_normal().string());
     return 0;
   } catch (const geometry::Refusal& refusal) {
     fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());

@@ -3,6 +3,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "geometry/body_measures.hpp"
 
 namespace tensegric_fit::geometry {
 
@@ -18,5 +21,13 @@ struct BraSize {
 /// From girths in metres. Nothing where there is no such size: a band below 60 or above 140, a difference of
 /// 10 cm or less, or of more than the letter Z stands for (64 cm).
 std::optional<BraSize> bra_size(double bust, double underbust);
+
+/// A size is worth naming beside the measured one where girths as uncertain as hers have it this often.
+inline constexpr double kOnABorder = 0.25;
+
+/// The size by the measured girths and, where she lies on a border, the one that she may have as well. The
+/// girths' errors are taken as independent and normal; half-widths are those of their 95 % intervals, 0:
+/// exact. Metres. Empty where the measured girths have no size.
+std::vector<BraSize> bra_sizes(const Measure& bust, const Measure& underbust);
 
 }  // namespace tensegric_fit::geometry

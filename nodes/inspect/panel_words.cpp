@@ -99,6 +99,12 @@ std::string warnings(const std::vector<std::string>& messages) {
   return words;
 }
 
+std::string sizes(const std::vector<geometry::BraSize>& sizes) {
+  std::string words = sizes.empty() ? kNoSize : "";
+  for (const geometry::BraSize& size : sizes) words += (words.empty() ? "" : " or ") + size.label();
+  return words;
+}
+
 std::string volume(const std::string& region, double before, double after) {
   return fmt::format("{}: {:.2f} l, {:+.2f} %", region, 1e3 * before,
                      shown(100 * (after / before - 1), 0.005));

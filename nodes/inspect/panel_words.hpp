@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/bra_size.hpp"
+
 namespace tensegric_fit::inspect::words {
 
 // Labels; an ampersand comes before the key that reaches it with Alt.
@@ -57,6 +59,8 @@ std::string over_constriction(double tightest, const std::string& landmark);
 /// Warnings of a fit in one paragraph: the first two, and how many more places there are.
 std::string warnings(const std::vector<std::string>& messages);
 
+/// "75C", "75C or 75D" on a border, "-" without a size.
+std::string sizes(const std::vector<geometry::BraSize>& sizes);
 std::string volume(const std::string& region, double before, double after);
 std::string centimetres(double metres);
 std::string change(double metres);

@@ -81,8 +81,8 @@ ordered_json measures_of(const std::vector<ChangedMeasure>& measures) {
   return list;
 }
 
-ordered_json size_of(const std::optional<geometry::BraSize>& size) {
-  return size ? ordered_json(size->label()) : ordered_json();
+ordered_json size_of(const FitFigures& figures, std::size_t which) {
+  return which < figures.sizes.size() ? ordered_json(figures.sizes[which].label()) : ordered_json();
 }
 
 ordered_json body_of(const FitFigures& figures) {
@@ -97,8 +97,9 @@ ordered_json body_of(const FitFigures& figures) {
     missing.push_back({{"name", part.name}, {"reason", part.reason}});
   return {{"bra_size",
            {{"standard", "EN 13402-3"},
-            {"before", size_of(figures.size_before)},
-            {"after", size_of(figures.size_after)}}},
+            {"before", size_of(figures, 0)},
+            {"alternative", size_of(figures, 1)},
+            {"after", figures.size_after ? ordered_json(figures.size_after->label()) : ordered_json()}}},
           {"heights", measures_of(figures.heights)},
           {"girths", measures_of(figures.girths)},
           {"landmarks", std::move(landmarks)},

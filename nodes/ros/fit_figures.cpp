@@ -50,15 +50,16 @@ void check_finite(const FitFigures& figures) {
   for (const double distortion : figures.distortion) check({distortion}, "distortion");
 }
 
-std::optional<double> girth(const std::vector<ChangedMeasure>& girths, const std::string& name, bool after) {
-  for (const ChangedMeasure& girth : girths)
-    if (girth.before.name == name) return after ? girth.after : girth.before.metres;
-  return std::nullopt;
-}
-
-std::optional<geometry::BraSize> size_of(const std::vector<ChangedMeasure>& girths, bool after) {
-  const auto bust = girth(girths, "bust", after), underbust = girth(girths, "underbust", after);
-  return bust && underbust ? geometry::bra_size(*bust, *underbust) : std::nullopt;
+void add_sizes(FitFigures& figures) {
+  const auto girth = [&figures](const char* name) {
+    return std::find_if(figures.girths.begin(), figures.girths.end(),
+                        [name](const ChangedMeasure& measure) { return measure.before.name == name; });
+  };
+  const auto bust = girth("bust"), underbust = girth("underbust");
+  if (bust == figures.girths.end() || underbust == figures.girths.end()) return;
+  figures.sizes = geometry::bra_sizes(bust->before, underbust->before);
+  if (bust->after && underbust->after)
+    figures.size_after = geometry::bra_size(*bust->after, *underbust->after);
 }
 
 }  // namespace
@@ -77,8 +78,7 @@ FitFigures figures_of(const FittedScan& scan) {
   const geometry::MovedSkin skin{figures.body, figures.deformed};
   figures.heights = geometry::heights_after(figures.measures, skin);
   figures.girths = geometry::girths_after(figures.measures, skin);
-  figures.size_before = size_of(figures.girths, false);
-  figures.size_after = size_of(figures.girths, true);
+  add_sizes(figures);
   return figures;
 }
 

@@ -42,7 +42,8 @@ struct FitFigures {
   std::vector<Eigen::Vector3d> control_deformed;  ///< one an outer node
   geometry::BodyMeasures measures;
   std::vector<geometry::ChangedMeasure> heights, girths;
-  std::optional<geometry::BraSize> size_before, size_after;
+  std::vector<geometry::BraSize> sizes;         ///< bra_sizes of the body before
+  std::optional<geometry::BraSize> size_after;  ///< of the girths with the garment on
 };
 
 /// \throw Refusal bad_mesh, non_finite: arrays that do not fit each other, or a number that is none

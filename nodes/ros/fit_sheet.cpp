@@ -89,10 +89,10 @@ std::string rows_of(const std::string& kind, const std::vector<ChangedMeasure>& 
 
 std::string summary_of(const FitFigures& figures) {
   std::string text;
-  if (figures.size_before) {
-    text = "<p>Your bra size (EN 13402): <b>" + figures.size_before->label() + "</b>";
-    if (figures.size_after && figures.size_after->label() != figures.size_before->label())
-      text += "; with the garment on it reads " + figures.size_after->label();
+  if (!figures.sizes.empty()) {
+    text = "<p>Your bra size (EN 13402): <b>" + figures.sizes[0].label() + "</b>";
+    if (figures.sizes.size() > 1)
+      text += "; " + figures.sizes[1].label() + " may fit as well: you are between the two";
     text += ".</p>\n";
   }
   const FitState& fit = *figures.scan.fit;

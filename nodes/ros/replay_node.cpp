@@ -37,7 +37,7 @@ bool ends_in(const std::string& topic, const std::string& ending) {
          topic.compare(topic.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-/// Number of messages that were not answered. \throw rosbag::BagException, Refusal
+/// Number of messages that were not answered: with any, the output is OUT.incomplete. \throw rosbag::BagException, Refusal
 int run(const Setup& setup) {
   rosbag::Bag in(setup.bag, rosbag::bagmode::Read);
   rosbag::View view(in);
@@ -62,7 +62,7 @@ int run(const Setup& setup) {
   if (sent == 0)
     throw geometry::Refusal(geometry::refusal::kBrokenFile, "no scan/points in '" + setup.bag + "'");
   out.close();
-  std::filesystem::rename(unfinished, setup.out);
+  std::filesystem::rename(unfinished, lost == 0 ? setup.out : setup.out + ".incomplete");
   return lost;
 }
 

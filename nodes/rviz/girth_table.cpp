@@ -2,7 +2,6 @@
 
 #include <QHeaderView>
 #include <algorithm>
-#include <functional>
 
 #include "geometry/bra_size.hpp"
 #include "inspect/panel_words.hpp"
@@ -18,16 +17,14 @@ const std::vector<std::string> kFirst{"bust", "underbust", "waist", "hip", "neck
 
 using Girths = std::vector<geometry::ChangedMeasure>;
 
-std::string size_of(const Girths& girths,
-                    const std::function<double(const geometry::ChangedMeasure&)>& metres) {
+std::string size_of(const Girths& girths) {
   const auto find = [&](const char* name) {
     return std::find_if(girths.begin(), girths.end(),
                         [&](const auto& girth) { return girth.before.name == name; });
   };
   const auto bust = find("bust"), underbust = find("underbust");
   if (bust == girths.end() || underbust == girths.end()) return words::kNoSize;
-  const auto size = geometry::bra_size(metres(*bust), metres(*underbust));
-  return size ? size->label() : words::kNoSize;
+  return words::sizes(geometry::bra_sizes(bust->before, underbust->before));
 }
 
 }  // namespace
@@ -57,9 +54,8 @@ void GirthTable::show_girths(Girths girths) {
   setRowCount(static_cast<int>(girths.size()) + 1);
   int row = 0;
   set(row, 0, words::kBraSize);
-  set(row, 1, size_of(girths, [](const auto& girth) { return girth.before.metres; }));
-  set(row, 2, size_of(girths, [](const auto& girth) { return girth.after.value_or(0); }));
-  set(row, 3, "");
+  set(row, 1, size_of(girths));  // of the body without a garment: what a garment squeezes has no size
+  for (const int column : {2, 3}) set(row, column, "");
   for (const geometry::ChangedMeasure& girth : girths) {
     ++row;
     set(row, 0, spoken(girth.before.name));

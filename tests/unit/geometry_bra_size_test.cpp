@@ -44,6 +44,33 @@ TEST(BraSizeTest, DecimalGirthsAreNotPushedOverALimitByBinaryOnes) {
   }
 }
 
+std::string labels(double bust_cm, double underbust_cm, double half_width_cm) {
+  std::string text;
+  for (const BraSize& size : bra_sizes({"bust", bust_cm / 100, 1, "", half_width_cm / 100},
+                                       {"underbust", underbust_cm / 100, 1, "", half_width_cm / 100}))
+    text += (text.empty() ? "" : " ") + size.label();
+  return text;
+}
+
+TEST(BraSizeTest, OnABorderASecondSizeIsNamed) {
+  EXPECT_EQ(labels(90, 75, 0), "75B");    // exact
+  EXPECT_EQ(labels(90, 75, 0.5), "75B");  // the middle of B
+  EXPECT_EQ(labels(90.8, 75, 0.5), "75B 75C");
+  EXPECT_EQ(labels(91.2, 75, 0.5), "75C 75B");
+  EXPECT_EQ(labels(92.5, 77.5, 0.5), "80B 75B");  // bands; whoever has the smaller one has no other cup
+  EXPECT_EQ(labels(85, 75, 0.5), "");             // none as measured
+}
+
+TEST(BraSizeTest, ASecondSizeIsAsLikelyAsItsDefinitionSays) {
+  // 0.674 deviations from a border a quarter of all lie beyond it. Bust alone is uncertain.
+  const auto sizes = [](double off) {
+    return bra_sizes({"bust", 0.91 - off, 1, "", 0.01}, {"underbust", 0.75, 1, "", 0}).size();
+  };
+  const double deviation = 0.01 / 1.96;
+  EXPECT_EQ(sizes(0.62 * deviation), 2u);
+  EXPECT_EQ(sizes(0.73 * deviation), 1u);
+}
+
 TEST(BraSizeTest, GirthsThatNoSizeIsMadeForHaveNone) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(label(85, 75), "none");
