@@ -52,34 +52,50 @@ struct Camera {
 
 // A soft lamp above the camera, sky from above and a little light from everywhere. `n` is unit, in camera
 // axes.
-double light_on(Eigen::Vector3d n) {
-  static const Eigen::Vector3d to_lamp = Eigen::Vector3d(0, -0.55, -1).normalized();
+float light_on(Eigen::Vector3f n) {
+  static const Eigen::Vector3f to_lamp = Eigen::Vector3f(0, -0.55F, -1).normalized();
   if (n.z() > 0) n = -n;  // both sides of the skin are lit alike
-  const double lamp = std::max(0.0, n.dot(to_lamp)), sky = (1 - n.y()) / 2;
-  return 0.30 + 0.56 * lamp + 0.26 * sky;
+  const float lamp = std::max(0.0F, n.dot(to_lamp)), sky = (1 - n.y()) / 2;
+  return 0.30F + 0.56F * lamp + 0.26F * sky;
 }
 
+// Single numbers: a picture has 256 steps. \pre kOversampling 2
 cv::Mat3b shade(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours,
                 const std::vector<Eigen::Vector3d>& points, const Raster& raster,
                 const Eigen::Matrix3d& axes) {
-  std::vector<Eigen::Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
-  for (Eigen::Vector3d& n : normals) n = axes * n;
+  std::vector<Eigen::Vector3f> normals;
+  for (const Eigen::Vector3d& n : geometry::vertex_normals(mesh.vertices, mesh.triangles))
+    normals.push_back((axes * n).cast<float>());
+  const auto rgb_of = [&](int vertex) {
+    const Colour& colour = colours.empty() ? kNeutral : colours[vertex];
+    return Eigen::Vector3f(colour[0], colour[1], colour[2]);
+  };
   cv::Mat3b picture(raster.triangle.size(), cv::Vec3b(kBackground[0], kBackground[1], kBackground[2]));
-  // Every pixel is its own, so the number of threads changes nothing.
-  picture.forEach([&](cv::Vec3b& pixel, const int* at) {
-    const int y = at[0], x = at[1], index = raster.triangle(y, x);
-    if (index < 0) return;
+  const auto at = [&](int index, double x, double y) -> cv::Vec3b {
     const Eigen::Vector3i& t = mesh.triangles[index];
-    const Eigen::Vector3d w =
-        picture_barycentric({x + 0.5, y + 0.5}, points[t[0]], points[t[1]], points[t[2]]);
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero(), rgb = Eigen::Vector3d::Zero();
-    for (int k = 0; k < 3; ++k) {
-      const Colour& colour = colours.empty() ? kNeutral : colours[t[k]];
-      normal += w[k] * normals[t[k]];
-      rgb += w[k] * Eigen::Vector3d(colour[0], colour[1], colour[2]);
-    }
-    const double light = light_on(normal.normalized());
-    for (int c = 0; c < 3; ++c) pixel[c] = cv::saturate_cast<std::uint8_t>(light * rgb[2 - c]);
+    const Eigen::Vector3f w =
+        picture_barycentric({x, y}, points[t[0]], points[t[1]], points[t[2]]).cast<float>();
+    const Eigen::Vector3f normal = w[0] * normals[t[0]] + w[1] * normals[t[1]] + w[2] * normals[t[2]];
+    const Eigen::Vector3f rgb =
+        light_on(normal.normalized()) * (w[0] * rgb_of(t[0]) + w[1] * rgb_of(t[1]) + w[2] * rgb_of(t[2]));
+    return {cv::saturate_cast<std::uint8_t>(rgb[2]), cv::saturate_cast<std::uint8_t>(rgb[1]),
+            cv::saturate_cast<std::uint8_t>(rgb[0])};
+  };
+  // Four pixels at a time: where one triangle has them all, they have one colour. Each four are their own, so
+  // the number of threads changes nothing.
+  cv::parallel_for_(cv::Range(0, picture.rows / 2), [&](const cv::Range& rows) {
+    for (int y = 2 * rows.start; y < 2 * rows.end; y += 2)
+      for (int x = 0; x < picture.cols; x += 2) {
+        const int first = raster.triangle(y, x);
+        const bool one = first == raster.triangle(y, x + 1) && first == raster.triangle(y + 1, x) &&
+                         first == raster.triangle(y + 1, x + 1);
+        if (one && first < 0) continue;
+        const cv::Vec3b colour = one ? at(first, x + 1, y + 1) : cv::Vec3b();
+        for (int k = 0; k < 4; ++k) {
+          const int row = y + k / 2, column = x + k % 2, index = raster.triangle(row, column);
+          if (index >= 0) picture(row, column) = one ? colour : at(index, column + 0.5, row + 0.5);
+        }
+      }
   });
   return picture;
 }
