@@ -147,9 +147,11 @@ class Run {
       if (warning.is_warning())
         scene.warned.insert(scene.warned.end(), warning.vertices.begin(), warning.vertices.end());
     for (const auto& line : fit.solution.lines) {
-      scene.lines_before.insert(scene.lines_before.end(), line.edges_at_rest.begin(),
-                                line.edges_at_rest.end());
-      scene.lines_after.insert(scene.lines_after.end(), line.edges.begin(), line.edges.end());
+      for (const auto& [fibres, drawn] :
+           {std::pair(&line.fibres_at_rest, &scene.lines_before), {&line.fibres, &scene.lines_after}}) {
+        drawn->push_back(fibres->front());  // both edges of a band
+        if (fibres->size() > 1) drawn->push_back(fibres->back());
+      }
     }
     save_picture("front.png", beside_measured(inspect::front_picture, inspect::front_picture(scene)));
     save_picture("side.png", beside_measured(inspect::side_picture, inspect::side_picture(scene)));

@@ -69,9 +69,10 @@ Colour distortion_colour(double distortion) {
 
 Colour tension_colour(double tension) {
   if (!std::isfinite(tension)) return kForceless;
-  const double share = std::max(0.0, tension) / (1 + std::max(0.0, tension));
-  const auto byte = [](double value) { return cv::saturate_cast<std::uint8_t>(255 * value); };
-  return {byte(2 * share), byte(3 * (1 - share) - 0.6), 30};
+  constexpr Colour kLoosePull{250, 224, 110}, kHardPull{150, 62, 8};  // neither is a colour of skin
+  constexpr double kHalfWay = 5;  // a chest's band shortened by 7 to 8 % pulls like that
+  const double pull = std::max(0.0, tension);
+  return mixed(kLoosePull, kHardPull, pull / (kHalfWay + pull));
 }
 
 Colour member_colour(double force) {

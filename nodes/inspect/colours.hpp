@@ -41,8 +41,7 @@ Colour distance_colour(double metres, bool compared);
 /// From neutral at 0 to violet at 1: how far something went. \pre finite
 Colour way_colour(double share);
 
-/// Pull of a garment line: green at 0, yellow at 1, red from about 3 on: one fixed scale for all fits. Grey
-/// where it is no number.
+/// Pull of a garment line, from yellow to brown on one fixed scale for all fits. Grey where it is no number.
 Colour tension_colour(double tension);
 
 /// Force in a member over the mean pull at rest: grey without force, or where that is no number, red where it

@@ -1,5 +1,6 @@
 #include "inspect/overlays.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "geometry/status.hpp"
@@ -15,13 +16,6 @@ constexpr double kModelLift = 0.002;  // metres: over the chords of the body's t
 template <typename Held>
 bool is_of(const Held& held, const BodyView& body) {
   return held && held->scan_id == body.scan_id();
-}
-
-std::vector<Eigen::Vector3d> between(const std::vector<Eigen::Vector3d>& rest,
-                                     const std::vector<Eigen::Vector3d>& worn, double blend) {
-  std::vector<Eigen::Vector3d> points(rest);
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] += blend * (worn[i] - rest[i]);
-  return points;
 }
 
 }  // namespace
@@ -54,6 +48,18 @@ void Overlays::take_members(const std::string& scan_id, MemberPulls members) {
     if (end < 0 || end >= static_cast<int>(members.nodes.size()))
       throw geometry::Refusal(geometry::refusal::kBadMesh, "a member ends at a node that is not there");
   members_ = {scan_id, std::move(members)};
+}
+
+void Overlays::take_bands(const std::string& scan_id, std::vector<BandOnSkin> bands) {
+  for (const BandOnSkin& band : bands) {
+    bool fits = band.at_rest.size() > 1 && band.at_rest.size() == band.worn.size();
+    for (const auto* fibres : {&band.at_rest, &band.worn})
+      for (const auto& fibre : *fibres)
+        fits = fits && fibre.size() > 1 && fibre.size() == band.at_rest.front().size();
+    if (!fits)
+      throw geometry::Refusal(geometry::refusal::kBadMesh, "the fibres of a band do not fit each other");
+  }
+  bands_ = {scan_id, std::move(bands)};
 }
 
 const geometry::BodyMeasures* Overlays::measures(const BodyView& body) const {
@@ -122,10 +128,23 @@ std::vector<Stroke> Overlays::lines(const BodyView& body, double blend) const {
   const auto nodes = outer(body, blend);
   if (!nodes || !is_of(fit_, body)) return {};
   std::vector<TenseLine> lines = fit_->value.lines;
+  const auto is_ribbon = [&](const TenseLine& line) {
+    return is_of(bands_, body) &&
+           std::any_of(bands_->value.begin(), bands_->value.end(), [&](const BandOnSkin& band) {
+             return band.line == line.name && band.tension == line.tension;
+           });
+  };
+  lines.erase(std::remove_if(lines.begin(), lines.end(), is_ribbon), lines.end());
   for (TenseLine& line : lines)
     if (line.course.size() == line.course_at_rest.size())
       line.course = between(line.course_at_rest, line.course, blend);
   return line_strokes(control_->value, *nodes, lines);
+}
+
+std::vector<Ribbon> Overlays::ribbons(const BodyView& body, double blend) const {
+  const auto nodes = outer(body, blend);
+  if (!nodes || !is_of(bands_, body)) return {};
+  return band_ribbons(control_->value, *nodes, bands_->value, blend);
 }
 
 std::vector<Stroke> Overlays::members(const BodyView& body, double blend) const {

@@ -39,6 +39,9 @@ class Overlays {
   void take_control(const std::string& scan_id, geometry::ControlMesh control);
   /// While a fit is on its way, `lines` is empty and those before stay.
   void take_fit(const std::string& scan_id, std::vector<Eigen::Vector3d> outer, std::vector<TenseLine> lines);
+  /// Bands of a fit; those of the fit that is shown stand for its lines of the same name. \throw Refusal
+  /// bad_mesh: arrays that do not fit each other
+  void take_bands(const std::string& scan_id, std::vector<BandOnSkin> bands);
   /// \throw Refusal bad_mesh: arrays that do not fit each other
   void take_members(const std::string& scan_id, MemberPulls members);
 
@@ -48,6 +51,7 @@ class Overlays {
   std::vector<Stroke> model(const BodyView& body, double blend);
   std::vector<Stroke> edges(const BodyView& body, double blend) const;
   std::vector<Stroke> lines(const BodyView& body, double blend) const;
+  std::vector<Ribbon> ribbons(const BodyView& body, double blend) const;
   std::vector<Stroke> members(const BodyView& body, double blend) const;
 
   /// Of the body's scan, or null.
@@ -81,6 +85,7 @@ class Overlays {
   std::optional<Of<ModelSkin>> model_;
   std::optional<Of<geometry::ControlMesh>> control_;
   std::optional<Of<Fit>> fit_;
+  std::optional<Of<std::vector<BandOnSkin>>> bands_;
   std::optional<Of<MemberPulls>> members_;
   std::optional<Carried> carried_;
   std::optional<CarriedModel> carried_model_;  // made when it is first drawn: no one may ask for it

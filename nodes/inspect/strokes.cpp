@@ -61,4 +61,25 @@ std::vector<Stroke> line_strokes(const geometry::ControlMesh& control,
   return strokes;
 }
 
+std::vector<Ribbon> band_ribbons(const geometry::ControlMesh& control,
+                                 const std::vector<Eigen::Vector3d>& outer,
+                                 const std::vector<BandOnSkin>& bands, double blend) {
+  const std::vector<Eigen::Vector3d> positions = lifted(outer, control.triangles);
+  std::vector<Ribbon> ribbons;
+  for (const BandOnSkin& band : bands) {
+    Ribbon ribbon{{}, tension_colour(band.tension)};
+    for (std::size_t f = 0; f < band.worn.size(); ++f)
+      ribbon.fibres.push_back(lifted_course(between(band.at_rest[f], band.worn[f], blend), outer, positions));
+    ribbons.push_back(std::move(ribbon));
+  }
+  return ribbons;
+}
+
+std::vector<Eigen::Vector3d> between(const std::vector<Eigen::Vector3d>& rest,
+                                     const std::vector<Eigen::Vector3d>& worn, double blend) {
+  std::vector<Eigen::Vector3d> points(rest);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] += blend * (worn[i] - rest[i]);
+  return points;
+}
+
 }  // namespace tensegric_fit::inspect

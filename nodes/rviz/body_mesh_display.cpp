@@ -12,6 +12,7 @@
 #include <QMouseEvent>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "geometry/status.hpp"
 #include "inspect/words.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/flat.hpp"
@@ -24,6 +25,18 @@ namespace {
 using rviz::StatusProperty;
 
 constexpr int kStill = 3;  // pixels that a click may move
+
+// Fibre after fibre, as many points on each. \throw Refusal as points_in; bad_mesh: they do not divide
+std::vector<std::vector<Eigen::Vector3d>> fibres_in(const std::vector<float>& values, std::uint32_t fibres) {
+  const std::vector<Eigen::Vector3d> points = node::points_in(values);
+  if (fibres == 0 || points.size() % fibres != 0)
+    throw geometry::Refusal(geometry::refusal::kBadMesh, "a band's points do not divide into its fibres");
+  const std::size_t count = points.size() / fibres;
+  std::vector<std::vector<Eigen::Vector3d>> divided;
+  for (auto from = points.begin(); from != points.end(); from += static_cast<long>(count))
+    divided.emplace_back(from, from + static_cast<long>(count));
+  return divided;
+}
 
 }  // namespace
 
@@ -70,6 +83,10 @@ void BodyMeshDisplay::change_topics() {
   subscribe(properties_->landmarks, &BodyMeshDisplay::take_landmarks);
   subscribe(properties_->control, &BodyMeshDisplay::take_control);
   subscribe(properties_->fit, &BodyMeshDisplay::take_fit);
+  if (properties_->look().lines)  // made only while someone listens
+    subscribe(properties_->bands, &BodyMeshDisplay::take_bands);
+  else
+    deleteStatus(properties_->bands->getName());
   if (properties_->look().members)  // made only while someone listens
     subscribe(properties_->members, &BodyMeshDisplay::take_members);
   else
@@ -78,13 +95,16 @@ void BodyMeshDisplay::change_topics() {
     subscribe(properties_->model, &BodyMeshDisplay::take_model);
   else
     deleteStatus(properties_->model->getName());
+  listens_to_bands_ = properties_->look().lines;
   listens_to_members_ = properties_->look().members;
   listens_to_model_ = properties_->look().model;
 }
 
 void BodyMeshDisplay::change_look() {
   const Look look = properties_->look();
-  if (look.members != listens_to_members_ || look.model != listens_to_model_) change_topics();
+  if (look.lines != listens_to_bands_ || look.members != listens_to_members_ ||
+      look.model != listens_to_model_)
+    change_topics();
   changed_ = true;
 }
 
@@ -136,11 +156,20 @@ void BodyMeshDisplay::take_control(const ControlMesh& message) {
 void BodyMeshDisplay::take_fit(const FitState& message) {
   std::vector<TenseLine> lines;
   for (const LineResult& line : message.lines)
-    lines.push_back({{line.nodes.begin(), line.nodes.end()},
+    lines.push_back({line.name,
+                     {line.nodes.begin(), line.nodes.end()},
                      line.tension,
                      node::points_in(line.course_at_rest),
                      node::points_in(line.course)});
   overlays_.take_fit(message.scan_id, node::points_in(message.outer), std::move(lines));
+}
+
+void BodyMeshDisplay::take_bands(const BandShapes& message) {
+  std::vector<BandOnSkin> bands;
+  for (const BandShape& band : message.bands)
+    bands.push_back(
+        {band.line, band.tension, fibres_in(band.at_rest, band.fibres), fibres_in(band.worn, band.fibres)});
+  overlays_.take_bands(message.scan_id, std::move(bands));
 }
 
 void BodyMeshDisplay::take_members(const MemberForces& message) {

@@ -6,6 +6,7 @@
 #ifndef Q_MOC_RUN
 #include <ros/ros.h>
 #include <rviz/display.h>
+#include <tensegric_fit/BandShapes.h>
 #include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/ControlMesh.h>
 #include <tensegric_fit/DeformedMesh.h>
@@ -51,6 +52,7 @@ class BodyMeshDisplay : public rviz::Display {
   void take_model(const BodyModel& message);
   void take_control(const ControlMesh& message);
   void take_fit(const FitState& message);
+  void take_bands(const BandShapes& message);
   void take_members(const MemberForces& message);
 
   void place();
@@ -63,7 +65,8 @@ class BodyMeshDisplay : public rviz::Display {
   std::unique_ptr<BodyScene> scene_;
   std::string frame_;
   std::string place_;  // what the status says of it
-  bool new_body_ = false, changed_ = false, listens_to_members_ = false, listens_to_model_ = false;
+  bool new_body_ = false, changed_ = false, listens_to_bands_ = false, listens_to_members_ = false,
+       listens_to_model_ = false;
   QPoint pressed_at_;
 };
 

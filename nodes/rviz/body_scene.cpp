@@ -47,11 +47,12 @@ BodyScene::BodyScene(Ogre::SceneManager* scene, Ogre::SceneNode* parent)
       after_(scene, node_),
       landmarks_(scene, node_),
       mark_(scene, node_),
-      girths_(scene, node_, kTape),
-      model_(scene, node_, kModel),
-      edges_(scene, node_, kEdge),
-      members_(scene, node_, kMember),
-      lines_(scene, node_, kBand) {}
+      girths_(scene, node_),
+      model_(scene, node_),
+      edges_(scene, node_),
+      members_(scene, node_),
+      lines_(scene, node_),
+      ribbons_(scene, node_) {}
 
 BodyScene::~BodyScene() = default;  // rviz removes the display's nodes
 
@@ -80,11 +81,13 @@ void BodyScene::draw(const BodyView& body, Overlays& overlays, const Look& look)
   if (look.landmarks) dots = overlays.dots(body, blend);
   for (NamedDot& dot : dots) dot.name = spoken(dot.name);
   landmarks_.draw(dots, look.names);
-  girths_.draw(look.girths ? overlays.tapes(body, blend) : std::vector<Stroke>{});
-  model_.draw(look.model ? overlays.model(body, blend) : std::vector<Stroke>{});
-  edges_.draw(look.control_mesh ? overlays.edges(body, blend) : std::vector<Stroke>{});
-  members_.draw(look.members ? overlays.members(body, blend) : std::vector<Stroke>{});
-  lines_.draw(look.lines ? overlays.lines(body, blend) : std::vector<Stroke>{});
+  const std::vector<Stroke> none;
+  girths_.draw(tubes(look.girths ? overlays.tapes(body, blend) : none, kTape / 2));
+  model_.draw(tubes(look.model ? overlays.model(body, blend) : none, kModel / 2));
+  edges_.draw(tubes(look.control_mesh ? overlays.edges(body, blend) : none, kEdge / 2));
+  members_.draw(tubes(look.members ? overlays.members(body, blend) : none, kMember / 2));
+  lines_.draw(tubes(look.lines ? overlays.lines(body, blend) : none, kBand / 2));
+  ribbons_.draw(surface_of(look.lines ? overlays.ribbons(body, blend) : std::vector<Ribbon>{}));
   mark(nullptr, words::kPointedHelp);
 }
 

@@ -58,7 +58,7 @@ class BodyScene {
   Ogre::SceneNode* node_;
   OgreBody before_, after_;
   DotsDrawing landmarks_, mark_;
-  StrokesDrawing girths_, model_, edges_, members_, lines_;
+  SolidLinesDrawing girths_, model_, edges_, members_, lines_, ribbons_;
   Legend legend_;
   Look look_;
   ColourScale scale_ = fixed_scale(ColourBy::plain);

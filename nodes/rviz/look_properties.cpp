@@ -6,6 +6,7 @@
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/ros_topic_property.h>
 #include <rviz/properties/string_property.h>
+#include <tensegric_fit/BandShapes.h>
 #include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/ControlMesh.h>
 #include <tensegric_fit/DeformedMesh.h>
@@ -86,6 +87,7 @@ LookProperties::LookProperties(rviz::Property* parent, QObject* receiver, const 
   control = topic<ControlMesh>("Control mesh", "control/mesh", words::kControlHelp, topics, receiver,
                                topics_changed);
   fit = topic<FitState>("Fit", "control/deformed", words::kLinesHelp, topics, receiver, topics_changed);
+  bands = topic<BandShapes>("Bands", "control/bands", words::kLinesHelp, topics, receiver, topics_changed);
   members = topic<MemberForces>("Members", "tensegric/members", words::kMembersHelp, topics, receiver,
                                 topics_changed);
 

@@ -29,7 +29,7 @@ class LookProperties {
   /// Words for what was pointed at, shown read-only; null: nothing.
   void show_pointed(const Pointed* pointed);
 
-  rviz::RosTopicProperty *body, *worn, *landmarks, *model, *control, *fit, *members;
+  rviz::RosTopicProperty *body, *worn, *landmarks, *model, *control, *fit, *bands, *members;
 
  private:
   rviz::EnumProperty *show_, *colour_by_, *scale_;

@@ -2,11 +2,8 @@
 
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
-#include <rviz/ogre_helpers/billboard_line.h>
 #include <rviz/ogre_helpers/movable_text.h>
 #include <rviz/ogre_helpers/point_cloud.h>
-
-#include <algorithm>
 
 namespace tensegric_fit::inspect {
 namespace {
@@ -16,25 +13,13 @@ constexpr Colour kInk{30, 30, 30};
 
 }  // namespace
 
-StrokesDrawing::StrokesDrawing(Ogre::SceneManager* scene, Ogre::SceneNode* parent, double width)
-    : lines_(std::make_unique<rviz::BillboardLine>(scene, parent)) {
-  lines_->setLineWidth(static_cast<float>(width));
-}
-
-StrokesDrawing::~StrokesDrawing() = default;
-
-void StrokesDrawing::draw(const std::vector<Stroke>& strokes) {
-  std::size_t longest = 2;
-  for (const Stroke& stroke : strokes) longest = std::max(longest, stroke.points.size());
-  lines_->clear();
-  if (strokes.empty()) return;
-  lines_->setMaxPointsPerLine(static_cast<std::uint32_t>(longest));
-  lines_->setNumLines(static_cast<std::uint32_t>(strokes.size()));
-  for (std::size_t i = 0; i < strokes.size(); ++i) {
-    if (i > 0) lines_->newLine();
-    for (const Eigen::Vector3d& point : strokes[i].points)
-      lines_->addPoint(ogre(point), ogre(strokes[i].colour));
-  }
+void SolidLinesDrawing::draw(const PaintedSurface& surface) {
+  const geometry::TriangleMesh& mesh = surface.mesh;
+  body_.show(!mesh.triangles.empty());
+  if (mesh.triangles.empty()) return;
+  body_.set_triangles(mesh.triangles, mesh.vertices.size());
+  body_.set_vertices(mesh.vertices, surface.normals);
+  body_.set_colours(surface.colours);
 }
 
 DotsDrawing::DotsDrawing(Ogre::SceneManager* scene, Ogre::SceneNode* parent)

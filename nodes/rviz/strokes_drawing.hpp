@@ -9,13 +9,14 @@
 #include <vector>
 
 #include "inspect/overlays.hpp"
+#include "inspect/solid_lines.hpp"
+#include "rviz/ogre_body.hpp"
 
 namespace Ogre {
 class SceneManager;
 class SceneNode;
 }  // namespace Ogre
 namespace rviz {
-class BillboardLine;
 class MovableText;
 class PointCloud;
 }  // namespace rviz
@@ -30,15 +31,14 @@ inline Ogre::ColourValue ogre(const Colour& colour) {
   return Ogre::ColourValue(colour[0] / 255.0F, colour[1] / 255.0F, colour[2] / 255.0F);
 }
 
-/// Polylines of one width, that face the viewer.
-class StrokesDrawing {
+/// Lines as tubes and ribbons.
+class SolidLinesDrawing {
  public:
-  StrokesDrawing(Ogre::SceneManager* scene, Ogre::SceneNode* parent, double width);
-  ~StrokesDrawing();
-  void draw(const std::vector<Stroke>& strokes);
+  SolidLinesDrawing(Ogre::SceneManager* scene, Ogre::SceneNode* parent) : body_(scene, parent) {}
+  void draw(const PaintedSurface& surface);
 
  private:
-  std::unique_ptr<rviz::BillboardLine> lines_;
+  OgreBody body_;
 };
 
 /// Dots with their names beside them.

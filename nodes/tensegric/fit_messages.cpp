@@ -132,6 +132,22 @@ GarmentLine line_of(const tensegric::GarmentLine& line) {
   return message;
 }
 
+// `count` places evenly along a polyline, as its segments and the shares of their lengths.
+std::vector<std::pair<std::size_t, double>> evenly(const std::vector<Eigen::Vector3d>& line,
+                                                   std::size_t count) {
+  std::vector<double> at{0};
+  for (std::size_t i = 1; i < line.size(); ++i) at.push_back(at.back() + (line[i] - line[i - 1]).norm());
+  std::vector<std::pair<std::size_t, double>> places;
+  std::size_t segment = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double wanted = at.back() * static_cast<double>(k) / static_cast<double>(count - 1);
+    while (segment + 2 < line.size() && at[segment + 1] < wanted) ++segment;
+    const double length = at[segment + 1] - at[segment];
+    places.emplace_back(segment, length > 0 ? std::min(1.0, (wanted - at[segment]) / length) : 0);
+  }
+  return places;
+}
+
 FitState named(const FitName& name) {
   FitState message;
   message.header = name.tag.header;
@@ -242,6 +258,35 @@ LineForces forces_message(const FitName& name, const tensegric::Model& model,
     message.tension.push_back(line.tension);
     message.newtons.push_back(line.newtons);
     message.kilopascals.push_back(1e-3 * line.pressure);
+  }
+  return message;
+}
+
+BandShapes bands_message(const FitName& name, const tensegric::Solution& solution) {
+  BandShapes message;
+  message.header = name.tag.header;
+  message.scan_id = name.tag.scan_id;
+  message.garment = name.garment;
+  for (const tensegric::LineResult& line : solution.lines) {
+    if (line.fibres.size() < 2) continue;
+    std::size_t count = 0;
+    for (const auto& fibre : line.fibres) count = std::max(count, fibre.size());
+    BandShape band;
+    band.line = line.name;
+    band.tension = line.tension;
+    band.width = line.width;
+    band.fibres = static_cast<std::uint32_t>(line.fibres.size());
+    for (std::size_t f = 0; f < line.fibres.size(); ++f) {
+      const std::vector<std::pair<std::size_t, double>> places = evenly(line.fibres_at_rest[f], count);
+      for (const auto& [fibres, values] :
+           {std::pair(&line.fibres_at_rest, &band.at_rest), {&line.fibres, &band.worn}})
+        for (const auto& [segment, share] : places) {
+          const Eigen::Vector3d &a = (*fibres)[f][segment], &b = (*fibres)[f][segment + 1];
+          for (const double value : Eigen::Vector3d(a + share * (b - a)))
+            values->push_back(static_cast<float>(value));
+        }
+    }
+    message.bands.push_back(std::move(band));
   }
   return message;
 }

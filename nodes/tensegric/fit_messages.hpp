@@ -1,6 +1,7 @@
 /// Messages of the garment and of the fit <-> core types.
 #pragma once
 
+#include <tensegric_fit/BandShapes.h>
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
 #include <tensegric_fit/Garment.h>
@@ -49,6 +50,9 @@ FitState to_message(const FitName& name, const tensegric::Iterate& iterate,
 /// Forces of the lines in a fit that has ended, as far as they were calibrated.
 LineForces forces_message(const FitName& name, const tensegric::Model& model,
                           const tensegric::Solution& solution);
+
+/// Where the bands of a fit that has ended lie. \pre fibres of a line have as many points at rest as worn
+BandShapes bands_message(const FitName& name, const tensegric::Solution& solution);
 
 /// Forces of the model's members in a fit that has ended.
 MemberForces to_message(const ScanTag& tag, const std::string& garment, const tensegric::Model& model,

@@ -84,10 +84,10 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
     line.nodes = band.nodes;
     line.course_at_rest = rest_of(thread);
     line.course = points_of(thread, x);
-    for (const Thread* edge : {&band.threads.front(), &band.threads.back()}) {
-      if (!line.edges.empty() && band.threads.size() == 1) continue;
-      line.edges_at_rest.push_back(rest_of(*edge));
-      line.edges.push_back(points_of(*edge, x));
+    line.width = band.width;
+    for (const Thread& fibre : band.threads) {
+      line.fibres_at_rest.push_back(rest_of(fibre));
+      line.fibres.push_back(points_of(fibre, x));
     }
     line.straight = band.straight;
     solution.lines.push_back(line);

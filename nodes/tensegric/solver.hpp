@@ -36,8 +36,10 @@ struct LineResult {
   TensionLaw law;
   double tension_limit = std::numeric_limits<double>::infinity();  ///< pseudo force
   std::vector<int> nodes;  ///< outer nodes that a line by `through` runs over, in order
-  std::vector<Eigen::Vector3d> course_at_rest, course;             ///< its middle thread, scan frame
-  std::vector<std::vector<Eigen::Vector3d>> edges_at_rest, edges;  ///< of a band both, of a string its course
+  std::vector<Eigen::Vector3d> course_at_rest, course;  ///< its middle thread, scan frame
+  /// Of a band from edge to edge, of a string its course.
+  std::vector<std::vector<Eigen::Vector3d>> fibres_at_rest, fibres;
+  double width;          ///< m; 0 of a string
   double straight = 0;   ///< m, between the fixed nodes that it runs over: it cannot become shorter
   double reachable = 0;  ///< m, the shortest that it came to: `final` where the request is infeasible
 };

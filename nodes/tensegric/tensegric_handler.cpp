@@ -151,6 +151,7 @@ std::optional<TensegricHandler::Output> TensegricHandler::handle(
   const std::shared_ptr<const tensegric::Model> model = fitter_.model();
   return Output{message,
                 boost::make_shared<LineForces>(forces_message(name, *model, *solution)),
+                name,
                 model,
                 std::move(*solution),
                 {{"garment", message->garment},

@@ -48,6 +48,7 @@ class TensegricHandler {
   struct Output {
     FitState::ConstPtr fit;
     LineForces::ConstPtr forces;
+    FitName name;
     std::shared_ptr<const tensegric::Model> model;
     tensegric::Solution solution;
     Facts facts;

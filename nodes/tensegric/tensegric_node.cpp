@@ -22,6 +22,7 @@ class TensegricNode {
         garment_(node.advertise<Garment>("garment", 1, true)),
         display_(private_node),
         members_(private_node, "members"),
+        bands_(node, "control/bands"),
         stage_("tensegric", node) {
     announce();
     subscribers_ = {node.subscribe("control/mesh", 2, &TensegricNode::on<ControlMesh>, this, kPrompt),
@@ -116,7 +117,7 @@ class TensegricNode {
     display_.markers.offer([=] {
       std::vector<inspect::TenseLine> lines;
       for (const tensegric::LineResult& line : output->solution.lines)
-        lines.push_back({line.nodes, line.tension, line.course_at_rest, line.course});
+        lines.push_back({line.name, line.nodes, line.tension, line.course_at_rest, line.course});
       return inspect::Markers(header)
           .control_mesh(output->model->control, output->solution.outer)
           .lines(output->model->control, output->solution.outer, lines)
@@ -126,6 +127,8 @@ class TensegricNode {
       return boost::make_shared<MemberForces>(
           to_message(tag_in(*output->fit), output->fit->garment, *output->model, output->solution));
     });
+    bands_.offer(
+        [=] { return boost::make_shared<BandShapes>(bands_message(output->name, output->solution)); });
     const geometry::TriangleMesh skin{output->solution.outer, output->model->control.triangles};
     display_.polygon_mesh.offer([=] { return inspect::polygon_mesh(header, skin, {}); });
     display_.image.offer([=] { return front_image(header, skin, {}, {}, facing(skin)); });
@@ -137,6 +140,7 @@ class TensegricNode {
   ros::Publisher forces_, garment_;
   Display display_;
   KeptPublisher<MemberForces> members_;
+  KeptPublisher<BandShapes> bands_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   Stage stage_;  // last: its worker uses all of the above

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/status.hpp"
+#include "inspect/solid_lines.hpp"
 
 namespace tensegric_fit::inspect {
 namespace {
@@ -28,7 +30,7 @@ class OverlaysTest : public testing::Test {
     control.triangles = kTriangles;
     overlays_.take_control("one", control);
     overlays_.take_model("one", model());
-    overlays_.take_fit("one", raised, {{{0, 1, 2}, 0.5}});
+    overlays_.take_fit("one", raised, {{"chest", {0, 1, 2}, 0.5}});
     overlays_.take_members("one", {std::vector<Eigen::Vector3d>(8, {0, 0, 2}), {0, 1, 2, 7}, {1, -1}});
   }
 
@@ -115,7 +117,7 @@ TEST_F(OverlaysTest, ABandOnTheSkinGoesFromRestToWorn) {
   const std::vector<Eigen::Vector3d> rest{{0.2, 0.1, 0}, {0.5, 0.1, 0}, {0.8, 0.1, 0}};
   std::vector<Eigen::Vector3d> worn = rest;
   for (Eigen::Vector3d& point : worn) point.z() += 1;
-  overlays_.take_fit("one", kCorners, {{{}, 1, rest, worn}});
+  overlays_.take_fit("one", kCorners, {{"chest", {}, 1, rest, worn}});
   for (const double blend : {0.0, 0.5, 1.0}) {
     const std::vector<Stroke> lines = overlays_.lines(body_, blend);
     ASSERT_EQ(lines.size(), 1u);
@@ -124,14 +126,68 @@ TEST_F(OverlaysTest, ABandOnTheSkinGoesFromRestToWorn) {
   }
 }
 
+TEST_F(OverlaysTest, ARibbonStandsForTheLineOfItsFit) {
+  const std::vector<std::vector<Eigen::Vector3d>> rest{{{0.2, 0.1, 0}, {0.8, 0.1, 0}},
+                                                       {{0.2, 0.2, 0}, {0.8, 0.2, 0}}};
+  std::vector<std::vector<Eigen::Vector3d>> worn = rest;
+  for (auto& fibre : worn)
+    for (Eigen::Vector3d& point : fibre) point.z() += 1;
+  overlays_.take_bands("one", {{"chest", 0.5, rest, worn}});
+  EXPECT_TRUE(overlays_.lines(body_, 1).empty());
+  const std::vector<Ribbon> ribbons = overlays_.ribbons(body_, 0.5);
+  ASSERT_EQ(ribbons.size(), 1u);
+  EXPECT_NEAR(ribbons[0].fibres.at(1).at(1).z(), 0.5, 0.01);
+  const PaintedSurface surface = surface_of(ribbons);
+  EXPECT_EQ(surface.mesh.triangles.size(), 4u) << "both sides";
+  EXPECT_EQ(surface.normals.size(), surface.mesh.vertices.size());
+  EXPECT_EQ(surface.colours.size(), surface.mesh.vertices.size());
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3i& t : surface.mesh.triangles)
+    sum += geometry::area_vector(surface.mesh.vertices[t[0]], surface.mesh.vertices[t[1]],
+                                 surface.mesh.vertices[t[2]]);
+  EXPECT_LE(sum.norm(), 1e-12);
+
+  overlays_.take_bands("one", {{"chest", 0.7, rest, worn}});
+  EXPECT_EQ(overlays_.lines(body_, 1).size(), 1u) << "the band is of another fit";
+  EXPECT_THROW(overlays_.take_bands("one", {{"chest", 0.5, rest, {rest[0]}}}), geometry::Refusal);
+  overlays_.take_bands("two", {{"chest", 0.5, rest, worn}});
+  EXPECT_TRUE(overlays_.ribbons(body_, 1).empty());
+}
+
+TEST(SolidLines, ATubeIsClosedRoundItsLineAndFacesOutwards) {
+  const std::vector<Eigen::Vector3d> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}};
+  const PaintedSurface tube = tubes({{square, kSureColour}}, 0.01);
+  ASSERT_FALSE(tube.mesh.triangles.empty());
+  double volume = 0;
+  for (const Eigen::Vector3i& t : tube.mesh.triangles) {
+    const Eigen::Vector3d &a = tube.mesh.vertices[t[0]], &b = tube.mesh.vertices[t[1]],
+                          &c = tube.mesh.vertices[t[2]];
+    EXPECT_GT(
+        geometry::area_vector(a, b, c).dot(tube.normals[t[0]] + tube.normals[t[1]] + tube.normals[t[2]]), 0);
+    volume += a.dot(b.cross(c)) / 6;
+  }
+  // A hexagon of that radius along a length of 4; corners are cut a little.
+  EXPECT_NEAR(volume, 4 * 1.5 * std::sqrt(3) * 1e-4, 0.35 * 4 * 1.5 * std::sqrt(3) * 1e-4);
+  for (const Eigen::Vector3d& vertex : tube.mesh.vertices) {
+    double off = 1;
+    for (std::size_t i = 1; i < square.size(); ++i) {
+      const Eigen::Vector3d along = square[i] - square[i - 1];
+      const double t = std::clamp((vertex - square[i - 1]).dot(along), 0.0, 1.0);
+      off = std::min(off, (vertex - square[i - 1] - t * along).norm());
+    }
+    EXPECT_LE(off, 0.01 + 1e-12);
+  }
+  EXPECT_TRUE(tubes({{{{0, 0, 0}, {0, 0, 0}}, kSureColour}}, 0.01).mesh.triangles.empty());
+}
+
 TEST_F(OverlaysTest, WhatDoesNotFitIsRefusedOrLeftOut) {
   EXPECT_THROW(overlays_.take_members("one", {kCorners, {0, 9}, {1}}), geometry::Refusal);
   EXPECT_THROW(overlays_.take_members("one", {kCorners, {0, -1}, {1}}), geometry::Refusal);
   EXPECT_THROW(overlays_.take_members("one", {kCorners, {0, 1, 2}, {1}}), geometry::Refusal);
   EXPECT_EQ(overlays_.members(body_, 1).size(), 2u);  // what was there before
-  overlays_.take_fit("one", {{0, 0, 0}}, {{{0, 1}, 1}});
+  overlays_.take_fit("one", {{0, 0, 0}}, {{"chest", {0, 1}, 1}});
   EXPECT_NEAR(overlays_.lines(body_, 1)[0].points[0].z(), 0, 0.01);  // another number of nodes: at rest
-  overlays_.take_fit("one", kCorners, {{{0, 99}, 1}});
+  overlays_.take_fit("one", kCorners, {{"chest", {0, 99}, 1}});
   EXPECT_THROW(overlays_.lines(body_, 1), geometry::Refusal);
 }
 

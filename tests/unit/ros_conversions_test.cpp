@@ -346,6 +346,25 @@ TEST(Messages, ForcesOfLinesAreThoseOfTheirFitAndOfCalibratedTissue) {
   EXPECT_TRUE(forces_message(name, model, solution).lines.empty());
 }
 
+TEST(Messages, FibresOfABandHaveAsManyPoints) {
+  tensegric::Solution solution;
+  tensegric::LineResult line;
+  line.name = "chest";
+  line.tension = 1.5;
+  line.width = 0.03;
+  line.fibres_at_rest = {{{0, 0, 1}, {0, 1, 1}}, {{0, 0, 2}, {0, 0.5, 2}, {0, 1, 2}}};
+  line.fibres = {{{0, 0, 1}, {0, 0.5, 1}}, {{0, 0, 2}, {1, 0.5, 2}, {0, 1, 2}}};
+  tensegric::LineResult string = line;
+  string.fibres.resize(1);
+  solution.lines = {line, string};
+  const BandShapes shapes = bands_message({some_tag(), "B1", tensegric::SolverName::equilibrium}, solution);
+  ASSERT_EQ(shapes.bands.size(), 1u) << "a string has no width";
+  const BandShape& band = shapes.bands[0];
+  EXPECT_EQ(band.fibres, 2u);
+  EXPECT_EQ(band.at_rest, (std::vector<float>{0, 0, 1, 0, 0.5, 1, 0, 1, 1, 0, 0, 2, 0, 0.5, 2, 0, 1, 2}));
+  EXPECT_EQ(band.worn, (std::vector<float>{0, 0, 1, 0, 0.25, 1, 0, 0.5, 1, 0, 0, 2, 1, 0.5, 2, 0, 1, 2}));
+}
+
 TEST(ScanTag, SameScanSameIdAndAnyChangeAnother) {
   sensor_msgs::PointCloud2 scan;
   scan.header.stamp = ros::Time(5, 6);
