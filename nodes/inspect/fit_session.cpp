@@ -24,6 +24,15 @@ AskedLine* find(std::vector<AskedLine>& lines, const std::string& name) {
   return line == lines.end() ? nullptr : &*line;
 }
 
+// Empty where the line is of neither side.
+std::string on_the_other_side(std::string line) {
+  if (line.size() < 2 || line[line.size() - 2] != '_') return "";
+  char& side = line.back();
+  if (side != 'L' && side != 'R') return "";
+  side = side == 'L' ? 'R' : 'L';
+  return line;
+}
+
 // Into the garment that is known already; lines that are not worn are those of regions that are off. False
 // where that is not so.
 bool take_ratios(const std::string& garment, const std::vector<AskedLine>& worn, Wish& wish) {
@@ -59,6 +68,7 @@ std::vector<std::string> Wish::regions() const {
 }
 
 void FitSession::step() {
+  after_.clear();
   before_.push_back(now_);
   if (before_.size() > kSteps) before_.erase(before_.begin());
   dragged_.clear();
@@ -86,7 +96,16 @@ bool FitSession::ask(const std::string& line, double ratio) {
   if (dragged_ != line) step();
   dragged_ = line;
   asked->ratio = ratio;
+  if (AskedLine* other = linked_ ? find(now_.lines, on_the_other_side(line)) : nullptr) other->ratio = ratio;
   return true;
+}
+
+bool FitSession::has_pairs() const {
+  return std::any_of(now_.lines.begin(), now_.lines.end(), [this](const AskedLine& line) {
+    const std::string other = on_the_other_side(line.name);
+    return std::any_of(now_.lines.begin(), now_.lines.end(),
+                       [&other](const AskedLine& each) { return each.name == other; });
+  });
 }
 
 bool FitSession::switch_region(const std::string& region, bool on) {
@@ -103,13 +122,22 @@ bool FitSession::switch_region(const std::string& region, bool on) {
   return true;
 }
 
-bool FitSession::undo() {
-  if (before_.empty()) return false;
-  if (before_.back().garment != now_.garment) forget_lengths();
-  now_ = std::move(before_.back());
-  before_.pop_back();
+bool FitSession::go_to_last(std::vector<Wish>& from, std::vector<Wish>& keep) {
+  if (from.empty()) return false;
+  if (from.back().garment != now_.garment) forget_lengths();
+  keep.push_back(std::move(now_));
+  now_ = std::move(from.back());
+  from.pop_back();
   dragged_.clear();
   return true;
+}
+
+bool FitSession::undo() {
+  return go_to_last(before_, after_);
+}
+
+bool FitSession::redo() {
+  return go_to_last(after_, before_);
 }
 
 void FitSession::place(const std::map<std::string, std::string>& region_of_line) {

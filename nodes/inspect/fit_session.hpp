@@ -40,8 +40,11 @@ class FitSession {
   /// True where something changed.
   bool adopt(const std::string& garment, const std::vector<AskedLine>& worn);
 
-  /// Brought within the limits. A line that is not there, or no number: no change. True where it changed.
+  /// Brought within the limits; where sides are linked, the same line of the other side (..._L, ..._R) goes
+  /// along. A line that is not there, or no number: no change. True where it changed.
   bool ask(const std::string& line, double ratio);
+  void link_sides(bool linked) { linked_ = linked; }
+  bool has_pairs() const;
   void settle() { dragged_.clear(); }
 
   /// False, and no change: the last region that is on, or one that is not there.
@@ -49,6 +52,9 @@ class FitSession {
 
   bool can_undo() const { return !before_.empty(); }
   bool undo();
+  /// What was undone, until something else is changed.
+  bool can_redo() const { return !after_.empty(); }
+  bool redo();
 
   /// Which region each line is in, once that is known. No step.
   void place(const std::map<std::string, std::string>& region_of_line);
@@ -61,9 +67,11 @@ class FitSession {
 
  private:
   void step();
+  bool go_to_last(std::vector<Wish>& from, std::vector<Wish>& keep);
 
   Wish now_;
-  std::vector<Wish> before_;
+  std::vector<Wish> before_, after_;  // the nearest last
+  bool linked_ = true;
   std::string dragged_;
   std::map<std::string, double> lengths_;
 };

@@ -9,7 +9,8 @@
 namespace tensegric_fit::inspect::words {
 
 // Labels; an ampersand comes before the key that reaches it with Alt.
-inline constexpr char kGarment[] = "&Garment", kPutOn[] = "&Put on", kUndo[] = "&Undo", kReset[] = "&Reset",
+inline constexpr char kGarment[] = "&Garment", kPutOn[] = "&Put on", kUndo[] = "&Undo", kRedo[] = "R&edo",
+                      kLinked[] = "&Both sides alike", kReset[] = "&Reset",
                       kCompare[] = "&Compare with the scan", kExport[] = "E&xport", kFolder[] = "&Folder",
                       kBlendLabel[] = "&Scan to garment", kRegions[] = "Regions";
 inline constexpr char kLine[] = "Line", kNeutral[] = "neutral length", kNow[] = "now", kPull[] = "pull";

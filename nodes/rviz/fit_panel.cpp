@@ -43,6 +43,12 @@ std::string region_of(const LineResult& line, const ControlMesh& control) {
   return "";
 }
 
+// Labels have a fixed height: what does not fit is there on hover.
+void show_words(QLabel* label, const std::string& words) {
+  label->setText(text(words));
+  label->setToolTip(text(words));
+}
+
 }  // namespace
 
 FitPanel::~FitPanel() = default;
@@ -81,6 +87,7 @@ void FitPanel::choose(const QString& garment) {
   if (request.name.empty()) return;
   typing_ = false;
   session_.settle();
+  show_garment_fully();
   changed_here_ = false;
   worn_asked(request);
 }
@@ -92,7 +99,15 @@ void FitPanel::ask(const QString& line, double ratio) {
 }
 
 void FitPanel::undo() {
-  if (!session_.undo()) return;
+  take_step(session_.undo());
+}
+
+void FitPanel::redo() {
+  take_step(session_.redo());
+}
+
+void FitPanel::take_step(bool taken) {
+  if (!taken) return;
   build_lines();
   build_regions();
   send();
@@ -159,12 +174,13 @@ void FitPanel::follow_pipeline() {
   const bool same_lines = garment == session_.now().garment && lines.size() == rows_.size() &&
                           lines.size() == session_.now().lines.size();
   if (!same_lines) build_lines();
+  if (garment != session_.now().garment) show_garment_fully();
   show_outcome();
 }
 
 void FitPanel::take_fit(const FitState& fit) {
   if (fit.status == FitState::SOLVING) {
-    fit_->setText(text(words::solving(static_cast<int>(fit.iteration))));
+    show_words(fit_, words::solving(static_cast<int>(fit.iteration)));
     const std::vector<AskedLine> worn = session_.now().worn();
     for (std::size_t i = 0; i < std::min(worn.size(), fit.line_ratios.size()); ++i)
       for (LineRow* row : rows_)
@@ -178,23 +194,26 @@ void FitPanel::take_fit(const FitState& fit) {
 void FitPanel::show_outcome() {
   if (!fitted_) return;
   const FitState& fit = *fitted_;
-  fit_->setText(text(words::fit_ended(fit.garment, fit.status, fit.note, fit.milliseconds)));
+  show_words(fit_, words::fit_ended(fit.garment, fit.status, fit.note, fit.milliseconds));
   std::map<std::string, std::string> regions;
+  line_warnings_.clear();
   for (std::size_t i = 0; i < fit.lines.size(); ++i) {
     const LineResult& line = fit.lines[i];
     if (fit.garment == session_.now().garment) session_.set_length(line.name, line.initial);
     if (fit.scan_id == control_.scan_id) regions[line.name] = region_of(line, control_);
     const words::LineOutcome outcome{line.request, line.ratio, line.tension, line.reachable,
                                      fit.status == FitState::INFEASIBLE};
-    const std::string warning = words::line_warning(outcome);
+    std::string warning = words::line_warning(outcome);
+    if (!warning.empty()) line_warnings_.push_back("'" + line.name + "': " + warning);
+    if (warning.empty()) warning = lack_of(line);
     const auto force = node::force_of(forces_, fit, i);
     for (LineRow* row : rows_)
       if (row->line() == line.name)
         row->set_outcome(line.ratio, force ? words::pull(force->newtons) : "",
-                         force ? words::pull_help(force->newtons, force->kilopascals) : "",
-                         warning.empty() ? lack_of(line) : warning);
+                         force ? words::pull_help(force->newtons, force->kilopascals) : "", warning);
   }
   session_.place(regions);
+  show_warnings();
   QStringList volumes;
   for (const RegionResult& region : fit.regions)
     volumes << text(words::volume(region.name, region.volume_before, region.volume_after));
@@ -211,16 +230,14 @@ void FitPanel::take_forces(const LineForces& forces) {
 void FitPanel::take_warnings(const FitWarnings& warnings) {
   warnings_ = warnings;
   show_outcome();
-  show_warnings();
 }
 
 void FitPanel::show_warnings() {
-  std::vector<std::string> messages;
+  std::vector<std::string> messages = line_warnings_;
   for (const FitWarning& warning : warnings_.warnings) messages.push_back(warning.message);
   const std::string words = words::warnings(messages);
-  if (!words.empty() && folds_->text() != text(words)) ROS_WARN("fit panel: %s", words.c_str());
-  folds_->setText(text(words));
-  folds_->setVisible(!words.empty());
+  if (!words.empty() && folds_->toolTip() != text(words)) ROS_WARN("fit panel: %s", words.c_str());
+  show_words(folds_, words);
 }
 
 std::string FitPanel::lack_of(const LineResult& line) const {
@@ -284,6 +301,8 @@ void FitPanel::show_lines() {
         row->set_enabled(session_.now().off.count(line.region) == 0);
       }
   undo_->setEnabled(session_.can_undo());
+  redo_->setEnabled(session_.can_redo());
+  linked_->setEnabled(session_.has_pairs());
 }
 
 void FitPanel::show_girths() {
@@ -302,21 +321,21 @@ void FitPanel::show_girths() {
       });
   const std::string words =
       words::over_constriction(*tightest, nearest == landmarks.end() ? "" : spoken(nearest->name));
-  tightness_->setText(text(words));
-  tightness_->setVisible(!words.empty());
+  show_words(tightness_, words);
 }
 
 void FitPanel::answer(const std::string& words, bool done) {
-  if (answer_->text() == text(words)) return;
-  answer_->setText(text(words));
+  if (answer_->toolTip() == text(words)) return;
+  show_words(answer_, words);
   answer_->setStyleSheet(done ? "" : "color: #8a4b00");
   if (!words.empty()) ROS_INFO("fit panel: %s", words.c_str());
 }
 
 void FitPanel::show_state() {
   const PipelineWatch::State state = watch_.state(seconds(Clock::now()));
-  if (state.trouble && pipeline_->text() != text(state.words)) ROS_WARN("fit panel: %s", state.words.c_str());
-  pipeline_->setText(text(state.words));
+  if (state.trouble && pipeline_->toolTip() != text(state.words))
+    ROS_WARN("fit panel: %s", state.words.c_str());
+  show_words(pipeline_, state.words);
   pipeline_->setStyleSheet(state.trouble ? "color: #b2182b" : "");
   const QString garment = text(session_.now().garment);
   if (!(typing_ && garment_->hasFocus()) && !client_->is_asking() && garment_->currentText() != garment)

@@ -55,6 +55,9 @@ class FitPanel : public rviz::Panel {
   void choose(const QString& garment);
   void ask(const QString& line, double ratio);
   void undo();
+  void redo();
+  void take_step(bool taken);
+  void show_garment_fully();  // the blend from scan to garment
   void send();
   void worn_asked(const SetGarment::Request& request);
   void blend(int per_cent);
@@ -90,6 +93,7 @@ class FitPanel : public rviz::Panel {
   std::shared_ptr<const Garment> worn_;
   std::shared_ptr<const FitState> fitted_;  // the last that has ended
   LineForces forces_;
+  std::vector<std::string> line_warnings_;
   FitWarnings warnings_;  // of the last that has ended, or the one before
   ControlMesh control_;
   BodyView body_;
@@ -105,8 +109,8 @@ class FitPanel : public rviz::Panel {
   QProgressBar* progress_;
   QWidget *lines_box_, *regions_box_;
   std::vector<LineRow*> rows_;
-  QPushButton *put_on_, *undo_, *reset_, *export_;
-  QCheckBox* compare_;
+  QPushButton *put_on_, *undo_, *redo_, *reset_, *export_;
+  QCheckBox *linked_, *compare_;
   QSlider* blend_;
   GirthTable* table_;
   QLineEdit* folder_;

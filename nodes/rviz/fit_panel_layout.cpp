@@ -23,12 +23,16 @@ namespace {
 
 constexpr int kWidth = 430;        // pixels
 constexpr float kStepBack = 1.7F;  // of the camera, to see two bodies in place of one
+constexpr char kWarning[] = "color: #b2182b; font-weight: bold";
 constexpr char kDisplay[] = "tensegric_fit/BodyMesh";
 
-QLabel* sentence(QVBoxLayout* layout, const char* style = "") {
+// Words in a place of so many lines, so that nothing below moves under the mouse.
+QLabel* sentence(QVBoxLayout* layout, int lines, const char* style = "") {
   auto* label = new QLabel;
   label->setWordWrap(true);
   label->setStyleSheet(style);
+  label->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  label->setFixedHeight(lines * label->fontMetrics().lineSpacing() + 2);
   layout->addWidget(label);
   return label;
 }
@@ -52,24 +56,22 @@ QStringList shipped_garments() {
 FitPanel::FitPanel(QWidget* parent) : rviz::Panel(parent) {
   auto* inside = new QWidget;
   auto* layout = new QVBoxLayout(inside);
-  pipeline_ = sentence(layout);
+  pipeline_ = sentence(layout, 2);
   progress_ = new QProgressBar;
   progress_->setTextVisible(false);
   progress_->setMaximumHeight(8);
   layout->addWidget(progress_);
   build_garment(layout);
-  fit_ = sentence(layout);
-  folds_ = sentence(layout, "color: #b2182b; font-weight: bold");
-  folds_->hide();
-  tightness_ = sentence(layout, "color: #b2182b; font-weight: bold");
-  tightness_->hide();
+  fit_ = sentence(layout, 2);
+  folds_ = sentence(layout, 3, kWarning);
+  tightness_ = sentence(layout, 1, kWarning);
   layout->addWidget(lines_box_ = new QWidget);
   layout->addWidget(regions_box_ = new QWidget);
   build_buttons(layout);
   layout->addWidget(table_ = new GirthTable, 1);
-  volumes_ = sentence(layout);
+  volumes_ = sentence(layout, 1);
   build_export(layout);
-  answer_ = sentence(layout);
+  answer_ = sentence(layout, 2);
   build_lines();
 
   auto* all = new QVBoxLayout(this);
@@ -79,6 +81,9 @@ FitPanel::FitPanel(QWidget* parent) : rviz::Panel(parent) {
   const auto* back =
       new QShortcut(QKeySequence::Undo, this, nullptr, nullptr, Qt::WidgetWithChildrenShortcut);
   connect(back, &QShortcut::activated, this, &FitPanel::undo);
+  const auto* forth =
+      new QShortcut(QKeySequence::Redo, this, nullptr, nullptr, Qt::WidgetWithChildrenShortcut);
+  connect(forth, &QShortcut::activated, this, &FitPanel::redo);
 }
 
 void FitPanel::build_garment(QVBoxLayout* layout) {
@@ -105,10 +110,16 @@ void FitPanel::build_garment(QVBoxLayout* layout) {
 void FitPanel::build_buttons(QVBoxLayout* layout) {
   auto* row = new QHBoxLayout;
   row->addWidget(undo_ = new QPushButton(words::kUndo));
+  row->addWidget(redo_ = new QPushButton(words::kRedo));
   row->addWidget(reset_ = new QPushButton(words::kReset));
-  row->addWidget(compare_ = new QCheckBox(words::kCompare));
   layout->addLayout(row);
+  auto* choices = new QHBoxLayout;
+  choices->addWidget(linked_ = new QCheckBox(words::kLinked));
+  choices->addWidget(compare_ = new QCheckBox(words::kCompare));
+  layout->addLayout(choices);
   undo_->setEnabled(false);
+  redo_->setEnabled(false);
+  linked_->setChecked(true);
   auto* blending = new QHBoxLayout;
   auto* label = new QLabel(words::kBlendLabel);
   blend_ = new QSlider(Qt::Horizontal);
@@ -119,6 +130,8 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   blending->addWidget(blend_, 1);
   layout->addLayout(blending);
   connect(undo_, &QPushButton::clicked, this, &FitPanel::undo);
+  connect(redo_, &QPushButton::clicked, this, &FitPanel::redo);
+  connect(linked_, &QCheckBox::toggled, this, [this](bool on) { session_.link_sides(on); });
   connect(reset_, &QPushButton::clicked, this, [this] {
     changed_here_ = false;
     asked_at_ = Clock::now();
@@ -147,13 +160,13 @@ void FitPanel::build_lines() {
   auto* grid = new QGridLayout(lines_box_);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setVerticalSpacing(2);
-  grid->setColumnStretch(LineRow::kSlider, 1);
+  grid->setColumnStretch(LineRow::kName, 1);
   if (session_.now().lines.empty()) {
     grid->addWidget(new QLabel(words::kNoLines), 0, 0);
     return;
   }
   grid->addWidget(new QLabel(words::kLine), 0, LineRow::kName);
-  grid->addWidget(new QLabel(words::kNeutral), 0, LineRow::kSlider, 1, 3);
+  grid->addWidget(new QLabel(words::kNeutral), 0, LineRow::kPerCent, 1, 2);
   grid->addWidget(new QLabel(words::kNow), 0, LineRow::kNow, Qt::AlignRight);
   grid->addWidget(new QLabel(words::kPull), 0, LineRow::kPull, Qt::AlignRight);
   for (const AskedLine& line : session_.now().lines) {
@@ -178,8 +191,8 @@ void FitPanel::order_tabs() {
     last = next;
   };
   for (QCheckBox* box : regions_box_->findChildren<QCheckBox*>()) follow(box);
-  for (QWidget* next :
-       std::initializer_list<QWidget*>{undo_, reset_, compare_, blend_, table_, folder_, export_})
+  for (QWidget* next : std::initializer_list<QWidget*>{undo_, redo_, reset_, linked_, compare_, blend_,
+                                                       table_, folder_, export_})
     follow(next);
 }
 
@@ -225,6 +238,10 @@ void FitPanel::blend(int per_cent) {
   compare_->setChecked(false);
   set_display("Blend", per_cent / 100.0);
   set_display("Show", words::kBlend);
+}
+
+void FitPanel::show_garment_fully() {
+  if (blend_->value() != blend_->maximum()) blend_->setValue(blend_->maximum());
 }
 
 void FitPanel::compare(bool on) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kTicks = 200;                  // of the slider, for a ratio of 1: half a per cent each
 constexpr double kWholeCircumference = 300;  // cm
-constexpr int kShortestSlider = 60, kLongestName = 110;  // pixels
+constexpr int kShortestSlider = 200, kLongestName = 130;  // pixels
 
 QDoubleSpinBox* box(const char* unit, double low, double high, double step) {
   auto* made = new QDoubleSpinBox;
@@ -32,34 +32,29 @@ LineRow::LineRow(const std::string& line, int number, QGridLayout* grid)
       slider_(new QSlider(Qt::Horizontal)),
       per_cent_(box("%", 100 * FitSession::kLeast, 100 * FitSession::kMost, 0.5)),
       centimetres_(box("cm", 0, kWholeCircumference, 0.5)),
+      name_(new QLabel),
       now_(new QLabel),
-      pull_(new QLabel),
-      warning_(new QLabel) {
+      pull_(new QLabel) {
   slider_->setObjectName(text("slider_" + line));
   slider_->setRange(static_cast<int>(std::lround(kTicks * FitSession::kLeast)),
                     static_cast<int>(std::lround(kTicks * FitSession::kMost)));
   slider_->setPageStep(kTicks / 20);
   slider_->setMinimumWidth(kShortestSlider);
-  warning_->setWordWrap(true);
-  warning_->setStyleSheet("color: #b2182b");
-  warning_->hide();
   const QString name = text(line);
   for (QWidget* widget : {static_cast<QWidget*>(slider_), static_cast<QWidget*>(per_cent_),
                           static_cast<QWidget*>(centimetres_)})
     widget->setAccessibleName(name);
-  auto* label = new QLabel;
-  label->setText(QString("&%1 %2").arg(number).arg(
-      label->fontMetrics().elidedText(name, Qt::ElideMiddle, kLongestName)));
-  label->setToolTip(name);
-  label->setBuddy(slider_);
+  name_->setText(QString("&%1 %2").arg(number).arg(
+      name_->fontMetrics().elidedText(name, Qt::ElideMiddle, kLongestName)));
+  name_->setToolTip(name);
+  name_->setBuddy(slider_);
   const int row = 2 * number - 1;  // below the headings
-  grid->addWidget(label, row, kName);
-  grid->addWidget(slider_, row, kSlider);
+  grid->addWidget(name_, row, kName);
   grid->addWidget(per_cent_, row, kPerCent);
   grid->addWidget(centimetres_, row, kCentimetres);
   grid->addWidget(now_, row, kNow, Qt::AlignRight);
   grid->addWidget(pull_, row, kPull, Qt::AlignRight);
-  grid->addWidget(warning_, row + 1, kName, 1, kColumns);
+  grid->addWidget(slider_, row + 1, kName, 1, kColumns);
 
   const auto ask = [this](double ratio) { Q_EMIT asked(text(line_), ratio); };
   connect(slider_, &QSlider::valueChanged, this,
@@ -96,8 +91,8 @@ void LineRow::set_outcome(double ratio, const std::string& pull, const std::stri
   set_ratio_now(ratio);
   pull_->setText(text(pull));
   pull_->setToolTip(text(pull_help));
-  warning_->setText(text(warning));
-  warning_->setVisible(!warning.empty());
+  name_->setStyleSheet(warning.empty() ? "" : "color: #b2182b");
+  name_->setToolTip(text(warning.empty() ? line_ : warning));
 }
 
 QWidget* LineRow::follow(QWidget* before) {

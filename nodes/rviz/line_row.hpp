@@ -15,7 +15,7 @@ class LineRow : public QObject {
   Q_OBJECT
  public:
   /// Columns of the grid.
-  enum { kName, kSlider, kPerCent, kCentimetres, kNow, kPull, kColumns };
+  enum { kName, kPerCent, kCentimetres, kNow, kPull, kColumns };
 
   /// `number` from 1: Alt and this digit reach the slider.
   LineRow(const std::string& line, int number, QGridLayout* grid);
@@ -25,7 +25,8 @@ class LineRow : public QObject {
 
   /// The length at rest in metres; 0: not known, and no centimetres.
   void set_asked(double ratio, double length);
-  /// `pull`: empty where it is not known in newtons.
+  /// `pull`: empty where it is not known in newtons. A name with a warning is red, the warning there on
+  /// hover.
   void set_outcome(double ratio, const std::string& pull, const std::string& pull_help,
                    const std::string& warning);
   void set_ratio_now(double ratio);
@@ -42,7 +43,7 @@ class LineRow : public QObject {
   double length_ = 0;
   QSlider* slider_;
   QDoubleSpinBox *per_cent_, *centimetres_;
-  QLabel *now_, *pull_, *warning_;
+  QLabel *name_, *now_, *pull_;
 };
 
 }  // namespace tensegric_fit::inspect

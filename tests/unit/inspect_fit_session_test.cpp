@@ -83,5 +83,37 @@ TEST(FitSession, LengthsAreThoseOfTheGarmentWorn) {
   EXPECT_EQ(session.length("chest"), 0);
 }
 
+TEST(FitSession, SidesGoTogetherUntilTheyAreParted) {
+  FitSession session;
+  session.adopt("B2", {{"strap_L", 0.95, ""}, {"strap_R", 0.95, ""}, {"chest", 0.9, ""}});
+  EXPECT_TRUE(session.has_pairs());
+  EXPECT_TRUE(session.ask("strap_R", 0.9));
+  EXPECT_EQ(session.now().lines[0].ratio, 0.9);
+  EXPECT_EQ(session.now().lines[1].ratio, 0.9);
+  EXPECT_EQ(session.now().lines[2].ratio, 0.9);
+  EXPECT_TRUE(session.undo());
+  EXPECT_EQ(session.now().lines[0].ratio, 0.95) << "one step for both";
+  session.link_sides(false);
+  EXPECT_TRUE(session.ask("strap_L", 0.85));
+  EXPECT_EQ(session.now().lines[1].ratio, 0.95);
+  session.adopt("B1", {{"chest", 0.9, ""}, {"_L", 1, ""}});
+  EXPECT_FALSE(session.has_pairs());
+}
+
+TEST(FitSession, WhatWasUndoneIsDoneAgainUntilSomethingElseIs) {
+  FitSession session;
+  session.adopt("B1", {{"chest", 0.95, ""}});
+  session.ask("chest", 0.9);
+  EXPECT_FALSE(session.can_redo());
+  EXPECT_FALSE(session.redo());
+  ASSERT_TRUE(session.undo());
+  ASSERT_TRUE(session.can_redo());
+  ASSERT_TRUE(session.redo());
+  EXPECT_EQ(session.now().lines[0].ratio, 0.9);
+  ASSERT_TRUE(session.undo());
+  session.ask("chest", 0.8);
+  EXPECT_FALSE(session.can_redo());
+}
+
 }  // namespace
 }  // namespace tensegric_fit::inspect
