@@ -33,12 +33,24 @@ ALLOWED = {
     ("tffd", "ros"): "handler",
     ("correlation", "geometry"): "core",
     ("correlation", "ros"): "handler",
-    ("booth", "geometry"): "clouds",
-    ("booth", "ros"): "nodes and bags of a booth",
-    ("booth", "body_model"): "virtual bodies are shapes of the model",
+    ("files", "geometry"): "refusals by name",
+    ("ros", "files"): "exports are folders, pages and tables",
+    ("scan_files", "geometry"): "clouds",
+    ("assembler", "geometry"): "clouds",
+    ("assembler", "ros"): "handler",
+    ("capture", "geometry"): "refusals by name",
+    ("capture", "ros"): "handler",
+    ("virtual_body", "geometry"): "skin and its measures",
+    ("virtual_body", "body_model"): "virtual bodies are shapes of the model",
+    ("virtual_booth", "geometry"): "clouds of skin",
+    ("virtual_booth", "body_model"): "random bodies are shapes of the model",
+    ("virtual_booth", "virtual_body"): "what its sensors see",
+    ("virtual_booth", "scan_files"): "it writes scans",
+    ("virtual_booth", "ros"): "transforms as messages",
     ("fit", "geometry"): "the chain in one process wires all stages",
     ("fit", "inspect"): "its pictures",
-    ("fit", "booth"): "it reads scan files",
+    ("fit", "files"): "its tables and pages",
+    ("fit", "scan_files"): "it reads scan files",
     ("fit", "body_model"): "wires all stages",
     ("fit", "reconstruction"): "wires all stages",
     ("fit", "landmarks"): "wires all stages",
@@ -53,8 +65,9 @@ ROS_ROOMS = {"ros", "rviz"}
 ROS_NAMES = re.compile(r"(_handler\.[ch]pp|_node\.cpp|_messages?\.[ch]pp)$")
 ROS_FILES = {f"{stem}.{end}" for end in ("cpp", "hpp") for stem in (
     "tensegric/garment_fitter", "tensegric/kept_garment", "tensegric/wardrobe",
-    "booth/assembler_setup", "booth/booth_trigger", "booth/scan_bag", "booth/sensor_bag", "booth/stage_reports",
-)} | {"booth/scan_file.cpp", "booth/scan_folder.cpp", "booth/virtual_booth.cpp"}
+    "assembler/assembler_setup", "capture/booth_trigger", "capture/stage_reports", "scan_files/scan_bag",
+    "virtual_booth/sensor_bag",
+)} | {"scan_files/scan_file.cpp", "scan_files/scan_folder.cpp", "virtual_booth/virtual_booth.cpp"}
 ROS_HEADER = re.compile(r"(actionlib|class_loader|message_filters|pcl_conversions|pluginlib|ros|rosbag|rviz|tensegric_fit"
                         r"|tf2|tf2_ros|topic_tools|xmlrpcpp|\w+_msgs|std_srvs)/|XmlRpc")
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')

@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 
-#include "booth/scan_file.hpp"
 #include "fit/correlation_report.hpp"
 #include "fit/result_folder.hpp"
 #include "geometry/ply.hpp"
 #include "inspect/correlation_pictures.hpp"
+#include "scan_files/scan_file.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -60,7 +60,7 @@ class Run {
       source_.points = mesh.vertices.size();
       return measure_mesh(std::move(mesh), line_.settings, times_);
     }
-    const geometry::PointCloud scan = geometry::points_of(booth::read_scan(line_.worn));
+    const geometry::PointCloud scan = geometry::points_of(scan_files::read_scan(line_.worn));
     source_.points = scan.points.size();
     return measure_scan(scan, line_.settings, times_);
   }

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/html.hpp"
 #include "fit/correlation_report.hpp"
-#include "geometry/html.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
 
 using correlation::Difference;
-using geometry::html_escaped;
+using files::html_escaped;
 
 constexpr double kUnsure = 0.5;  // confidences below come with a reason
 
@@ -130,7 +130,7 @@ std::string correlation_page(const Correlated& correlated, const std::vector<Pag
   for (const PagePicture& picture : pictures)
     drawn += fmt::format(
         "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-        html_escaped(picture.caption), geometry::base64(picture.png));
+        html_escaped(picture.caption), files::base64(picture.png));
   return fmt::format(
       kPage,
       fmt::arg("summary",

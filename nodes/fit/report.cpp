@@ -6,8 +6,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "files/csv.hpp"
 #include "fit/effects.hpp"
-#include "geometry/csv.hpp"
 #include "inspect/warning_words.hpp"
 #include "tffd/under_constriction.hpp"
 
@@ -204,9 +204,8 @@ Json report_of(const Source& source, const geometry::Refusal& refusal) {
 
 std::string history_csv(const Body& body, const Fitting& fitting, const tensegric::Solution& solution) {
   std::string text = "iteration";
-  for (const auto& line : solution.lines) text += "," + geometry::csv_field("ratio_" + line.name);
-  for (const auto& region : solution.regions)
-    text += "," + geometry::csv_field("volume_error_" + region.name);
+  for (const auto& line : solution.lines) text += "," + files::csv_field("ratio_" + line.name);
+  for (const auto& region : solution.regions) text += "," + files::csv_field("volume_error_" + region.name);
   for (int node : tracked_nodes(fitting.control)) text += ",height_" + fitting.control.names[node];
   text += ",residual\n";
   for (const auto& row : solution.history) {

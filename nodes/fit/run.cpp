@@ -11,7 +11,6 @@
 
 #include "body_model/parts.hpp"
 #include "body_model/registration.hpp"
-#include "booth/scan_file.hpp"
 #include "control_mesh/shape_control.hpp"
 #include "fit/report.hpp"
 #include "fit/result_folder.hpp"
@@ -20,6 +19,7 @@
 #include "geometry/shipped_files.hpp"
 #include "inspect/composition.hpp"
 #include "inspect/fit_pictures.hpp"
+#include "scan_files/scan_file.hpp"
 #include "tensegric/load_unit.hpp"
 
 namespace tensegric_fit::fit {
@@ -96,7 +96,8 @@ class Run {
     source_.more.assign(line_.scans.begin() + 1, line_.scans.end());
     say("reading the scan");
     std::vector<geometry::PointCloud> parts;
-    for (const std::string& file : line_.scans) parts.push_back(geometry::points_of(booth::read_scan(file)));
+    for (const std::string& file : line_.scans)
+      parts.push_back(geometry::points_of(scan_files::read_scan(file)));
     const geometry::PointCloud scan = geometry::joined(parts);
     source_.points = scan.points.size();
     say("reconstruction, landmarks");

@@ -99,9 +99,9 @@ std::string warnings(const std::vector<std::string>& messages) {
   return words;
 }
 
-std::string sizes(const std::vector<geometry::BraSize>& sizes) {
+std::string sizes(const std::vector<BraSize>& sizes) {
   std::string words = sizes.empty() ? kNoSize : "";
-  for (const geometry::BraSize& size : sizes) words += (words.empty() ? "" : " or ") + size.label();
+  for (const BraSize& size : sizes) words += (words.empty() ? "" : " or ") + size.label();
   return words;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/bra_size.hpp"
+#include "inspect/bra_size.hpp"
 
 namespace tensegric_fit::inspect::words {
 
@@ -61,7 +61,7 @@ std::string over_constriction(double tightest, const std::string& landmark);
 std::string warnings(const std::vector<std::string>& messages);
 
 /// "75C", "75C or 75D" on a border, "-" without a size.
-std::string sizes(const std::vector<geometry::BraSize>& sizes);
+std::string sizes(const std::vector<BraSize>& sizes);
 std::string volume(const std::string& region, double before, double after);
 std::string centimetres(double metres);
 std::string change(double metres);

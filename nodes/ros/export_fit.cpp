@@ -10,9 +10,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
+#include "files/whole_folder.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/status.hpp"
-#include "geometry/whole_folder.hpp"
 #include "inspect/fit_pictures.hpp"
 #include "ros/fit_document.hpp"
 #include "ros/fit_sheet.hpp"
@@ -22,7 +22,7 @@ namespace tensegric_fit::node {
 namespace {
 
 namespace fs = std::filesystem;
-using geometry::FileContent;
+using files::FileContent;
 using geometry::Refusal;
 
 constexpr std::array<const char*, 10> kFiles = {
@@ -119,8 +119,8 @@ std::vector<fs::path> exports_of(const fs::path& directory, const std::string& s
 }  // namespace
 
 std::vector<std::string> export_fit(const FittedScan& scan, const std::string& directory) {
-  geometry::check_new_folder(directory);
-  return geometry::write_whole_folder(directory, contents_of(figures_of(scan)));
+  files::check_new_folder(directory);
+  return files::write_whole_folder(directory, contents_of(figures_of(scan)));
 }
 
 std::vector<std::string> delete_exports(const std::string& directory, const std::string& scan_id) {
@@ -132,7 +132,7 @@ std::vector<std::string> delete_exports(const std::string& directory, const std:
   try {
     for (const fs::path& folder : exports_of(place, scan_id)) {
       check_nothing_else_in(folder);
-      geometry::delete_whole_folder(folder);
+      files::delete_whole_folder(folder);
       gone.push_back(folder);
     }
   } catch (const fs::filesystem_error& error) {

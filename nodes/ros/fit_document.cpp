@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "geometry/csv.hpp"
+#include "files/csv.hpp"
 #include "inspect/warning_words.hpp"
 #include "ros/line_force.hpp"
 
@@ -182,11 +182,11 @@ std::string measurements_csv(const FitFigures& figures) {
   for (const auto& [kind, measures] : {std::pair{"height", &figures.heights}, {"girth", &figures.girths}}) {
     for (const ChangedMeasure& measure : *measures) {
       const geometry::Measure& before = measure.before;
-      text += fmt::format("{},{},{:.1f},{},{:.2f},{},{}\r\n", kind, geometry::csv_field(before.name),
+      text += fmt::format("{},{},{:.1f},{},{:.2f},{},{}\r\n", kind, files::csv_field(before.name),
                           1e3 * before.metres,
                           measure.after ? fmt::format("{:.1f}", 1e3 * *measure.after) : "", before.confidence,
                           before.half_width > 0 ? fmt::format("{:.1f}", 1e3 * before.half_width) : "",
-                          geometry::csv_field(before.reason));
+                          files::csv_field(before.reason));
     }
   }
   return text;

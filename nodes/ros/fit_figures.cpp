@@ -57,9 +57,9 @@ void add_sizes(FitFigures& figures) {
   };
   const auto bust = girth("bust"), underbust = girth("underbust");
   if (bust == figures.girths.end() || underbust == figures.girths.end()) return;
-  figures.sizes = geometry::bra_sizes(bust->before, underbust->before);
+  figures.sizes = inspect::bra_sizes(bust->before, underbust->before);
   if (bust->after && underbust->after)
-    figures.size_after = geometry::bra_size(*bust->after, *underbust->after);
+    figures.size_after = inspect::bra_size(*bust->after, *underbust->after);
 }
 
 }  // namespace

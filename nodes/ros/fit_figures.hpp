@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "geometry/body_measures.hpp"
-#include "geometry/bra_size.hpp"
 #include "geometry/control_mesh.hpp"
 #include "geometry/fit_warning.hpp"
 #include "geometry/moved_skin.hpp"
 #include "geometry/triangle_mesh.hpp"
+#include "inspect/bra_size.hpp"
 
 namespace tensegric_fit::node {
 
@@ -42,8 +42,8 @@ struct FitFigures {
   std::vector<Eigen::Vector3d> control_deformed;  ///< one an outer node
   geometry::BodyMeasures measures;
   std::vector<geometry::ChangedMeasure> heights, girths;
-  std::vector<geometry::BraSize> sizes;         ///< bra_sizes of the body before
-  std::optional<geometry::BraSize> size_after;  ///< of the girths with the garment on
+  std::vector<inspect::BraSize> sizes;         ///< bra_sizes of the body before
+  std::optional<inspect::BraSize> size_after;  ///< of the girths with the garment on
 };
 
 /// \throw Refusal bad_mesh, non_finite: arrays that do not fit each other, or a number that is none

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry/html.hpp"
+#include "files/html.hpp"
 
 namespace tensegric_fit::node {
 namespace {
 
+using files::html_escaped;
 using geometry::ChangedMeasure;
-using geometry::html_escaped;
 
 constexpr double kUnsure = 0.5;  // confidences below come with a reason
 
@@ -121,7 +121,7 @@ std::string fit_sheet(const FitFigures& figures, const std::vector<SheetPicture>
   for (const SheetPicture& picture : pictures)
     drawn += fmt::format(
         "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-        html_escaped(picture.caption), geometry::base64(picture.png.bytes));
+        html_escaped(picture.caption), files::base64(picture.png.bytes));
   return fmt::format(kPage, fmt::arg("title", "Garment " + html_escaped(figures.scan.fit->garment)),
                      fmt::arg("summary", summary_of(figures)),
                      fmt::arg("rows", rows_of("girth", figures.girths) + rows_of("height", figures.heights)),

@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "geometry/whole_folder.hpp"
+#include "files/whole_folder.hpp"
 #include "ros/fit_figures.hpp"
 
 namespace tensegric_fit::node {
 
 /// A picture with what stands under it.
 struct SheetPicture {
-  const geometry::FileContent& png;
+  const files::FileContent& png;
   std::string caption;
 };
 

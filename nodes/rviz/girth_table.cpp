@@ -3,7 +3,7 @@
 #include <QHeaderView>
 #include <algorithm>
 
-#include "geometry/bra_size.hpp"
+#include "inspect/bra_size.hpp"
 #include "inspect/panel_words.hpp"
 #include "inspect/pointing.hpp"
 #include "rviz/qt_text.hpp"
@@ -24,7 +24,7 @@ std::string size_of(const Girths& girths) {
   };
   const auto bust = find("bust"), underbust = find("underbust");
   if (bust == girths.end() || underbust == girths.end()) return words::kNoSize;
-  return words::sizes(geometry::bra_sizes(bust->before, underbust->before));
+  return words::sizes(inspect::bra_sizes(bust->before, underbust->before));
 }
 
 }  // namespace

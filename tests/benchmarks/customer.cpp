@@ -2,12 +2,12 @@
 
 #include <map>
 
-#include "booth/virtual_scanner.hpp"
 #include "control_mesh/fit_template.hpp"
 #include "fit/chain.hpp"
 #include "geometry/decimate.hpp"
 #include "geometry/ply.hpp"
 #include "tffd/binding.hpp"
+#include "virtual_booth/virtual_scanner.hpp"
 
 namespace tensegric_fit::benchmarks {
 namespace {
@@ -30,10 +30,10 @@ void choose_body(const std::string& ply_file) {
   body_file = ply_file;
 }
 
-const booth::VirtualBody& customer() {
-  static const booth::VirtualBody one = [] {
-    if (body_file.empty()) return booth::make_body({});
-    booth::VirtualBody from_file;
+const virtual_body::VirtualBody& customer() {
+  static const virtual_body::VirtualBody one = [] {
+    if (body_file.empty()) return virtual_body::make_body({});
+    virtual_body::VirtualBody from_file;
     from_file.mesh = geometry::read_ply_mesh(body_file);
     return from_file;
   }();
@@ -43,10 +43,10 @@ const booth::VirtualBody& customer() {
 const geometry::PointCloud& scan(int points) {
   static std::map<int, geometry::PointCloud> all;
   return kept(all, points, [&] {
-    booth::ScannerOptions options;
+    virtual_booth::ScannerOptions options;
     options.points = points;
     options.misregistration = 0;
-    return booth::scan_body(customer().mesh, options).cloud;
+    return virtual_booth::scan_body(customer().mesh, options).cloud;
   });
 }
 

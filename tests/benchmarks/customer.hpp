@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "booth/virtual_body.hpp"
 #include "geometry/control_mesh.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "tensegric/solver.hpp"
+#include "virtual_body/virtual_body.hpp"
 
 namespace tensegric_fit::benchmarks {
 
@@ -15,7 +15,7 @@ namespace tensegric_fit::benchmarks {
 void choose_body(const std::string& ply_file);
 
 /// Each is made once and kept. The true body; one from a file has no measures.
-const booth::VirtualBody& customer();
+const virtual_body::VirtualBody& customer();
 
 /// What the virtual booth sees of her, columns in register: what they are off is no matter of settings.
 const geometry::PointCloud& scan(int points);

@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "booth/virtual_body.hpp"
 #include "geometry/body_measures.hpp"
+#include "virtual_body/virtual_body.hpp"
 
 namespace tensegric_fit::population {
 
 /// What is known of a body: landmarks in the frame of its scan, metres.
 struct Truth {
   geometry::BodyMeasures measures;
-  booth::Doubts doubts;
+  virtual_body::Doubts doubts;
 };
 
 /// One figure of one body, millimetres unless its name says otherwise.

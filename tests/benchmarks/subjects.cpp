@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "booth/assembler.hpp"
-#include "booth/random_body.hpp"
-#include "booth/scan_file.hpp"
+#include "assembler/assembler.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/status.hpp"
+#include "scan_files/scan_file.hpp"
 #include "truth_reader.hpp"
+#include "virtual_booth/random_body.hpp"
 
 namespace tensegric_fit::population {
 namespace {
@@ -16,25 +16,25 @@ namespace {
 namespace fs = std::filesystem;
 
 /// As the assembler node has it: each sensor's cloud in its own frame.
-geometry::PointCloud assembled(const booth::VirtualScan& scan, int sensors_per_column) {
-  booth::Capture capture{0, 0, {}};
+geometry::PointCloud assembled(const virtual_booth::VirtualScan& scan, int sensors_per_column) {
+  assembler::Capture capture{0, 0, {}};
   std::vector<Eigen::Isometry3d> booth_from_sensor;
-  for (booth::SensorScan& sensor : booth::by_sensor(scan)) {
+  for (virtual_booth::SensorScan& sensor : virtual_booth::by_sensor(scan)) {
     booth_from_sensor.push_back(sensor.pose.booth_from_sensor);
     for (Eigen::Vector3d& p : sensor.cloud.points) p = booth_from_sensor.back().inverse() * p;
-    const auto cloud = std::make_shared<booth::SensorCloud>();
+    const auto cloud = std::make_shared<assembler::SensorCloud>();
     cloud->cloud = std::move(sensor.cloud);
     capture.clouds.push_back(cloud);
   }
-  booth::AssemblerOptions options;
+  assembler::AssemblerOptions options;
   options.sensors_per_column = sensors_per_column;
-  return booth::assemble(capture, booth_from_sensor, options).cloud;
+  return assembler::assemble(capture, booth_from_sensor, options).cloud;
 }
 
 class Booth : public Family {
  public:
-  explicit Booth(booth::Family family) : family_(family) {}
-  std::string name() const override { return booth::families()[static_cast<std::size_t>(family_)]; }
+  explicit Booth(virtual_booth::Family family) : family_(family) {}
+  std::string name() const override { return virtual_booth::families()[static_cast<std::size_t>(family_)]; }
 
   std::vector<std::string> bodies(int first, int count) const override {
     std::vector<std::string> seeds;
@@ -44,20 +44,20 @@ class Booth : public Family {
 
   Subject body(const std::string& name, Input input) const override {
     const auto seed = static_cast<std::uint64_t>(std::stoul(name));
-    booth::VirtualBody body = booth::random_customer(family_, seed);
+    virtual_body::VirtualBody body = virtual_booth::random_customer(family_, seed);
     Subject subject{{body.truth, body.doubts}, {}, {}};
     if (input == Input::surface) {
       subject.surface = std::move(body.mesh);
       return subject;
     }
-    const booth::ScannerOptions scanner = booth::random_scanner(seed, body);
-    const booth::VirtualScan scan = booth::scan_body(body.mesh, scanner);
+    const virtual_booth::ScannerOptions scanner = virtual_booth::random_scanner(seed, body);
+    const virtual_booth::VirtualScan scan = virtual_booth::scan_body(body.mesh, scanner);
     subject.scan = input == Input::merged_scan ? scan.cloud : assembled(scan, scanner.sensors_per_column);
     return subject;
   }
 
  private:
-  booth::Family family_;
+  virtual_booth::Family family_;
 };
 
 class Folder : public Family {
@@ -88,7 +88,7 @@ class Folder : public Family {
     if (input == Input::surface)
       subject.surface = geometry::read_ply_mesh(base + "_body.ply");
     else
-      subject.scan = geometry::points_of(booth::read_scan(base + "_scan.ply"));
+      subject.scan = geometry::points_of(scan_files::read_scan(base + "_scan.ply"));
     return subject;
   }
 
@@ -100,9 +100,9 @@ class Folder : public Family {
 }  // namespace
 
 std::unique_ptr<Family> family_named(const std::string& name) {
-  const auto& known = booth::families();
+  const auto& known = virtual_booth::families();
   if (std::find(known.begin(), known.end(), name) != known.end())
-    return std::make_unique<Booth>(booth::family_named(name));
+    return std::make_unique<Booth>(virtual_booth::family_named(name));
   if (fs::is_directory(name)) return std::make_unique<Folder>(name);
   throw geometry::Refusal(geometry::refusal::kBadOption,
                           "'" + name + "' is neither a body family (model, implicit) nor a folder");

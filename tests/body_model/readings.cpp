@@ -11,12 +11,12 @@
 #include <set>
 
 #include "body_model/registration.hpp"
-#include "booth/scan_file.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
 #include "landmarks/find_landmarks.hpp"
 #include "reconstruction/reconstruct.hpp"
+#include "scan_files/scan_file.hpp"
 
 namespace {
 
@@ -59,7 +59,7 @@ Json read_mesh(const std::string& path, const body_model::Registrar& registrar) 
 }
 
 Json read_scan(const std::string& path, const body_model::Registrar& registrar) {
-  const auto [body, model] = reconstruction::reconstruct(geometry::points_of(booth::read_scan(path)), {},
+  const auto [body, model] = reconstruction::reconstruct(geometry::points_of(scan_files::read_scan(path)), {},
                                                          {std::cref(registrar), registrar.standing()});
   return readings_of(landmarks::read_figures(body.mesh, body.filled, model, landmarks::shipped_precision()),
                      model);

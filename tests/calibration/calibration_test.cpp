@@ -9,10 +9,10 @@
 #include <fstream>
 #include <functional>
 
-#include "booth/virtual_body.hpp"
 #include "fit/tissue_file.hpp"
 #include "geometry/decimate.hpp"
 #include "geometry/status.hpp"
+#include "virtual_body/virtual_body.hpp"
 
 namespace tensegric_fit::calibration {
 namespace {
@@ -28,11 +28,11 @@ std::vector<CalibrationBody> moved_by(const fit::Settings& truth) {
   static const std::vector<fit::Body> women = [] {
     std::vector<fit::Body> made;
     for (double bust : {0.9, 1.0, 1.15}) {
-      booth::BodyParameters parameters;
+      virtual_body::BodyParameters parameters;
       parameters.bust = bust;
       fit::StageTimes times;
-      made.push_back(
-          fit::measure_mesh(geometry::with_triangles(booth::make_body(parameters).mesh, 20000), {}, times));
+      made.push_back(fit::measure_mesh(
+          geometry::with_triangles(virtual_body::make_body(parameters).mesh, 20000), {}, times));
     }
     return made;
   }();

@@ -14,9 +14,9 @@
 #include <memory>
 #include <set>
 
-#include "booth/random_body.hpp"
 #include "chain_client.hpp"
 #include "recorded_booth.hpp"
+#include "virtual_booth/random_body.hpp"
 
 namespace tensegric_fit::tests {
 namespace {
@@ -227,7 +227,7 @@ TEST_F(LeftBoothTest, BesideAnotherEachMeasuresItsOwnCustomer) {
   EXPECT_TRUE(of_right.measured) << of_right.code << ": " << of_right.message;
   EXPECT_EQ(of_right.landmarks.header.frame_id, "right/booth");
   EXPECT_NEAR(height_of(of_right.landmarks, "stature"),
-              booth::random_customer(booth::Family::model, 1).truth.height("stature"), 0.03);
+              virtual_booth::random_customer(virtual_booth::Family::model, 1).truth.height("stature"), 0.03);
   EXPECT_TRUE(wait_for([&] {
     return frames.count("left/booth > left/body") + frames.count("right/booth > right/body") +
                frames.count("right/booth > right/sensor_0") ==

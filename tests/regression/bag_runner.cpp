@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-#include "booth/assembler_handler.hpp"
+#include "assembler/assembler_handler.hpp"
 #include "control_mesh/control_mesh_handler.hpp"
 #include "fit/bind_body.hpp"
 #include "geometry/status.hpp"

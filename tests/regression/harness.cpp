@@ -11,12 +11,12 @@
 #include <future>
 
 #include "bag_runner.hpp"
-#include "booth/scan_bag.hpp"
-#include "booth/sensor_bag.hpp"
 #include "geometry/checked_yaml.hpp"
 #include "golden_shape.hpp"
 #include "replay_runner.hpp"
 #include "ros/scan_tag.hpp"
+#include "scan_files/scan_bag.hpp"
+#include "virtual_booth/sensor_bag.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
@@ -65,10 +65,10 @@ class CaseRun {
     if (asked.bag.empty()) {
       customer_ = make_customer(asked.booth);
       if (asked.booth.sensors) {
-        booth::write_sensor_bag(sensors_bag_, customer_->sensors, kFrame, kScanTime);
+        virtual_booth::write_sensor_bag(sensors_bag_, customer_->sensors, kFrame, kScanTime);
         fs::copy_file(sensors_bag_, bag_, fs::copy_options::overwrite_existing);
       } else {
-        booth::write_bag_scan(bag_, customer_->scan, kFrame, kScanTime);
+        scan_files::write_bag_scan(bag_, customer_->scan, kFrame, kScanTime);
       }
     } else {
       fs::copy_file(asked.bag, bag_, fs::copy_options::overwrite_existing);

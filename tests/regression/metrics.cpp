@@ -101,7 +101,8 @@ void add_errors(const std::string& kind, const Measures& measured,
 }
 
 // Along a direction that the landmark's definition leaves open any place is right.
-double distance(const Eigen::Vector3d& found, const geometry::Landmark& truth, const booth::Doubts& doubts) {
+double distance(const Eigen::Vector3d& found, const geometry::Landmark& truth,
+                const virtual_body::Doubts& doubts) {
   Eigen::Vector3d off = found - truth.position;
   for (const auto& [landmark, direction] : doubts.loose)
     if (landmark == truth.name) off -= off.dot(direction.normalized()) * direction.normalized();

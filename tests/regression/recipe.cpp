@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "booth/random_body.hpp"
 #include "case.hpp"
 #include "geometry/checked_yaml.hpp"
+#include "virtual_booth/random_body.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
@@ -15,7 +15,7 @@ Eigen::Vector3d vector_in(const YAML::Node& map, const char* key, const std::str
   return {values[0], values[1], values[2]};
 }
 
-booth::Fracture fracture_in(const YAML::Node& map, const std::string& where) {
+virtual_booth::Fracture fracture_in(const YAML::Node& map, const std::string& where) {
   geometry::check_keys(map, {"centre", "radii", "shift", "from_column"}, where, kBadCase);
   return {vector_in(map, "centre", where), vector_in(map, "radii", where), vector_in(map, "shift", where),
           geometry::required<int>(map, "from_column", where, kBadCase)};
@@ -44,7 +44,7 @@ Recipe read_recipe(const YAML::Node& map, const std::string& where) {
   read("crop_above", recipe.crop_above);
   read("unit", recipe.unit);
   read("sensors", recipe.sensors);
-  booth::BodyParameters& body = recipe.body;
+  virtual_body::BodyParameters& body = recipe.body;
   for (const auto& [key, field] : {std::pair("stature", &body.stature),
                                    {"build", &body.build},
                                    {"bust", &body.bust},
@@ -58,7 +58,7 @@ Recipe read_recipe(const YAML::Node& map, const std::string& where) {
                                    {"yaw", &body.yaw},
                                    {"tilt", &body.tilt}})
     read(key, *field);
-  booth::ScannerOptions& scanner = recipe.scanner;
+  virtual_booth::ScannerOptions& scanner = recipe.scanner;
   for (const auto& [key, field] : {std::pair("distance", &scanner.distance),
                                    {"noise", &scanner.noise},
                                    {"outliers", &scanner.outliers},
@@ -80,11 +80,12 @@ Customer make_customer(const Recipe& recipe) {
   const bool by_lot = recipe.customer >= 0;
   const auto seed = static_cast<std::uint64_t>(recipe.customer);
   Customer customer;
-  customer.body = booth::make_body(by_lot ? booth::random_body(seed) : recipe.body);
-  booth::ScannerOptions scanner = by_lot ? booth::random_scanner(seed, customer.body) : recipe.scanner;
+  customer.body = virtual_body::make_body(by_lot ? virtual_booth::random_body(seed) : recipe.body);
+  virtual_booth::ScannerOptions scanner =
+      by_lot ? virtual_booth::random_scanner(seed, customer.body) : recipe.scanner;
   scanner.points = std::min(scanner.points, recipe.scanner.points);
-  const booth::VirtualScan scan = booth::scan_body(customer.body.mesh, scanner);
-  if (recipe.sensors) customer.sensors = booth::by_sensor(scan);
+  const virtual_booth::VirtualScan scan = virtual_booth::scan_body(customer.body.mesh, scanner);
+  if (recipe.sensors) customer.sensors = virtual_booth::by_sensor(scan);
   customer.scan = scan.cloud;
   auto& points = customer.scan.points;
   points.erase(std::remove_if(points.begin(), points.end(),

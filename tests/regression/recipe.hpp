@@ -6,15 +6,15 @@
 #include <limits>
 #include <string>
 
-#include "booth/virtual_body.hpp"
-#include "booth/virtual_scanner.hpp"
+#include "virtual_body/virtual_body.hpp"
+#include "virtual_booth/virtual_scanner.hpp"
 
 namespace tensegric_fit::regression {
 
 struct Recipe {
   int customer = -1;  ///< drawn at random with this seed; -1: by the parameters below
-  booth::BodyParameters body;
-  booth::ScannerOptions scanner;
+  virtual_body::BodyParameters body;
+  virtual_booth::ScannerOptions scanner;
   double crop_above = std::numeric_limits<double>::infinity();  ///< m above the floor: nothing there is seen
   double unit = 1;                                              ///< of the scan's coordinates, metres
   bool sensors = false;  ///< what comes is a cloud a sensor, as from a booth of several; else one scan
@@ -25,9 +25,9 @@ struct Recipe {
 Recipe read_recipe(const YAML::Node& map, const std::string& where);
 
 struct Customer {
-  booth::VirtualBody body;  ///< the truth
+  virtual_body::VirtualBody body;  ///< the truth
   geometry::PointCloud scan;
-  std::vector<booth::SensorScan> sensors;  ///< the same points, where each sensor sends its own
+  std::vector<virtual_booth::SensorScan> sensors;  ///< the same points, where each sensor sends its own
 };
 
 /// Same recipe, same bits. \throw Refusal bad_option

@@ -2,11 +2,11 @@
 #include <filesystem>
 #include <map>
 
-#include "booth/random_body.hpp"
-#include "booth/virtual_body.hpp"
 #include "control_mesh/fit_template.hpp"
 #include "fit/chain.hpp"
 #include "stability_case.hpp"
+#include "virtual_body/virtual_body.hpp"
+#include "virtual_booth/random_body.hpp"
 
 namespace tensegric_fit::stability {
 namespace {
@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 
 const std::string kLaunch = TENSEGRIC_FIT_SOURCE_DIR "/launch/";
 
-booth::BodyParameters parameters_of(const std::string& body) {
-  booth::BodyParameters parameters;  // firm: mannequin-like, symmetric
+virtual_body::BodyParameters parameters_of(const std::string& body) {
+  virtual_body::BodyParameters parameters;  // firm: mannequin-like, symmetric
   if (body == "average") {
     parameters.firmness = 0.6;
     parameters.asymmetry = 0.06;
@@ -32,9 +32,9 @@ booth::BodyParameters parameters_of(const std::string& body) {
   return parameters;
 }
 
-fit::Body measured(const booth::BodyParameters& parameters) {
+fit::Body measured(const virtual_body::BodyParameters& parameters) {
   fit::StageTimes times;
-  return fit::measure_mesh(booth::make_body(parameters).mesh, {}, times);
+  return fit::measure_mesh(virtual_body::make_body(parameters).mesh, {}, times);
 }
 
 std::vector<std::string> yaml_files(const std::string& folder) {
@@ -63,7 +63,7 @@ fit::Fitting dressed(const fit::Body& body, const std::vector<std::string>& regi
 }  // namespace
 
 std::vector<geometry::ControlMesh> template_meshes(std::uint64_t seed) {
-  const fit::Body body = measured(booth::random_body(seed));
+  const fit::Body body = measured(virtual_booth::random_body(seed));
   std::vector<geometry::ControlMesh> meshes;
   for (const std::string& file : yaml_files(kLaunch + "templates"))
     meshes.push_back(

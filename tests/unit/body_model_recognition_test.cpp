@@ -8,8 +8,8 @@
 
 #include "body_model/recognition.hpp"
 #include "body_model/registration.hpp"
-#include "booth/model_body.hpp"
 #include "geometry/status.hpp"
+#include "virtual_body/model_body.hpp"
 
 namespace tensegric_fit::body_model {
 namespace {
@@ -25,12 +25,12 @@ const Model& model() {
 
 /// A woman of the model's own make, m, z up, facing x, on the floor.
 TriangleMesh woman(double arms = 30 * kDegree) {
-  booth::ModelBodyParameters parameters;
+  virtual_body::ModelBodyParameters parameters;
   parameters.shape = Eigen::VectorXd::Zero(model().components());
   parameters.shape.head<4>() << 0.8, -0.5, 0.6, -0.9;
   parameters.arms = {arms, arms};
   parameters.elbows = {0.2, 0.2};
-  return {booth::stand(model(), parameters).vertices, model().triangles};
+  return {virtual_body::stand(model(), parameters).vertices, model().triangles};
 }
 
 /// Without the triangles that have a corner for which `cut` holds (index, place).
@@ -220,11 +220,12 @@ TEST(Recognition, WhatIsNotHersIsNamedWhereItIs) {
 }
 
 TEST(Recognition, AnUnusualShapeIsMeasuredWithAWord) {
-  booth::ModelBodyParameters parameters;
+  virtual_body::ModelBodyParameters parameters;
   parameters.shape = Eigen::VectorXd::Zero(model().components());
   for (int i = 0; i < model().components(); ++i) parameters.shape[i] = i % 2 == 0 ? 2.2 : -2.2;
   parameters.arms = {0.8, 0.8};
-  const RegisteredBody body = registered({booth::stand(model(), parameters).vertices, model().triangles});
+  const RegisteredBody body =
+      registered({virtual_body::stand(model(), parameters).vertices, model().triangles});
   EXPECT_NE(body.note.find("unusual"), std::string::npos) << body.evidence.shape;
 }
 

@@ -7,16 +7,16 @@
 #include <thread>
 
 #include "body_model/registration.hpp"
-#include "booth/random_body.hpp"
 #include "geometry/decimate.hpp"
 #include "geometry/status.hpp"
+#include "virtual_booth/random_body.hpp"
 
 namespace tensegric_fit::body_model {
 namespace {
 
-using booth::ModelBodyParameters;
 using Eigen::Vector3d;
 using geometry::TriangleMesh;
+using virtual_body::ModelBodyParameters;
 
 constexpr double kDegree = M_PI / 180;
 
@@ -25,7 +25,7 @@ const Model& model() {
 }
 
 ModelBodyParameters random_woman(std::uint64_t seed) {
-  ModelBodyParameters woman = booth::random_model_body(seed, model());
+  ModelBodyParameters woman = virtual_booth::random_model_body(seed, model());
   woman.shape = woman.shape.cwiseMin(2).cwiseMax(-2);
   return woman;
 }
@@ -44,7 +44,7 @@ struct Registered {
 
 /// `triangles`: of the mesh; 0: as many as the model has.
 Registered registered(const ModelBodyParameters& woman, const Eigen::Isometry3d& motion, int triangles = 0) {
-  const booth::StandingModel standing = booth::stand(model(), woman);
+  const virtual_body::StandingModel standing = virtual_body::stand(model(), woman);
   const PosedModel posed(model(), standing.parameters);
   Registered result;
   for (const Vector3d& v : standing.vertices) result.truth.push_back(motion * v);
@@ -184,7 +184,7 @@ std::string refusal_of(const TriangleMesh& mesh) {
 
 TEST(Registration, WhatIsNoPersonsSizeIsRefused) {
   EXPECT_EQ(refusal_of({}), geometry::refusal::kNotABody);
-  const booth::StandingModel standing = booth::stand(model(), {});
+  const virtual_body::StandingModel standing = virtual_body::stand(model(), {});
   for (const double size : {0.1, 0.25, 1.5, 10.0, 1000.0}) {
     TriangleMesh mesh{standing.vertices, model().triangles};
     for (Vector3d& v : mesh.vertices) v *= size;
@@ -221,7 +221,7 @@ TEST(Samples, LieEvenlyOnTheSurfaceAndSoDoTheFirstOfThem) {
 }
 
 TEST(Samples, WhereNoScanPointIsThereAreNone) {
-  const booth::StandingModel standing = booth::stand(model(), {});
+  const virtual_body::StandingModel standing = virtual_body::stand(model(), {});
   const TriangleMesh mesh{standing.vertices, model().triangles};
   std::vector<char> filled;
   for (const Vector3d& v : mesh.vertices) filled.push_back(v.z() < 0.8);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <map>
 
-#include "booth/virtual_body.hpp"
 #include "fit/chain.hpp"
+#include "virtual_body/virtual_body.hpp"
 
 namespace {
 
@@ -78,15 +78,14 @@ class Worn : public testing::TestWithParam<double> {  // the parameter is the si
     const std::string key = region + std::to_string(size);
     const auto found = fitted_->find(key);
     if (found != fitted_->end()) return found->second;
-    booth::BodyParameters parameters;
+    virtual_body::BodyParameters parameters;
     parameters.bust = parameters.hip = size;
     parameters.asymmetry = size > 1 ? 0.1 : 0;
     fit::StageTimes times;
-    const fit::Body body = fit::measure_mesh(booth::make_body(parameters).mesh, {}, times);
+    const fit::Body body = fit::measure_mesh(virtual_body::make_body(parameters).mesh, {}, times);
     const std::vector<control_mesh::Template> patterns{
         control_mesh::load_template(kLaunch + "templates/" + region + ".yaml")};
-    return fitted_->emplace(key, Fitted{body, fit::prepare(body, patterns, {}, times)})
-        .first->second;
+    return fitted_->emplace(key, Fitted{body, fit::prepare(body, patterns, {}, times)}).first->second;
   }
 
   static std::map<std::string, Fitted>* fitted_;

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <random>
 
-#include "booth/virtual_body.hpp"
 #include "control_mesh/fit_template.hpp"
 #include "control_mesh/grid.hpp"
 #include "control_mesh/skin.hpp"
 #include "control_mesh_changed_template.hpp"
 #include "geometry/status.hpp"
 #include "measured_body.hpp"
+#include "virtual_body/virtual_body.hpp"
 
 namespace {
 
@@ -28,7 +28,7 @@ struct Body {
 
 /// 0 is the booth's own symmetric body; the others are drawn, so that hips, waist, breasts and stance differ.
 Body body_of(unsigned seed) {
-  booth::BodyParameters parameters;
+  virtual_body::BodyParameters parameters;
   if (seed > 0) {
     std::mt19937 random(seed);
     const auto between = [&random](double low, double high) {
@@ -43,7 +43,7 @@ Body body_of(unsigned seed) {
     parameters.tilt = between(-0.1, 0.1);
   }
   Body body;
-  body.mesh = booth::make_body(parameters).mesh;
+  body.mesh = virtual_body::make_body(parameters).mesh;
   body.measures = test::measured(body.mesh);
   return body;
 }

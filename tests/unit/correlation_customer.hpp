@@ -4,18 +4,18 @@
 #include <functional>
 #include <string>
 
-#include "booth/virtual_body.hpp"
-#include "booth/virtual_scanner.hpp"
 #include "correlation/correlate.hpp"
 #include "fit/chain.hpp"
+#include "virtual_body/virtual_body.hpp"
+#include "virtual_booth/virtual_scanner.hpp"
 
 namespace tensegric_fit::correlation {
 
 using Eigen::Vector3d;
 using geometry::TriangleMesh;
 
-inline booth::BodyParameters customer() {
-  booth::BodyParameters body;
+inline virtual_body::BodyParameters customer() {
+  virtual_body::BodyParameters body;
   body.stature = 1.66;
   body.build = 1.1;
   body.bust = 1.1;
@@ -37,13 +37,13 @@ inline TriangleMesh thicker(TriangleMesh mesh, const std::function<double(std::s
 }
 
 inline fit::Body scanned(const TriangleMesh& body, std::uint64_t seed) {
-  booth::ScannerOptions booth;
+  virtual_booth::ScannerOptions booth;
   booth.points = 60000;
   booth.noise = 0.001;
   booth.misregistration = 0;
   booth.seed = seed;
   fit::StageTimes times;
-  return fit::measure_scan(booth::scan_body(body, booth).cloud, {}, times);
+  return fit::measure_scan(virtual_booth::scan_body(body, booth).cloud, {}, times);
 }
 
 // A body in a garment of one line.

@@ -15,7 +15,7 @@ namespace {
 class Strangers : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    truth_ = std::make_unique<booth::VirtualBody>(booth::make_body(customer()));
+    truth_ = std::make_unique<virtual_body::VirtualBody>(virtual_body::make_body(customer()));
     before_ = std::make_unique<fit::Body>(scanned(truth_->mesh, 1));
     dressed_ = std::make_unique<Dressed>(*before_, "bust", "B1", 0.95);
   }
@@ -40,12 +40,12 @@ class Strangers : public ::testing::Test {
     }
   }
 
-  static std::unique_ptr<booth::VirtualBody> truth_;
+  static std::unique_ptr<virtual_body::VirtualBody> truth_;
   static std::unique_ptr<fit::Body> before_;
   static std::unique_ptr<Dressed> dressed_;
 };
 
-std::unique_ptr<booth::VirtualBody> Strangers::truth_;
+std::unique_ptr<virtual_body::VirtualBody> Strangers::truth_;
 std::unique_ptr<fit::Body> Strangers::before_;
 std::unique_ptr<Dressed> Strangers::dressed_;
 
@@ -56,26 +56,26 @@ TEST_F(Strangers, SheHerselfIsNot) {
 }
 
 TEST_F(Strangers, SomebodyElseIsRefused) {
-  booth::BodyParameters other = customer();
+  virtual_body::BodyParameters other = customer();
   other.build = 1.2;
   other.hip = 1.08;
-  expect_refused(booth::make_body(other).mesh, "other_person");
+  expect_refused(virtual_body::make_body(other).mesh, "other_person");
 }
 
 TEST_F(Strangers, ATallerTwinIsRefused) {
-  booth::BodyParameters other = customer();
+  virtual_body::BodyParameters other = customer();
   other.stature = 1.70;
-  expect_refused(booth::make_body(other).mesh, "other_person");
+  expect_refused(virtual_body::make_body(other).mesh, "other_person");
 }
 
 TEST_F(Strangers, OtherPosesAreRefused) {
-  booth::BodyParameters stooped = customer();
+  virtual_body::BodyParameters stooped = customer();
   stooped.stoop = 0.25;
-  expect_refused(booth::make_body(stooped).mesh, "other_pose");
+  expect_refused(virtual_body::make_body(stooped).mesh, "other_pose");
 
-  booth::BodyParameters raised = customer();
+  virtual_body::BodyParameters raised = customer();
   raised.arm_angle = 1.0;
-  expect_refused(booth::make_body(raised).mesh, "other_pose");
+  expect_refused(virtual_body::make_body(raised).mesh, "other_pose");
 
   const geometry::BoneFrames twist(truth_->truth, {0.2, 0});
   expect_refused(moved(truth_->mesh, [&](const Vector3d& p) { return twist.moved(p); }), "other_pose");

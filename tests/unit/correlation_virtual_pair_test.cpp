@@ -26,7 +26,7 @@ Isometry3d stance() {
 class VirtualPair : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    const booth::VirtualBody body = booth::make_body(customer());
+    const virtual_body::VirtualBody body = virtual_body::make_body(customer());
     truth_ = std::make_unique<fit::Body>(fit::take_mesh(body.mesh));
     truth_->measures = body.truth;
     before_ = std::make_unique<fit::Body>(scanned(body.mesh, 1));

@@ -6,20 +6,20 @@
 #include <limits>
 #include <map>
 
-#include "booth/random_body.hpp"
 #include "geometry/decimate.hpp"
 #include "geometry/section.hpp"
 #include "geometry/status.hpp"
 #include "measured_body.hpp"
+#include "virtual_booth/random_body.hpp"
 
 namespace tensegric_fit {
 namespace {
 
-using booth::Family;
-using booth::VirtualBody;
 using Eigen::Vector3d;
 using geometry::BodyMeasures;
 using geometry::TriangleMesh;
+using virtual_body::VirtualBody;
+using virtual_booth::Family;
 
 constexpr double kDegree = M_PI / 180;
 
@@ -32,7 +32,7 @@ const Woman& woman(Family family, std::uint64_t seed) {
   static std::map<std::pair<Family, std::uint64_t>, Woman> known;
   const auto [found, is_new] = known.emplace(std::pair(family, seed), Woman());
   if (is_new) {
-    found->second.body = booth::random_customer(family, seed);
+    found->second.body = virtual_booth::random_customer(family, seed);
     found->second.measures = test::measured(found->second.body.mesh);
   }
   return found->second;

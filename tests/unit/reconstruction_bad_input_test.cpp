@@ -9,10 +9,10 @@
 #include <set>
 
 #include "body_model/recognition.hpp"
-#include "booth/model_body.hpp"
-#include "booth/virtual_scanner.hpp"
 #include "geometry/status.hpp"
 #include "measured_body.hpp"
+#include "virtual_body/model_body.hpp"
+#include "virtual_booth/virtual_scanner.hpp"
 
 namespace {
 
@@ -23,22 +23,22 @@ using Points = std::vector<Vector3d>;
 constexpr double kLargeGirth = 0.009, kHeight = 0.004;  // ISO 20685
 
 /// A woman who holds her arms out, so that a cut takes them off; she faces x.
-const booth::VirtualBody& woman() {
-  static const booth::VirtualBody body = [] {
-    booth::ModelBodyParameters parameters;
+const virtual_body::VirtualBody& woman() {
+  static const virtual_body::VirtualBody body = [] {
+    virtual_body::ModelBodyParameters parameters;
     parameters.arms = {1.05, 1.05};
     parameters.elbows = {0, 0};
-    return booth::make_body(booth::shipped_model(), parameters);
+    return virtual_body::make_body(virtual_body::shipped_model(), parameters);
   }();
   return body;
 }
 
 const Points& scan() {
   static const Points points = [] {
-    booth::ScannerOptions options;
+    virtual_booth::ScannerOptions options;
     options.points = 80000;
     options.floor = true;
-    return booth::scan_body(woman().mesh, options).cloud.points;
+    return virtual_booth::scan_body(woman().mesh, options).cloud.points;
   }();
   return points;
 }

@@ -7,14 +7,14 @@
 #include <map>
 #include <thread>
 
-#include "booth/random_body.hpp"
-#include "booth/virtual_scanner.hpp"
 #include "geometry/status.hpp"
 #include "geometry/surface_tree.hpp"
 #include "measured_body.hpp"
 #include "reconstruction/handles.hpp"
 #include "reconstruction/unseen_skin.hpp"
 #include "reconstruction_figure.hpp"
+#include "virtual_booth/random_body.hpp"
+#include "virtual_booth/virtual_scanner.hpp"
 
 namespace {
 
@@ -35,8 +35,9 @@ Options quick() {
 }
 
 /// She stands in the booth's frame, on z = 0.
-const booth::VirtualBody& woman() {
-  static const booth::VirtualBody body = booth::random_customer(booth::Family::model, 3);
+const virtual_body::VirtualBody& woman() {
+  static const virtual_body::VirtualBody body =
+      virtual_booth::random_customer(virtual_booth::Family::model, 3);
   return body;
 }
 
@@ -50,12 +51,12 @@ const PointCloud& scan_of(int points, double noise, bool floor) {
   static std::map<std::tuple<int, double, bool>, PointCloud> scans;
   const auto [scan, is_new] = scans.emplace(std::tuple(points, noise, floor), PointCloud());
   if (is_new) {
-    booth::ScannerOptions options;
+    virtual_booth::ScannerOptions options;
     options.points = points;
     options.noise = noise;
     options.misregistration = 0;
     options.floor = floor;
-    scan->second = booth::scan_body(woman().mesh, options).cloud;
+    scan->second = virtual_booth::scan_body(woman().mesh, options).cloud;
   }
   return scan->second;
 }

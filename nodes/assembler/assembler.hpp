@@ -1,0 +1,31 @@
+/// One scan of what a booth's sensors saw.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "assembler/capture_join.hpp"
+#include "assembler/registration.hpp"
+
+namespace tensegric_fit::assembler {
+
+/// Field defaults are the parameters' defaults.
+struct AssemblerOptions {
+  bool refine = true;          ///< whether columns are moved onto each other where they overlap
+  int sensors_per_column = 1;  ///< sensors are listed column by column; those of one column move as one
+  RegistrationOptions registration;
+};
+
+struct Assembly {
+  geometry::PointCloud cloud;                ///< in the booth's frame, each normal towards its own sensor
+  std::optional<Registration> registration;  ///< one correction a column; none where not asked for
+};
+
+/// Brings the clouds of a capture into the booth's frame. `booth_from_sensor` has one transform a sensor;
+/// those of missing sensors are not looked at. Points that are not finite are left out. \throw Refusal
+/// bad_option: the sensors are not whole columns, or an option of register_columns
+Assembly assemble(const Capture& capture, const std::vector<Eigen::Isometry3d>& booth_from_sensor,
+                  const AssemblerOptions& options);
+
+}  // namespace tensegric_fit::assembler

@@ -1,0 +1,96 @@
+/// Clouds of a booth's sensors -> scan/points
+#include <fmt/format.h>
+#include <tf2_ros/transform_listener.h>
+
+#include "assembler/assembler_handler.hpp"
+#include "ros/run_node.hpp"
+#include "ros/stage.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+using geometry::Refusal;
+namespace refusal = geometry::refusal;
+
+/// Before it is assembled, a scan is known by its stamp.
+std::string id_of(std::uint64_t stamp) {
+  return fmt::format("{}.{:09}", stamp / 1000000000, stamp % 1000000000);
+}
+
+class AssemblerNode {
+ public:
+  AssemblerNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
+      : handler_(Parameters(private_node)),
+        listener_(transforms_),
+        scan_(node.advertise<sensor_msgs::PointCloud2>("scan/points", 1, true)),
+        stage_("assembler", node) {
+    constexpr int kQueue = 4;
+    const std::vector<std::string>& topics = handler_.setup().sensors;
+    for (std::size_t sensor = 0; sensor < topics.size(); ++sensor)
+      sensors_.push_back(node.subscribe<sensor_msgs::PointCloud2>(
+          topics[sensor], kQueue, [this, sensor](const sensor_msgs::PointCloud2::ConstPtr& cloud) {
+            on_cloud(static_cast<int>(sensor), *cloud);
+          }));
+    clock_ = node.createWallTimer(ros::WallDuration(std::min(0.05, handler_.setup().capture.timeout / 4)),
+                                  [this](const ros::WallTimerEvent&) { hand_on(); });
+  }
+
+ private:
+  void on_cloud(int sensor, const sensor_msgs::PointCloud2& message) {
+    try {
+      handler_.add(sensor, message, ros::SteadyTime::now().toSec());
+    } catch (const Refusal& refused) {
+      stage_.drop(id_of(message.header.stamp.toNSec()), refused);
+    }
+    hand_on();
+  }
+
+  void hand_on() {
+    const AssemblerSetup& setup = handler_.setup();
+    while (const std::optional<assembler::Capture> capture = handler_.next(ros::SteadyTime::now().toSec())) {
+      const std::string scan_id = id_of(capture->first);
+      std::vector<std::string> missing;
+      for (int sensor : capture->missing()) missing.push_back(setup.sensors[sensor]);
+      const std::size_t came = setup.sensors.size() - missing.size();
+      const std::string warning = missing.empty()
+                                      ? ""
+                                      : fmt::format("{} of {} sensors came in time; missing: {}", came,
+                                                    setup.sensors.size(), fmt::join(missing, ", "));
+      if (static_cast<int>(came) < setup.min_sensors) {
+        stage_.refuse(scan_id, Refusal(refusal::kMissingSensor, warning));
+        continue;
+      }
+      stage_.begin(scan_id);
+      stage_.post(scan_id, [this, capture, warning]() -> Stage::Result {
+        wait_for_transforms(*capture);
+        const AssemblerHandler::Output output = handler_.handle(*capture, transforms_);
+        return {[this, output] { scan_.publish(output.scan); }, output.facts, warning};
+      });
+    }
+  }
+
+  /// They can come after the clouds. By the wall's clock: a recording's can stand still.
+  void wait_for_transforms(const assembler::Capture& capture) const {
+    const AssemblerSetup& setup = handler_.setup();
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(setup.capture.timeout);
+    for (const auto& cloud : capture.clouds)
+      while (cloud && !transforms_.canTransform(setup.frame_id, cloud->frame_id, time_of(cloud->stamp)) &&
+             ros::WallTime::now() < end)
+        ros::WallDuration(0.01).sleep();
+  }
+
+  AssemblerHandler handler_;
+  tf2_ros::Buffer transforms_;
+  tf2_ros::TransformListener listener_;
+  ros::Publisher scan_;
+  std::vector<ros::Subscriber> sensors_;
+  ros::WallTimer clock_;
+  Stage stage_;  // last: its worker uses all of the above
+};
+
+}  // namespace
+}  // namespace tensegric_fit::node
+
+int main(int argc, char** argv) {
+  return tensegric_fit::node::run_node<tensegric_fit::node::AssemblerNode>(argc, argv, "assembler");
+}

@@ -1,0 +1,90 @@
+#include "assembler/capture_join.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::assembler {
+namespace {
+
+constexpr std::size_t kMostOpen = 8;  // captures; beyond, the oldest waits no longer
+constexpr std::uint64_t kStartedOver =
+    60000000000u;  // ns; so far back lies no late cloud, but a new recording
+
+void check(const char* name, double value, double low, double high) {
+  if (value >= low && value <= high) return;  // false for NaN
+  throw geometry::Refusal(
+      geometry::refusal::kBadOption,
+      fmt::format("assembler option '{}' is {}; it must lie in [{}, {}]", name, value, low, high));
+}
+
+std::uint64_t gap(std::uint64_t a, std::uint64_t b) {
+  return a > b ? a - b : b - a;
+}
+
+}  // namespace
+
+std::vector<int> Capture::missing() const {
+  std::vector<int> result;
+  for (std::size_t sensor = 0; sensor < clouds.size(); ++sensor)
+    if (!clouds[sensor]) result.push_back(static_cast<int>(sensor));
+  return result;
+}
+
+CaptureJoin::CaptureJoin(int sensors, const CaptureOptions& options)
+    : sensors_(sensors), timeout_(options.timeout) {
+  check("slop", options.slop, 0, 60);
+  check("timeout", options.timeout, 0.01, 600);
+  slop_ = static_cast<std::uint64_t>(std::llround(1e9 * options.slop));
+}
+
+bool CaptureJoin::fits(const Capture& capture, std::uint64_t stamp) const {
+  return std::max(capture.last, stamp) - std::min(capture.first, stamp) <= slop_;
+}
+
+CaptureJoin::Fate CaptureJoin::add(int sensor, std::shared_ptr<const SensorCloud> cloud, double now) {
+  const std::uint64_t stamp = cloud->stamp;
+  if (left_) {
+    const auto& sent = left_->clouds[sensor];
+    if (sent && sent->stamp == stamp) return Fate::repeated;
+    if (open_.empty() && stamp + kStartedOver < left_->first)
+      left_.reset();
+    else if (stamp <= left_->last || (!sent && fits(*left_, stamp)))
+      return Fate::late;
+  }
+  Open* nearest = nullptr;
+  for (Open& open : open_) {
+    const auto& sent = open.capture.clouds[sensor];
+    if (sent && sent->stamp == stamp) return Fate::repeated;
+    if (!sent && fits(open.capture, stamp) &&
+        (!nearest || gap(stamp, open.capture.first) < gap(stamp, nearest->capture.first)))
+      nearest = &open;
+  }
+  if (!nearest) {
+    const auto later = std::find_if(open_.begin(), open_.end(),
+                                    [stamp](const Open& open) { return open.capture.first > stamp; });
+    Capture capture{stamp, stamp, {}};
+    capture.clouds.resize(sensors_);
+    nearest = &*open_.insert(later, {std::move(capture), now});
+  }
+  Capture& capture = nearest->capture;
+  capture.first = std::min(capture.first, stamp);
+  capture.last = std::max(capture.last, stamp);
+  capture.clouds[sensor] = std::move(cloud);
+  return Fate::taken;
+}
+
+std::optional<Capture> CaptureJoin::next(double now) {
+  const bool due = open_.size() > kMostOpen || std::any_of(open_.begin(), open_.end(), [&](const Open& open) {
+                     return now - open.since >= timeout_ || open.capture.missing().empty();
+                   });
+  if (!due) return std::nullopt;
+  left_ = std::move(open_.front().capture);
+  open_.erase(open_.begin());
+  return left_;
+}
+
+}  // namespace tensegric_fit::assembler

@@ -1,0 +1,69 @@
+/// Which clouds of a booth's sensors belong to one capture.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/point_cloud.hpp"
+
+namespace tensegric_fit::assembler {
+
+/// What one sensor sent: points in its own frame, the origin of which is its viewpoint.
+struct SensorCloud {
+  std::uint64_t stamp;  ///< ns
+  std::string frame_id;
+  geometry::PointCloud cloud;
+};
+
+struct Capture {
+  std::uint64_t first, last;                               ///< stamps, ns
+  std::vector<std::shared_ptr<const SensorCloud>> clouds;  ///< one a sensor, null where none came
+
+  std::vector<int> missing() const;
+};
+
+/// Field defaults are the parameters' defaults. Seconds.
+struct CaptureOptions {
+  double slop = 0.2;     ///< 0 to 60; between the first and the last stamp of a capture
+  double timeout = 2.0;  ///< 0.01 to 600; how long a capture waits after its first cloud has come
+};
+
+/// Sorts clouds into captures by their stamps. Captures leave in the order of their stamps, each once; a
+/// cloud that comes after its capture has left goes nowhere. For one thread. Times are seconds of any steady
+/// clock.
+class CaptureJoin {
+ public:
+  enum class Fate {
+    taken,
+    late,      ///< its capture, or a newer one, has left already
+    repeated,  ///< its sensor has sent a cloud of that stamp before
+  };
+
+  /// \throw Refusal bad_option naming the option and its range
+  CaptureJoin(int sensors, const CaptureOptions& options);
+
+  /// \pre 0 <= sensor < sensors
+  Fate add(int sensor, std::shared_ptr<const SensorCloud> cloud, double now);
+
+  /// The oldest capture once it is complete, has waited long enough, or was overtaken by one of which that is
+  /// true. To be asked until there is none.
+  std::optional<Capture> next(double now);
+
+ private:
+  struct Open {
+    Capture capture;
+    double since;
+  };
+  bool fits(const Capture& capture, std::uint64_t stamp) const;
+
+  int sensors_;
+  std::uint64_t slop_;
+  double timeout_;
+  std::vector<Open> open_;  // in the order of their stamps
+  std::optional<Capture> left_;
+};
+
+}  // namespace tensegric_fit::assembler

@@ -1,0 +1,250 @@
+#include "assembler/registration.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "geometry/halves.hpp"
+#include "geometry/point_tree.hpp"
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::assembler {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using geometry::PointCloud;
+using geometry::PointTree;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+constexpr int kSteps = 20;
+constexpr double kStill = 1e-5;        // m, of the largest motion in a step
+constexpr int kSearches = 60000;       // in a step; shared by all pairs of columns
+constexpr int kFewestOfPair = 100;     // matches; a pair with fewer does not overlap
+constexpr double kReach = 0.010;       // m, between the two points of a match
+constexpr double kSameSide = 0.8;      // cosine between their normals
+constexpr double kCut = 4.7;           // deviations, where Tukey's weight ends
+constexpr double kLeastSpread = 1e-4;  // m, of residuals
+constexpr double kExpected = 0.002;    // m, of a correction before anything was seen; fixes what all share
+constexpr double kTrimmed = 0.8;       // share of the smallest residuals that are compared
+constexpr double kNoticeable = 0.99;   // a fall of the residual that is more than luck
+
+// Why not PCL's ICP: with normals, symmetric, trimmed, each column against all others in two rounds, it
+// leaves 0.14 to 0.6 mm of 0.8 to 3.2 mm among four columns and 0.2 to 1.1 mm among eight, in 1 to 2 s for
+// 200,000 points, since what a column is moved to is off itself. All columns in one system: 0.09 to 0.12 mm
+// in every case, in 0.4 s.
+
+/// Two points of two columns that seem to be one, after the motions so far.
+struct Match {
+  int a, b;
+  Vector3d p, q;
+  Vector3d normal;  // unit, of both
+  double residual;  // normal . (p - q)
+};
+
+/// The points of column a that are looked for in column b.
+struct Pair {
+  int a, b;
+  std::vector<int> points;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class Columns {
+ public:
+  explicit Columns(const std::vector<PointCloud>& columns)
+      : columns_(columns), motion_(columns.size(), Isometry3d::Identity()), centre_(Vector3d::Zero()) {
+    std::size_t count = 0;
+    for (const PointCloud& column : columns) {
+      trees_.push_back(column.points.empty() ? nullptr : std::make_unique<PointTree>(column.points));
+      for (const Vector3d& p : column.points) centre_ += p;
+      count += column.points.size();
+    }
+    centre_ /= static_cast<double>(std::max<std::size_t>(count, 1));
+    find_pairs();
+  }
+
+  bool overlap() const { return !pairs_.empty(); }
+
+  /// Largest shift that the step made anywhere within a metre of the centre.
+  double step() {
+    const std::vector<Match> found = matches(0);
+    if (found.empty()) return 0;
+    const Eigen::Index size = 6 * static_cast<Eigen::Index>(columns_.size());
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(size, size) / (kExpected * kExpected);
+    Eigen::VectorXd right(size);
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+      right.segment<6>(6 * c) = -twist(motion_[c]) / (kExpected * kExpected);
+    const double spread = spread_of(found);
+    for (const Match& match : found) {
+      const double relative = match.residual / (kCut * spread);
+      if (std::abs(relative) >= 1) continue;
+      const double weight = std::pow(1 - relative * relative, 2) / (spread * spread);
+      Vector6d of_a, of_b;  // motions turn about the centre, and one radian there counts as one metre
+      of_a << (match.p - centre_).cross(match.normal), match.normal;
+      of_b << -(match.q - centre_).cross(match.normal), -match.normal;
+      const Eigen::Index a = 6 * match.a, b = 6 * match.b;
+      matrix.block<6, 6>(a, a) += weight * of_a * of_a.transpose();
+      matrix.block<6, 6>(b, b) += weight * of_b * of_b.transpose();
+      matrix.block<6, 6>(a, b) += weight * of_a * of_b.transpose();
+      matrix.block<6, 6>(b, a) += weight * of_b * of_a.transpose();
+      right.segment<6>(a) -= weight * match.residual * of_a;
+      right.segment<6>(b) -= weight * match.residual * of_b;
+    }
+    const Eigen::VectorXd motion = matrix.ldlt().solve(right);
+    for (std::size_t c = 0; c < columns_.size(); ++c) move(c, motion.segment<6>(6 * c));
+    return motion.cwiseAbs().maxCoeff();
+  }
+
+  /// Trimmed mean of the matches that no step uses; 0 where there are none.
+  double residual() const {
+    std::vector<double> sizes;
+    for (const Match& match : matches(1)) sizes.push_back(std::abs(match.residual));
+    std::sort(sizes.begin(), sizes.end());
+    sizes.resize(static_cast<std::size_t>(kTrimmed * static_cast<double>(sizes.size())));
+    double sum = 0;
+    for (const double size : sizes) sum += size;
+    return sizes.empty() ? 0 : sum / static_cast<double>(sizes.size());
+  }
+
+  const std::vector<Isometry3d>& motions() const { return motion_; }
+  Vector6d motion_of(std::size_t column) const { return twist(motion_[column]); }
+
+ private:
+  void find_pairs() {
+    const int count = static_cast<int>(columns_.size());
+    for (int a = 0; a < count; ++a)
+      for (int b = 0; b < count; ++b)
+        if (a != b && trees_[a] && trees_[b]) pairs_.push_back({a, b, {}});
+    const std::size_t most = std::max<std::size_t>(400, kSearches / std::max<std::size_t>(1, pairs_.size()));
+    geometry::in_halves(pairs_.size(), [&](std::size_t begin, std::size_t end, int) {
+      for (std::size_t p = begin; p < end; ++p) choose_points(pairs_[p], most);
+    });
+    pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(),
+                                [](const Pair& pair) { return pair.points.size() < kFewestOfPair; }),
+                 pairs_.end());
+  }
+
+  /// Of the points that have a match, twice as many as a step is to look for: the others are for the check.
+  void choose_points(Pair& pair, std::size_t most) const {
+    const std::size_t points = columns_[pair.a].points.size(), stride = 1 + points / (4 * most);
+    std::vector<int> matched;
+    Match match;
+    for (std::size_t i = 0; i < points; i += stride)
+      if (find(pair, static_cast<int>(i), match)) matched.push_back(static_cast<int>(i));
+    const std::size_t every = 1 + matched.size() / (2 * most);
+    for (std::size_t i = 0; i < matched.size(); i += every) pair.points.push_back(matched[i]);
+  }
+
+  /// Every other point, the first or the second of two.
+  std::vector<Match> matches(std::size_t first) const {
+    std::vector<Match> found[2];
+    geometry::in_halves(pairs_.size(), [&](std::size_t begin, std::size_t end, int half) {
+      Match match;
+      for (std::size_t p = begin; p < end; ++p)
+        for (std::size_t i = first; i < pairs_[p].points.size(); i += 2)
+          if (find(pairs_[p], pairs_[p].points[i], match)) found[half].push_back(match);
+    });
+    found[0].insert(found[0].end(), found[1].begin(), found[1].end());
+    return std::move(found[0]);
+  }
+
+  bool find(const Pair& pair, int i, Match& match) const {
+    const PointCloud &from = columns_[pair.a], &to = columns_[pair.b];
+    const Isometry3d &by = motion_[pair.a], &back = motion_[pair.b];
+    const Vector3d p = by * from.points[i], normal_p = by.linear() * from.normals[i];
+    const int nearest = trees_[pair.b]->nearest(back.inverse() * p);
+    const Vector3d q = back * to.points[nearest], normal_q = back.linear() * to.normals[nearest];
+    if ((p - q).squaredNorm() > kReach * kReach || normal_p.dot(normal_q) < kSameSide) return false;
+    match = {pair.a, pair.b, p, q, (normal_p + normal_q).normalized(), 0};
+    match.residual = match.normal.dot(p - q);
+    return true;
+  }
+
+  static double spread_of(const std::vector<Match>& found) {
+    std::vector<double> sizes;
+    for (const Match& match : found) sizes.push_back(std::abs(match.residual));
+    return std::max(kLeastSpread, 1.4826 * median(sizes));  // of a normal distribution
+  }
+
+  Vector6d twist(const Isometry3d& motion) const {
+    const Eigen::AngleAxisd turn(motion.linear());
+    Vector6d result;
+    result << turn.angle() * turn.axis(), motion * centre_ - centre_;
+    return result;
+  }
+
+  void move(std::size_t column, const Vector6d& motion) {
+    const double angle = motion.head<3>().norm();
+    const Vector3d axis = angle > 0 ? Vector3d(motion.head<3>() / angle) : Vector3d::UnitX();
+    motion_[column] = Eigen::Translation3d(centre_ + motion.tail<3>()) * Eigen::AngleAxisd(angle, axis) *
+                      Eigen::Translation3d(-centre_) * motion_[column];
+  }
+
+  const std::vector<PointCloud>& columns_;
+  std::vector<std::unique_ptr<PointTree>> trees_;
+  std::vector<Isometry3d> motion_;
+  Vector3d centre_;
+  std::vector<Pair> pairs_;
+};
+
+void check(const char* name, double value, double low, double high) {
+  if (value >= low && value <= high) return;  // false for NaN
+  throw geometry::Refusal(
+      geometry::refusal::kBadOption,
+      fmt::format("registration option '{}' is {}; it must lie in [{}, {}]", name, value, low, high));
+}
+
+}  // namespace
+
+std::string to_string(RegistrationStatus status) {
+  switch (status) {
+    case RegistrationStatus::refined:
+      return "refined";
+    case RegistrationStatus::no_overlap:
+      return "no_overlap";
+    case RegistrationStatus::not_better:
+      return "not_better";
+    case RegistrationStatus::too_far:
+      return "too_far";
+  }
+  return "";
+}
+
+Registration register_columns(const std::vector<PointCloud>& columns, const RegistrationOptions& options) {
+  check("max_shift", options.max_shift, 0, 0.05);
+  check("max_turn", options.max_turn, 0, 0.1);
+  Registration result;
+  result.corrections.assign(columns.size(), Isometry3d::Identity());
+  Columns moving(columns);
+  if (!moving.overlap()) return result;
+  result.residual_before = result.residual_after = moving.residual();
+  for (int step = 0; step < kSteps; ++step)
+    if (moving.step() < kStill) break;
+  const double residual = moving.residual();
+  bool near = true;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const Vector6d motion = moving.motion_of(c);
+    near =
+        near && motion.head<3>().norm() <= options.max_turn && motion.tail<3>().norm() <= options.max_shift;
+  }
+  if (!near) {
+    result.status = RegistrationStatus::too_far;
+  } else if (!(residual < kNoticeable * result.residual_before)) {
+    result.status = RegistrationStatus::not_better;
+  } else {
+    result.status = RegistrationStatus::refined;
+    result.residual_after = residual;
+    result.corrections = moving.motions();
+  }
+  return result;
+}
+
+}  // namespace tensegric_fit::assembler

@@ -1,0 +1,77 @@
+/// What a booth and its chain publish -> feedback and result of the action `capture`
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <tensegric_fit/CaptureFeedback.h>
+#include <tensegric_fit/CaptureGoal.h>
+#include <tensegric_fit/CaptureResult.h>
+#include <tensegric_fit/DeformedMesh.h>
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "capture/capture_watch.hpp"
+#include "ros/parameters.hpp"
+
+namespace tensegric_fit::node {
+
+/// One goal at a time. Times are seconds of any steady clock. For one thread.
+class CaptureHandler {
+ public:
+  /// `name_space`: of the booth. \throw Refusal bad_option
+  CaptureHandler(Parameters parameters, std::string name_space);
+
+  /// Service that makes the booth scan; empty where it scans by itself.
+  const std::string& trigger() const { return setup_.trigger; }
+
+  /// In the place of the goal at hand. Where there is a trigger, no scan counts until it was pulled.
+  void begin(const CaptureGoal& goal, double now);
+  void stop() { watch_.reset(); }
+  bool is_busy() const { return watch_ != nullptr; }
+
+  double begun() const { return begun_; }
+  bool waits_for_trigger() const { return is_busy() && !armed_; }
+  /// A scan with an older stamp (ns) is another customer's.
+  void pulled(std::uint64_t stamp);
+
+  void add(const std::string& sensor, const sensor_msgs::PointCloud2& cloud);
+  void add(const sensor_msgs::PointCloud2& scan);
+  void add(const Landmarks::ConstPtr& landmarks);
+  void add(const DeformedMesh& deformed);
+  void add(const diagnostic_msgs::DiagnosticArray& message, double now);
+
+  // \pre is_busy()
+
+  CaptureFeedback feedback(double now);
+  /// Nothing while the goal is under way; it ends with its result.
+  std::optional<CaptureResult> result(double now);
+  /// It ends here.
+  CaptureResult refused(const std::string& code, const std::string& message);
+
+ private:
+  struct Setup {
+    double timeout = 60, slop = 0.2;  ///< s
+    std::string trigger;
+  };
+  static Setup setup_from(Parameters& parameters);
+  void watch(std::uint64_t not_before);
+
+  const Setup setup_;
+  const std::string name_space_;
+  capture::StageBoard board_;
+  std::deque<std::string> seen_;  // scans
+
+  // of the goal at hand
+  CaptureGoal goal_;
+  double begun_ = 0;
+  bool armed_ = false;                                    // the trigger was pulled, or there is none
+  std::unique_ptr<capture::CaptureWatch> watch_;          // null: no goal
+  std::map<std::string, Landmarks::ConstPtr> landmarks_;  // by scan
+  std::map<std::string, std::string> fit_status_;         // by scan
+};
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,118 @@
+/// capture: the action that a shop's programs call for each customer.
+#include <actionlib/server/simple_action_server.h>
+#include <tensegric_fit/CaptureAction.h>
+
+#include <map>
+
+#include "capture/booth_trigger.hpp"
+#include "capture/capture_handler.hpp"
+#include "geometry/status.hpp"
+#include "ros/run_node.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+using sensor_msgs::PointCloud2;
+
+constexpr double kLatched = 1;     // s until a node that starts has heard what was there before
+constexpr double kConnecting = 2;  // s that sensors may take to be connected to before the trigger is pulled
+constexpr double kTick = 0.1;      // s
+
+double now() {
+  return ros::SteadyTime::now().toSec();
+}
+
+class CaptureNode {
+ public:
+  CaptureNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
+      : node_(node),
+        handler_(Parameters(private_node), node.getNamespace()),
+        trigger_(node, handler_.trigger()),
+        server_(node, "capture", false) {
+    subscribers_ = {node.subscribe("scan/points", 4, &CaptureNode::on_scan, this),
+                    node.subscribe("body/landmarks", 4, &CaptureNode::on_landmarks, this),
+                    node.subscribe("/diagnostics", 100, &CaptureNode::on_diagnostics, this)};
+    server_.registerGoalCallback([this] { on_goal(); });
+    server_.registerPreemptCallback([this] { on_preempt(); });
+    clock_ = node.createWallTimer(ros::WallDuration(kTick), [this](const ros::WallTimerEvent&) { go_on(); });
+    const auto open = [this](const ros::WallTimerEvent&) { server_.start(); };
+    opening_ = node.createWallTimer(ros::WallDuration(kLatched), open, true);
+  }
+
+ private:
+  void on_goal() {
+    goal_ = server_.acceptNewGoal();
+    handler_.begin(*goal_, now());
+    for (const std::string& sensor : goal_->sensors) listen_to(sensor);
+    deformed_ = goal_->with_fit ? node_.subscribe("body/deformed", 4, &CaptureNode::on_deformed, this)
+                                : ros::Subscriber();
+  }
+
+  void on_preempt() {
+    handler_.stop();
+    if (!server_.isNewGoalAvailable()) server_.setPreempted();  // else the new goal takes its place
+  }
+
+  /// For good: later goals may come faster than sensors can be connected to.
+  void listen_to(const std::string& sensor) {
+    if (sensors_.count(sensor) != 0) return;
+    const boost::function<void(const PointCloud2::ConstPtr&)> on_cloud =
+        [this, sensor](const PointCloud2::ConstPtr& cloud) { handler_.add(sensor, *cloud); };
+    sensors_[sensor] = node_.subscribe<PointCloud2>(sensor, 4, on_cloud);
+  }
+
+  void on_scan(const PointCloud2::ConstPtr& scan) { handler_.add(*scan); }
+  void on_landmarks(const Landmarks::ConstPtr& landmarks) { handler_.add(landmarks); }
+  void on_deformed(const DeformedMesh::ConstPtr& deformed) { handler_.add(*deformed); }
+  void on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
+    handler_.add(*message, now());
+  }
+
+  void pull_trigger() {
+    for (const std::string& sensor : goal_->sensors)
+      if (sensors_[sensor].getNumPublishers() == 0 && now() - handler_.begun() < kConnecting) return;
+    const std::uint64_t stamp = ros::Time::now().toNSec();
+    if (trigger_.pull()) handler_.pulled(stamp);  // else an earlier customer's is still held
+  }
+
+  void go_on() {
+    const std::string complaint = trigger_.complaint();
+    if (!handler_.is_busy()) return;
+    if (handler_.waits_for_trigger()) pull_trigger();
+    if (!handler_.waits_for_trigger() && !complaint.empty())
+      finish(handler_.refused(geometry::refusal::kTriggerFailed, complaint));
+    else if (const auto result = handler_.result(now()))
+      finish(*result);
+    else
+      server_.publishFeedback(handler_.feedback(now()));
+  }
+
+  void finish(const CaptureResult& result) {
+    deformed_.shutdown();
+    ROS_INFO("capture: scan %s: %s %s", result.scan_id.c_str(),
+             result.measured ? "measured" : result.code.c_str(), result.message.c_str());
+    if (result.measured)
+      server_.setSucceeded(result);
+    else
+      server_.setAborted(result, result.code + ": " + result.message);
+  }
+
+  using Server = actionlib::SimpleActionServer<CaptureAction>;
+
+  ros::NodeHandle node_;
+  CaptureHandler handler_;
+  std::map<std::string, ros::Subscriber> sensors_;
+  ros::Subscriber deformed_;
+  std::vector<ros::Subscriber> subscribers_;
+  BoothTrigger trigger_;
+  Server server_;
+  Server::GoalConstPtr goal_;
+  ros::WallTimer clock_, opening_;
+};
+
+}  // namespace
+}  // namespace tensegric_fit::node
+
+int main(int argc, char** argv) {
+  return tensegric_fit::node::run_node<tensegric_fit::node::CaptureNode>(argc, argv, "capture");
+}

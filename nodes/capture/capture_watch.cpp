@@ -1,0 +1,150 @@
+#include "capture/capture_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::capture {
+namespace {
+
+/// The chain, in its order: how much of the whole is over when a stage begins, and what it takes on two
+/// cores, s.
+struct Step {
+  const char* stage;
+  double begin, seconds;
+};
+constexpr Step kSensors{"sensors", 0, 0}, kAssembler{"assembler", 0.1, 1};
+constexpr Step kChain[] = {{"reconstruction", 0.25, 3},
+                           {"landmarks", 0.75, 0.5},
+                           {"control_mesh", 0.85, 0.5},
+                           {"tensegric", 0.9, 0.1},
+                           {"tffd", 0.95, 0.2}};
+constexpr int kMeasuring = 2, kAll = 5;  // stages of the chain
+
+std::uint64_t gap(std::uint64_t a, std::uint64_t b) {
+  return a > b ? a - b : b - a;
+}
+
+}  // namespace
+
+CaptureWatch::CaptureWatch(CaptureGoal goal, const StageBoard& board, double slop, double now)
+    : goal_(std::move(goal)),
+      board_(board),
+      slop_(static_cast<std::uint64_t>(std::llround(1e9 * slop))),
+      start_(now) {}
+
+void CaptureWatch::add_cloud(const std::string& sensor, std::uint64_t stamp) {
+  if (stamp >= goal_.not_before) clouds_[sensor].push_back(stamp);
+}
+
+void CaptureWatch::add_scan(const std::string& scan_id, std::uint64_t stamp) {
+  if (stamp < goal_.not_before || scan_id == scan_id_ || refused_) return;
+  if (!scan_id_.empty()) {
+    if (!is_complete())
+      refused_ = CaptureEnd{geometry::refusal::kSuperseded,
+                            fmt::format("scan {} came before scan {} was through", scan_id, scan_id_)};
+    return;
+  }
+  scan_id_ = scan_id;
+  stamp_ = stamp;
+}
+
+void CaptureWatch::add_refusal(const std::string& stage, const StageReport& report) {
+  const bool of_chain = std::any_of(std::begin(kChain), std::end(kChain),
+                                    [&](const Step& step) { return stage == step.stage; });
+  if (scan_id_.empty() && !of_chain && !refused_) refused_ = CaptureEnd{report.code, report.message};
+}
+
+std::vector<std::string> CaptureWatch::missing() const {
+  std::vector<std::string> names;
+  for (const std::string& sensor : goal_.sensors) {
+    const auto clouds = clouds_.find(sensor);
+    const bool came =
+        clouds != clouds_.end() &&
+        (scan_id_.empty() || std::any_of(clouds->second.begin(), clouds->second.end(),
+                                         [&](std::uint64_t stamp) { return gap(stamp, stamp_) <= slop_; }));
+    if (!came) names.push_back(sensor);
+  }
+  return names;
+}
+
+bool CaptureWatch::is_complete() const {
+  return measured_.count(scan_id_) != 0 && (!goal_.with_fit || fitted_.count(scan_id_) != 0);
+}
+
+std::string CaptureWatch::stage() const {
+  if (scan_id_.empty()) return missing().empty() && !clouds_.empty() ? kAssembler.stage : kSensors.stage;
+  const int last = (goal_.with_fit ? kAll : kMeasuring) - 1;
+  for (int i = 0; i < last; ++i) {
+    const StageReport* report = board_.find(kChain[i].stage);
+    if (report == nullptr || report->scan_id != scan_id_ || report->state != "done") return kChain[i].stage;
+  }
+  return kChain[last].stage;
+}
+
+std::string CaptureWatch::waiting_for(double now) const {
+  const std::vector<std::string> names = missing();
+  std::string words;
+  if (!names.empty())
+    words = fmt::format("waiting for {}", fmt::join(names, ", "));
+  else if (scan_id_.empty())
+    words = "waiting for a scan on scan/points";
+  else
+    words = fmt::format("scan {}: waiting for {}{}", scan_id_, stage(),
+                        board_.find(stage()) == nullptr ? ", which never reported: is it running?" : "");
+  const std::string trouble = board_.trouble(now);
+  return trouble.empty() ? words : words + " (" + trouble + ")";
+}
+
+CaptureProgress CaptureWatch::progress(double now) {
+  const std::string at = stage();
+  Step step = at == kSensors.stage ? kSensors : kAssembler;
+  double end = at == kSensors.stage ? kAssembler.begin : kChain[0].begin;
+  for (int i = 0; i < kAll; ++i) {
+    if (at != kChain[i].stage) continue;
+    step = kChain[i];
+    end = i + 1 < kAll ? kChain[i + 1].begin : 1;
+  }
+  double within = 0;  // share of the step
+  if (step.seconds > 0)
+    within = 1 - std::exp(-board_.working_seconds(at, now) / step.seconds);
+  else if (!goal_.sensors.empty())
+    within = 1 - static_cast<double>(missing().size()) / static_cast<double>(goal_.sensors.size());
+  const double all = goal_.with_fit ? 1 : kChain[kMeasuring].begin;
+  const double share = is_complete() ? 1 : std::min(1.0, (step.begin + within * (end - step.begin)) / all);
+  share_ = std::max(share_, share);
+  return {at, share_, waiting_for(now), missing()};
+}
+
+std::string CaptureWatch::warnings() const {
+  std::string words;
+  for (const char* name : {"assembler", "reconstruction", "landmarks", "control_mesh"}) {
+    const StageReport* report = board_.find(name);
+    if (report != nullptr && report->scan_id == scan_id_ && !report->warning.empty())
+      words += (words.empty() ? "" : "; ") + report->warning;
+  }
+  return words;
+}
+
+std::optional<CaptureEnd> CaptureWatch::end(double now) const {
+  if (refused_) return refused_;
+  if (!scan_id_.empty()) {
+    for (int i = 0; i < (goal_.with_fit ? kAll : kMeasuring); ++i) {
+      const StageReport* report = board_.find(kChain[i].stage);
+      if (report != nullptr && report->refused() && report->scan_id == scan_id_)
+        return CaptureEnd{report->code, report->message};
+    }
+    if (is_complete() && missing().empty()) return CaptureEnd{"", warnings()};
+    if (is_complete())
+      return CaptureEnd{geometry::refusal::kMissingSensor,
+                        fmt::format("scan {} is without {}", scan_id_, fmt::join(missing(), ", "))};
+  }
+  if (now - start_ < goal_.timeout) return std::nullopt;
+  return CaptureEnd{missing().empty() ? geometry::refusal::kTimedOut : geometry::refusal::kMissingSensor,
+                    fmt::format("{:g} s were not enough: {}", goal_.timeout, waiting_for(now))};
+}
+
+}  // namespace tensegric_fit::capture

@@ -1,0 +1,73 @@
+/// Follows one capture from its sensors to its measurements.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "capture/stage_board.hpp"
+
+namespace tensegric_fit::capture {
+
+struct CaptureGoal {
+  std::vector<std::string> sensors;  ///< that must take part; empty: any
+  double timeout;                    ///< s
+  bool with_fit = false;             ///< ends with the garment on, not with the measurements
+  std::uint64_t not_before = 0;      ///< ns; a scan with an older stamp is another's
+};
+
+/// How far a capture has come.
+struct CaptureProgress {
+  std::string stage;
+  double share;         ///< 0 to 1
+  std::string message;  ///< for people
+  std::vector<std::string> missing;
+};
+
+/// How it ended; an empty code: well.
+struct CaptureEnd {
+  std::string code, message;
+};
+
+/// Takes the first scan that comes, and nothing of another. Times are seconds of any steady clock. For one
+/// thread.
+class CaptureWatch {
+ public:
+  /// `board` must outlive it. `slop`: s between a scan's stamp and those of its clouds.
+  CaptureWatch(CaptureGoal goal, const StageBoard& board, double slop, double now);
+
+  void add_cloud(const std::string& sensor, std::uint64_t stamp);
+  void add_scan(const std::string& scan_id, std::uint64_t stamp);
+  void add_landmarks(const std::string& scan_id) { measured_.insert(scan_id); }
+  void add_fit(const std::string& scan_id) { fitted_.insert(scan_id); }
+  /// A stage has just said no, StageBoard::report.
+  void add_refusal(const std::string& stage, const StageReport& report);
+
+  const std::string& scan_id() const { return scan_id_; }
+  CaptureProgress progress(double now);
+  /// Nothing while it is under way.
+  std::optional<CaptureEnd> end(double now) const;
+
+ private:
+  std::vector<std::string> missing() const;
+  std::string stage() const;
+  std::string waiting_for(double now) const;
+  bool is_complete() const;
+  std::string warnings() const;
+
+  const CaptureGoal goal_;
+  const StageBoard& board_;
+  const std::uint64_t slop_;
+  const double start_;
+  std::map<std::string, std::vector<std::uint64_t>> clouds_;  // stamps, by sensor
+  std::string scan_id_;
+  std::uint64_t stamp_ = 0;                  // of the scan
+  std::set<std::string> measured_, fitted_;  // scans; a message may overtake its scan
+  std::optional<CaptureEnd> refused_;
+  double share_ = 0;
+};
+
+}  // namespace tensegric_fit::capture

@@ -1,0 +1,43 @@
+#include "capture/stage_board.hpp"
+
+#include <fmt/format.h>
+
+namespace tensegric_fit::capture {
+
+bool StageBoard::report(const std::string& stage, const StageReport& report, double now) {
+  const StageReport* last = find(stage);
+  const bool again = last != nullptr && last->refused() && last->scan_id == report.scan_id &&
+                     last->code == report.code && last->message == report.message;
+  stages_[stage] = {report, now};
+  return report.refused() && !again;
+}
+
+const StageReport* StageBoard::find(const std::string& stage) const {
+  const auto heard = stages_.find(stage);
+  return heard == stages_.end() ? nullptr : &heard->second.report;
+}
+
+bool StageBoard::is_silent(const std::string& stage, double now) const {
+  const auto heard = stages_.find(stage);
+  return heard == stages_.end() || now - heard->second.at > kSilent;
+}
+
+double StageBoard::working_seconds(const std::string& stage, double now) const {
+  const auto heard = stages_.find(stage);
+  if (heard == stages_.end() || heard->second.report.state != "working") return 0;
+  return heard->second.report.working_seconds + now - heard->second.at;
+}
+
+std::string StageBoard::trouble(double now) const {
+  std::string words;
+  for (const auto& [stage, heard] : stages_) {
+    const double silent = now - heard.at, working = working_seconds(stage, now);
+    if (silent > kSilent)
+      words += fmt::format("{}{} is dead: silent for {:.0f} s", words.empty() ? "" : "; ", stage, silent);
+    else if (working > kSlow)
+      words += fmt::format("{}{} is slow: working for {:.0f} s", words.empty() ? "" : "; ", stage, working);
+  }
+  return words;
+}
+
+}  // namespace tensegric_fit::capture

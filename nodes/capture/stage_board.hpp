@@ -1,0 +1,48 @@
+/// What the stages of a chain said last: which of them are slow, and which are dead.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace tensegric_fit::capture {
+
+/// One report of a stage on /diagnostics.
+struct StageReport {
+  std::string state;           ///< waiting, working, done, superseded, refused, failed
+  std::string scan_id;         ///< that the state is about
+  std::string code, message;   ///< of the last error
+  std::string warning;         ///< where it is done, but not as it should be
+  double working_seconds = 0;  ///< on the work at hand
+
+  /// Whether it said no to that scan.
+  bool refused() const { return state == "refused" || state == "failed"; }
+};
+
+/// Stages report once a second, whatever they do. Times are seconds of any steady clock.
+class StageBoard {
+ public:
+  static constexpr double kSilent = 3.5;  ///< s without a report: dead
+  static constexpr double kSlow = 10;     ///< s on one piece of work
+
+  /// True where the stage has just said no to something: not for a report that says so again.
+  bool report(const std::string& stage, const StageReport& report, double now);
+
+  /// Null where the stage never said anything.
+  const StageReport* find(const std::string& stage) const;
+  bool is_silent(const std::string& stage, double now) const;
+
+  /// For how long it has been at the work at hand, s; 0 where it is at none.
+  double working_seconds(const std::string& stage, double now) const;
+
+  /// Sentences about stages that are slow, and that were heard and are silent now; empty where all is well.
+  std::string trouble(double now) const;
+
+ private:
+  struct Heard {
+    StageReport report;
+    double at;
+  };
+  std::map<std::string, Heard> stages_;
+};
+
+}  // namespace tensegric_fit::capture

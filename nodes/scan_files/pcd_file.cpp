@@ -1,0 +1,117 @@
+#include "scan_files/pcd_file.hpp"
+
+#include <pcl/console/print.h>
+#include <pcl/io/pcd_io.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <vector>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::scan_files {
+namespace {
+
+using geometry::Refusal;
+namespace refusal = geometry::refusal;
+
+struct Header {
+  std::vector<std::uint64_t> sizes, counts;
+  std::uint64_t width = 0, height = 1, points = 0;
+  bool has_points = false;
+  std::string data;
+};
+
+std::vector<std::uint64_t> numbers(std::istringstream& words) {
+  std::vector<std::uint64_t> result;
+  for (std::int64_t value; words >> value;) {
+    // Above 2^31 no product below can be meant.
+    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+    result.push_back(value < 0 || value > most ? most : value);
+  }
+  return result;
+}
+
+Header read_header(std::istream& file, const std::string& path) {
+  Header header;
+  std::string line;
+  constexpr int kHeaderLines = 1000;
+  for (int i = 0; i < kHeaderLines && std::getline(file, line); ++i) {
+    std::istringstream words(line);
+    std::string key;
+    words >> key;
+    if (key == "DATA") {
+      words >> header.data;
+      return header;
+    }
+    if (key == "SIZE") header.sizes = numbers(words);
+    if (key == "COUNT") header.counts = numbers(words);
+    if (key != "WIDTH" && key != "HEIGHT" && key != "POINTS") continue;
+    const std::vector<std::uint64_t> value = numbers(words);
+    if (value.size() != 1) break;
+    if (key == "WIDTH") header.width = value[0];
+    if (key == "HEIGHT") header.height = value[0];
+    if (key == "POINTS") header.points = value[0], header.has_points = true;
+  }
+  throw Refusal(refusal::kBrokenFile, path + ": has no whole PCD header");
+}
+
+// The header must not promise more points than the bytes after it can hold.
+void check_header(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || !std::filesystem::is_regular_file(path))
+    throw Refusal(refusal::kBrokenFile, path + ": is not there, or cannot be read");
+  Header header = read_header(file, path);
+  const std::uint64_t rest = std::filesystem::file_size(path) - static_cast<std::uint64_t>(file.tellg());
+  const Refusal shorter(refusal::kBrokenFile, path + ": is shorter than its header says");
+
+  if (header.sizes.empty()) throw Refusal(refusal::kBrokenFile, path + ": its PCD header names no fields");
+  if (header.counts.empty()) header.counts.assign(header.sizes.size(), 1);
+  if (header.counts.size() != header.sizes.size())
+    throw Refusal(refusal::kBrokenFile,
+                  path + ": its PCD header has unlike numbers of SIZE and COUNT entries");
+  std::uint64_t step = 0, values = 0;
+  for (std::size_t f = 0; f < header.sizes.size(); ++f) {
+    constexpr std::uint64_t kLargestField = 1 << 20;
+    if (header.sizes[f] > 8 || header.counts[f] > kLargestField) throw shorter;
+    step += header.sizes[f] * header.counts[f];
+    values += header.counts[f];
+  }
+  const std::uint64_t points = header.width * header.height;
+  if (header.has_points && header.points != points)
+    throw Refusal(refusal::kBrokenFile, path + ": POINTS is not WIDTH times HEIGHT");
+  if (points > rest * 100) throw shorter;  // keeps the products below in range
+  if (header.data == "binary") {
+    if (points * step > rest) throw shorter;
+  } else if (header.data == "binary_compressed") {
+    std::uint32_t sizes[2] = {0, 0};              // compressed, uncompressed
+    constexpr std::uint64_t kLargestRatio = 100;  // LZF makes at most 264 bytes of 3
+    if (!file.read(reinterpret_cast<char*>(sizes), sizeof sizes) || sizes[0] > rest - sizeof sizes ||
+        sizes[1] != points * step || sizes[1] > kLargestRatio * sizes[0])
+      throw shorter;
+  } else if (header.data == "ascii") {
+    if (points * values * 2 > rest + 1) throw shorter;  // a digit and a separator each
+  } else {
+    throw Refusal(refusal::kBrokenFile, path + ": PCD data of the unknown kind '" + header.data + "'");
+  }
+}
+
+}  // namespace
+
+pcl::PCLPointCloud2 read_pcd(const std::string& path) {
+  check_header(path);
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // what it would print is in the refusal
+  pcl::PCLPointCloud2 cloud;
+  int result = -1;
+  try {
+    result = pcl::PCDReader().read(path, cloud);
+  } catch (const std::exception&) {
+  }
+  if (result < 0) throw Refusal(refusal::kBrokenFile, path + ": is truncated or is not a PCD file");
+  return cloud;
+}
+
+}  // namespace tensegric_fit::scan_files

@@ -1,0 +1,72 @@
+#include "scan_files/scan_folder.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "geometry/status.hpp"
+#include "scan_files/scan_file.hpp"
+
+namespace tensegric_fit::scan_files {
+
+namespace fs = std::filesystem;
+
+std::map<std::string, ScanFolder::Version> ScanFolder::look() const {
+  std::map<std::string, Version> found;
+  try {
+    for (const fs::directory_entry& entry : fs::directory_iterator(path_)) {
+      const std::string name = entry.path().filename().string();
+      if (name.front() == '.' || !is_scan_name(name)) continue;
+      std::error_code gone;  // meanwhile: not a scan
+      const bool regular = entry.is_regular_file(gone);
+      const std::uintmax_t size = entry.file_size(gone);
+      const fs::file_time_type changed = entry.last_write_time(gone);
+      if (regular && !gone) found[name] = {changed.time_since_epoch().count(), size};
+    }
+  } catch (const fs::filesystem_error& error) {
+    throw geometry::Refusal(geometry::refusal::kBrokenFile,
+                            path_ + ": the folder cannot be read: " + error.code().message());
+  }
+  return found;
+}
+
+std::vector<std::string> ScanFolder::poll(double now) {
+  const std::map<std::string, Version> found = look();
+  for (auto file = files_.begin(); file != files_.end();)
+    file = found.count(file->first) == 0 ? files_.erase(file) : std::next(file);
+  std::vector<std::pair<std::int64_t, std::string>> complete;
+  for (const auto& [name, version] : found) {
+    const auto [file, is_new] = files_.try_emplace(name, File{version, now, false});
+    if (!is_new && !(file->second.version == version)) file->second = {version, now, false};
+    if (file->second.played || now - file->second.since < settle_) continue;
+    file->second.played = true;
+    complete.emplace_back(version.changed, name);
+  }
+  std::sort(complete.begin(), complete.end());
+  std::vector<std::string> paths;
+  for (const auto& [changed, name] : complete) paths.push_back((fs::path(path_) / name).string());
+  return paths;
+}
+
+void ScanFolder::skip_all() {
+  for (const auto& [name, version] : look()) files_[name] = {version, 0, true};
+}
+
+std::string ScanFolder::text_of(const std::string& name, const Version& version) {
+  return std::to_string(version.changed) + " " + std::to_string(version.size) + " " + name;
+}
+
+std::vector<std::string> ScanFolder::played() const {
+  std::vector<std::string> texts;
+  for (const auto& [name, file] : files_)
+    if (file.played) texts.push_back(text_of(name, file.version));
+  return texts;
+}
+
+void ScanFolder::skip(const std::vector<std::string>& played) {
+  const std::set<std::string> texts(played.begin(), played.end());
+  for (const auto& [name, version] : look())
+    if (texts.count(text_of(name, version)) != 0) files_[name] = {version, 0, true};
+}
+
+}  // namespace tensegric_fit::scan_files

@@ -1,0 +1,50 @@
+/// A folder into which a booth writes its scans.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tensegric_fit::scan_files {
+
+/// Finds new scan files (.ply, .pcd, .bag; not those whose name begins with a dot) once they are complete:
+/// when neither size nor time of change have moved for a while. A file that is written again is a new one.
+/// For one thread.
+class ScanFolder {
+ public:
+  /// `settle`: seconds for which a complete file has been still.
+  ScanFolder(std::string path, double settle) : path_(std::move(path)), settle_(settle) {}
+
+  /// Paths of those that became complete, in the order in which they were written; each once. `now` is in
+  /// seconds of any steady clock. \throw Refusal broken_file: the folder cannot be read now
+  std::vector<std::string> poll(double now);
+
+  /// Leaves out what lies there now. \throw Refusal as poll()
+  void skip_all();
+
+  /// Texts that stand for the files returned so far and still there; and, for one that goes on where another
+  /// ended, to leave those out.
+  std::vector<std::string> played() const;
+  void skip(const std::vector<std::string>& played);
+
+ private:
+  struct Version {
+    std::int64_t changed;  // ns, of the file system's clock
+    std::uintmax_t size;
+    bool operator==(const Version& other) const { return changed == other.changed && size == other.size; }
+  };
+  struct File {
+    Version version;
+    double since;  // when it was first seen so
+    bool played;
+  };
+  std::map<std::string, Version> look() const;
+  static std::string text_of(const std::string& name, const Version& version);
+
+  const std::string path_;
+  const double settle_;
+  std::map<std::string, File> files_;  // by name
+};
+
+}  // namespace tensegric_fit::scan_files

@@ -1,0 +1,101 @@
+/// simulated_booth: customers drawn at random, as a booth of twelve sensors sees them. For trying everything
+/// without a booth.
+#include <fmt/format.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "ros/parameters.hpp"
+#include "ros/run_node.hpp"
+#include "virtual_booth/random_body.hpp"
+#include "virtual_booth/sensor_messages.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+constexpr int kSensors = 12;  // four columns of three, as launch/config/booth.yaml lists them
+
+struct Setup {
+  virtual_booth::Family family;
+  int first, customers, points, silent;
+  double interval;
+  std::string frame_id, sensor_frames;
+};
+
+Setup setup_from(Parameters parameters) {
+  Setup setup;
+  setup.family = virtual_booth::family_named(
+      parameters.choice("family", virtual_booth::families().front(), virtual_booth::families()));
+  setup.first = parameters.integer("first_customer", 1, 0, 1000000);
+  setup.customers = parameters.integer("customers", 3, 0, 1000000);
+  setup.points = parameters.integer("points", 180000, 20000, 2000000);
+  setup.silent = parameters.integer("silent_sensor", -1, -1, kSensors - 1);
+  setup.interval = parameters.number("interval", 15, 0, 86400);
+  setup.frame_id = parameters.frame("frame_id", "booth");
+  setup.sensor_frames = parameters.frame("sensor_frames", "sensor_");
+  parameters.check_all_known();
+  return setup;
+}
+
+class SimulatedBooth {
+ public:
+  SimulatedBooth(ros::NodeHandle node, const ros::NodeHandle& private_node)
+      : setup_(setup_from(Parameters(private_node))),
+        next_(setup_.first),
+        poses_(node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true)),
+        service_(node.advertiseService("scan", &SimulatedBooth::on_scan, this)) {
+    // latched: an assembler that is started again finds the capture that it was at
+    for (int sensor = 0; sensor < kSensors; ++sensor)
+      sensors_.push_back(
+          node.advertise<sensor_msgs::PointCloud2>(fmt::format("sensors/{}/points", sensor), 1, true));
+    clock_ = node.createWallTimer(ros::WallDuration(0.2), [this](const ros::WallTimerEvent&) { go_on(); });
+  }
+
+ private:
+  void go_on() {
+    const double now = ros::SteadyTime::now().toSec();
+    if (next_ >= setup_.first + setup_.customers || now < due_ || sensors_.back().getNumSubscribers() == 0)
+      return;
+    due_ = now + setup_.interval;
+    scan(next_++);
+  }
+
+  bool on_scan(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    response.message = fmt::format("scanned customer {}", next_);
+    scan(next_++);
+    response.success = true;
+    return true;
+  }
+
+  void scan(int customer) {
+    virtual_booth::ScannerOptions scanner;
+    scanner.seed = customer;
+    scanner.points = setup_.points;
+    const virtual_body::VirtualBody body = virtual_booth::random_customer(setup_.family, customer);
+    const std::vector<virtual_booth::SensorScan> scans =
+        virtual_booth::by_sensor(virtual_booth::scan_body(body.mesh, scanner));
+    const ros::Time stamp = ros::Time::now();
+    poses_.publish(virtual_booth::sensor_poses(scans, setup_.frame_id, setup_.sensor_frames, stamp));
+    for (int sensor = 0; sensor < kSensors; ++sensor)
+      if (sensor != setup_.silent)
+        sensors_[sensor].publish(virtual_booth::sensor_cloud(scans[sensor],
+                                                             setup_.sensor_frames + std::to_string(sensor),
+                                                             stamp + ros::Duration(0.001 * sensor)));
+    ROS_INFO("simulated_booth: scanned customer %d", customer);
+  }
+
+  const Setup setup_;
+  int next_;        // customer
+  double due_ = 0;  // when she comes, seconds of the steady clock
+  ros::Publisher poses_;
+  std::vector<ros::Publisher> sensors_;
+  ros::ServiceServer service_;
+  ros::WallTimer clock_;
+};
+
+}  // namespace
+}  // namespace tensegric_fit::node
+
+int main(int argc, char** argv) {
+  return tensegric_fit::node::run_node<tensegric_fit::node::SimulatedBooth>(argc, argv, "simulated_booth");
+}

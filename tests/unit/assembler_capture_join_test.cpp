@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include "assembler/capture_join.hpp"
+#include "geometry/status.hpp"
+
+namespace {
+
+using namespace tensegric_fit;
+using assembler::Capture;
+using assembler::CaptureJoin;
+using Fate = CaptureJoin::Fate;
+
+constexpr std::uint64_t kSecond = 1000000000, kStart = 1700000000 * kSecond;
+
+/// The stamp is `at` seconds after the start.
+std::shared_ptr<const assembler::SensorCloud> cloud(double at, const std::string& frame_id = "") {
+  const auto stamp = kStart + static_cast<std::uint64_t>(std::llround(1e9 * at));
+  return std::make_shared<const assembler::SensorCloud>(assembler::SensorCloud{stamp, frame_id, {}});
+}
+
+TEST(CaptureJoinTest, ACaptureLeavesOnceWithTheCloudsOfAllSensors) {
+  CaptureJoin join(3, {0.1, 2.0});
+  EXPECT_EQ(join.add(2, cloud(0.05), 0), Fate::taken);
+  EXPECT_EQ(join.add(0, cloud(0.00), 0.1), Fate::taken);
+  EXPECT_FALSE(join.next(0.1));
+  EXPECT_EQ(join.add(1, cloud(0.10), 0.2), Fate::taken);
+  const std::optional<Capture> capture = join.next(0.2);
+  ASSERT_TRUE(capture);
+  EXPECT_TRUE(capture->missing().empty());
+  EXPECT_EQ(capture->first, kStart);
+  EXPECT_EQ(capture->last, kStart + kSecond / 10);
+  EXPECT_EQ(capture->clouds[2]->stamp, kStart + kSecond / 20);
+  EXPECT_FALSE(join.next(100));
+}
+
+TEST(CaptureJoinTest, AMissingSensorIsNamedWhenTheTimeIsUp) {
+  CaptureJoin join(3, {0.1, 2.0});
+  join.add(0, cloud(0), 10);
+  join.add(2, cloud(0), 11);
+  EXPECT_FALSE(join.next(11.99));
+  const std::optional<Capture> capture = join.next(12);
+  ASSERT_TRUE(capture);
+  EXPECT_EQ(capture->missing(), std::vector<int>{1});
+  EXPECT_EQ(join.add(1, cloud(0.01), 12.5), Fate::late);
+  EXPECT_FALSE(join.next(100));
+}
+
+TEST(CaptureJoinTest, CloudsOfTwoCapturesThatCrossEachOtherAreNotMixed) {
+  CaptureJoin join(2, {0.1, 2.0});
+  join.add(0, cloud(0), 0);
+  join.add(0, cloud(1), 0);  // of the second capture, before the first one is complete
+  join.add(1, cloud(1), 0);
+  const std::optional<Capture> first = join.next(0), second = join.next(0);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->missing(), std::vector<int>{1});  // overtaken
+  EXPECT_TRUE(second->missing().empty());
+  EXPECT_EQ(second->first, kStart + kSecond);
+  EXPECT_EQ(join.add(1, cloud(0.02), 0.1), Fate::late);
+  EXPECT_FALSE(join.next(100));
+}
+
+TEST(CaptureJoinTest, ASensorThatFiresTwiceWithinTheSlopBeginsAnotherCapture) {
+  CaptureJoin join(2, {0.5, 2.0});
+  join.add(0, cloud(0), 0);
+  EXPECT_EQ(join.add(0, cloud(0), 0), Fate::repeated);
+  EXPECT_EQ(join.add(0, cloud(0.3), 0), Fate::taken);
+  join.add(1, cloud(0.31), 0);  // nearer to the second one
+  join.add(1, cloud(0.01), 0);
+  const std::optional<Capture> first = join.next(0), second = join.next(0);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->last, kStart + kSecond / 100);
+  EXPECT_EQ(second->first, kStart + 3 * kSecond / 10);
+  EXPECT_EQ(join.add(1, cloud(0.31), 0), Fate::repeated);
+}
+
+TEST(CaptureJoinTest, ARecordingThatStartsOverIsTakenAgain) {
+  CaptureJoin join(2, {0.1, 2.0});
+  for (const double at : {0.0, 100.0, 0.0}) {
+    EXPECT_EQ(join.add(0, cloud(at), 0), Fate::taken) << at;
+    EXPECT_EQ(join.add(1, cloud(at), 0), Fate::taken) << at;
+    EXPECT_TRUE(join.next(0)) << at;
+  }
+}
+
+TEST(CaptureJoinTest, MemoryIsBoundedWhereNoCaptureIsEverComplete) {
+  CaptureJoin join(2, {0.1, 600});
+  int left = 0;
+  for (int i = 0; i < 1000; ++i) {
+    join.add(0, cloud(i), 0);
+    while (join.next(0)) ++left;
+  }
+  EXPECT_GE(left, 990);
+}
+
+TEST(CaptureJoinTest, WhateverComesWhenNothingIsMixedAndNothingComesTwice) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    struct Arrival {
+      double time;
+      int sensor, of;
+      double stamp;
+    };
+    std::vector<Arrival> arrivals;
+    for (int of = 0; of < 12; ++of)
+      for (int sensor = 0; sensor < 4; ++sensor)
+        if (unit(random) < 0.9) {
+          const double stamp = of + 0.1 * unit(random);
+          arrivals.push_back({stamp + 3 * unit(random) * unit(random), sensor, of, stamp});
+        }
+    std::sort(arrivals.begin(), arrivals.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+    CaptureJoin join(4, {0.1, 1.5});
+    int taken = 0, given = 0, last = -1;
+    const auto leave = [&](double now) {
+      while (const std::optional<Capture> capture = join.next(now)) {
+        EXPECT_LE(capture->last - capture->first, kSecond / 10) << seed;
+        std::string of;
+        for (const auto& sent : capture->clouds) {
+          if (!sent) continue;
+          ++given;
+          if (!of.empty()) {
+            EXPECT_EQ(sent->frame_id, of) << seed;
+          }
+          of = sent->frame_id;
+        }
+        EXPECT_GT(std::stoi(of), last) << seed;
+        last = std::stoi(of);
+      }
+    };
+    for (const Arrival& arrival : arrivals) {
+      leave(arrival.time);
+      taken += join.add(arrival.sensor, cloud(arrival.stamp, std::to_string(arrival.of)), arrival.time) ==
+               Fate::taken;
+    }
+    leave(100);
+    EXPECT_EQ(given, taken) << seed;
+  }
+}
+
+TEST(CaptureJoinTest, OptionsOutOfRangeAreRefused) {
+  EXPECT_THROW(CaptureJoin(2, {-1, 2}), geometry::Refusal);
+  EXPECT_THROW(CaptureJoin(2, {0.1, 0}), geometry::Refusal);
+  EXPECT_THROW(CaptureJoin(2, {std::numeric_limits<double>::quiet_NaN(), 2}), geometry::Refusal);
+}
+
+}  // namespace

@@ -1,0 +1,174 @@
+/// A capture followed from its sensors to its measurements. The clock is the test's own.
+#include <gtest/gtest.h>
+
+#include "capture/capture_watch.hpp"
+
+namespace tensegric_fit::capture {
+namespace {
+
+constexpr std::uint64_t kSecond = 1000000000;
+constexpr double kSlop = 0.2;
+
+class CaptureWatchTest : public testing::Test {
+ protected:
+  CaptureWatch watch(std::vector<std::string> sensors = {}, bool with_fit = false) const {
+    return {{std::move(sensors), 10, with_fit, 0}, board_, kSlop, 0};
+  }
+
+  /// Returns whether it is news.
+  bool say(const std::string& stage, const std::string& state, const std::string& scan_id, double at = 1,
+           const std::string& code = "", double working = 0) {
+    StageReport report;
+    report.state = state;
+    report.scan_id = scan_id;
+    report.code = code;
+    report.message = code.empty() ? "" : "because";
+    report.working_seconds = working;
+    return board_.report(stage, report, at);
+  }
+
+  static std::string code(const CaptureWatch& watch, double now = 1) {
+    const auto end = watch.end(now);
+    return !end ? "under way" : end->code.empty() ? "well" : end->code;
+  }
+
+  StageBoard board_;
+};
+
+TEST_F(CaptureWatchTest, AScanThatWasMeasuredEndsWell) {
+  CaptureWatch capture = watch();
+  EXPECT_EQ(code(capture), "under way");
+  capture.add_scan("a", 5 * kSecond);
+  EXPECT_EQ(code(capture), "under way");
+  capture.add_landmarks("before");
+  EXPECT_EQ(code(capture), "under way");
+  capture.add_landmarks("a");
+  EXPECT_EQ(code(capture), "well");
+  EXPECT_EQ(capture.scan_id(), "a");
+}
+
+TEST_F(CaptureWatchTest, WithFitItWaitsForTheGarment) {
+  CaptureWatch capture = watch({}, true);
+  capture.add_scan("a", 5 * kSecond);
+  capture.add_landmarks("a");
+  EXPECT_EQ(code(capture), "under way");
+  capture.add_fit("before");
+  EXPECT_EQ(code(capture), "under way");
+  capture.add_fit("a");
+  EXPECT_EQ(code(capture), "well");
+}
+
+TEST_F(CaptureWatchTest, MessagesMayOvertakeTheirScan) {
+  CaptureWatch capture = watch();
+  capture.add_landmarks("a");
+  EXPECT_EQ(code(capture), "under way");
+  capture.add_scan("a", 5 * kSecond);
+  EXPECT_EQ(code(capture), "well");
+}
+
+TEST_F(CaptureWatchTest, EachSensorOfTheGoalMustHaveSeenThisScan) {
+  CaptureWatch capture = watch({"left", "right"});
+  capture.add_cloud("left", 5 * kSecond);
+  capture.add_cloud("right", 2 * kSecond);  // of an earlier capture
+  EXPECT_TRUE(capture.progress(1).missing.empty());
+  capture.add_scan("a", 5 * kSecond);
+  EXPECT_EQ(capture.progress(1).missing, std::vector<std::string>{"right"});
+  capture.add_landmarks("a");
+  EXPECT_EQ(code(capture), "missing_sensor");
+  EXPECT_NE(capture.end(1)->message.find("without right"), std::string::npos);
+  capture.add_cloud("right", 5 * kSecond + kSecond / 10);
+  EXPECT_EQ(code(capture), "well");
+}
+
+TEST_F(CaptureWatchTest, OutOfTimeItNamesWhatIsMissing) {
+  CaptureWatch capture = watch({"left", "right"});
+  capture.add_cloud("left", kSecond);
+  EXPECT_EQ(code(capture, 9.9), "under way");
+  EXPECT_EQ(code(capture, 10), "missing_sensor");
+  EXPECT_NE(capture.end(10)->message.find("waiting for right"), std::string::npos);
+
+  CaptureWatch scanned = watch();
+  EXPECT_EQ(code(scanned, 10), "timed_out");
+  EXPECT_NE(scanned.end(10)->message.find("scan/points"), std::string::npos);
+  scanned.add_scan("a", kSecond);
+  EXPECT_NE(scanned.end(10)->message.find("waiting for reconstruction, which never reported"),
+            std::string::npos);
+  say("reconstruction", "done", "a", 8);
+  say("landmarks", "working", "a", 5);
+  EXPECT_EQ(code(scanned, 10), "timed_out");
+  EXPECT_NE(scanned.end(10)->message.find("waiting for landmarks (landmarks is dead: silent for 5 s)"),
+            std::string::npos);
+}
+
+TEST_F(CaptureWatchTest, ARefusalOfTheScanIsTheAnswer) {
+  say("landmarks", "refused", "before", 0, "not_a_body");
+  CaptureWatch capture = watch();
+  capture.add_scan("a", kSecond);
+  say("control_mesh", "refused", "a", 1, "missing_part:bust");  // nobody asked for a fit
+  EXPECT_EQ(code(capture), "under way");
+  say("landmarks", "refused", "a", 1, "missing_part:crotch");
+  EXPECT_EQ(code(capture), "missing_part:crotch");
+}
+
+TEST_F(CaptureWatchTest, ARefusalBeforeThereIsAScanCountsOnceAndOnlyWhenItIsNew) {
+  EXPECT_TRUE(say("assembler", "refused", "1.0", 0, "missing_sensor"));
+  EXPECT_FALSE(say("assembler", "refused", "1.0", 0.5, "missing_sensor"));  // says so again every second
+  CaptureWatch capture = watch();
+  EXPECT_EQ(code(capture), "under way");
+  ASSERT_TRUE(say("assembler", "refused", "2.0", 1, "missing_sensor"));
+  capture.add_refusal("assembler", *board_.find("assembler"));
+  EXPECT_EQ(code(capture), "missing_sensor");
+
+  CaptureWatch other = watch();
+  ASSERT_TRUE(say("landmarks", "refused", "old", 1, "not_a_body"));  // of a scan that was under way
+  other.add_refusal("landmarks", *board_.find("landmarks"));
+  EXPECT_EQ(code(other), "under way");
+}
+
+TEST_F(CaptureWatchTest, ANewerScanEndsItAndAnOlderOneIsNotTaken) {
+  CaptureWatch capture({{}, 10, false, 5 * kSecond}, board_, kSlop, 0);
+  capture.add_scan("old", 4 * kSecond);
+  EXPECT_EQ(capture.scan_id(), "");
+  capture.add_scan("a", 5 * kSecond);
+  capture.add_scan("a", 5 * kSecond);  // sent again
+  EXPECT_EQ(code(capture), "under way");
+  capture.add_scan("b", 6 * kSecond);
+  capture.add_landmarks("a");
+  EXPECT_EQ(code(capture), "superseded");
+}
+
+TEST_F(CaptureWatchTest, ProgressGoesThroughTheStagesAndNeverBack) {
+  CaptureWatch capture = watch({"left", "right"}, true);
+  std::vector<double> shares = {capture.progress(1).share};
+  capture.add_cloud("left", kSecond);
+  shares.push_back(capture.progress(1).share);
+  capture.add_cloud("right", kSecond);
+  EXPECT_EQ(capture.progress(1).stage, "assembler");
+  shares.push_back(capture.progress(1).share);
+  capture.add_scan("a", kSecond);
+  say("reconstruction", "working", "a", 1, "", 1);
+  EXPECT_EQ(capture.progress(1).stage, "reconstruction");
+  shares.push_back(capture.progress(1).share);
+  say("reconstruction", "done", "a");
+  EXPECT_EQ(capture.progress(1).stage, "landmarks");
+  shares.push_back(capture.progress(1).share);
+  for (std::size_t i = 1; i < shares.size(); ++i) EXPECT_GT(shares[i], shares[i - 1]) << i;
+  say("reconstruction", "waiting", "", 1);  // started again
+  EXPECT_EQ(capture.progress(1).stage, "reconstruction");
+  EXPECT_EQ(capture.progress(1).share, shares.back());
+  capture.add_landmarks("a");
+  capture.add_fit("a");
+  EXPECT_EQ(capture.progress(1).share, 1);
+}
+
+TEST_F(CaptureWatchTest, SlowIsNotDead) {
+  say("reconstruction", "working", "a", 20, "", 12);
+  say("landmarks", "working", "a", 20, "", 3);
+  say("tffd", "done", "a", 16);
+  EXPECT_EQ(board_.trouble(20), "reconstruction is slow: working for 12 s; tffd is dead: silent for 4 s");
+  EXPECT_TRUE(board_.is_silent("never heard", 20));
+  EXPECT_FALSE(board_.is_silent("landmarks", 20));
+}
+
+}  // namespace
+}  // namespace tensegric_fit::capture

@@ -1,0 +1,191 @@
+#include <gtest/gtest.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/point_types.h>
+#include <pcl_conversions/pcl_conversions.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/String.h>
+#include <tf2_msgs/TFMessage.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "geometry/ply.hpp"
+#include "geometry/point_cloud.hpp"
+#include "geometry/status.hpp"
+#include "scan_files/scan_bag.hpp"
+#include "scan_files/scan_file.hpp"
+#include "virtual_booth/sensor_bag.hpp"
+
+namespace {
+
+using namespace tensegric_fit;
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+class ScanFileTest : public testing::Test {
+ protected:
+  ScanFileTest() { fs::create_directories(folder_); }
+  ~ScanFileTest() override { fs::remove_all(folder_); }
+
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::string text_file(const std::string& name, const std::string& text) const {
+    std::ofstream(file(name), std::ios::binary) << text;
+    return file(name);
+  }
+
+  // The first `share` of a file's bytes, under another name with the same ending.
+  std::string cut(const std::string& path, double share) const {
+    const std::string copy = file("cut_" + fs::path(path).filename().string());
+    fs::copy_file(path, copy, fs::copy_options::overwrite_existing);
+    fs::resize_file(copy, static_cast<std::uintmax_t>(share * static_cast<double>(fs::file_size(path))));
+    return copy;
+  }
+
+  static geometry::PointCloud cloud() {
+    geometry::PointCloud result;
+    for (int i = 0; i < 500; ++i)
+      result.points.emplace_back(0.25 * i, 0.5 - i, 0.125 * i * i);  // exact as float32
+    return result;
+  }
+
+  static pcl::PointCloud<pcl::PointXYZ> pcl_cloud() {
+    pcl::PointCloud<pcl::PointXYZ> result;
+    for (const Vector3d& p : cloud().points) result.emplace_back(p.x(), p.y(), p.z());
+    return result;
+  }
+
+  static void expect_cloud(const std::string& path) {
+    EXPECT_EQ(geometry::points_of(scan_files::read_scan(path)).points, cloud().points) << path;
+  }
+
+  static std::string refusal_of(const std::string& path) {
+    try {
+      scan_files::read_scan(path);
+    } catch (const geometry::Refusal& refusal) {
+      EXPECT_NE(std::string(refusal.what()).find(fs::path(path).filename().string()), std::string::npos);
+      return refusal.code();
+    }
+    return "accepted";
+  }
+
+ private:
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("tensegric_fit_scan_file_" + std::to_string(getpid()));
+};
+
+TEST_F(ScanFileTest, EveryKindIsReadAsItWasWritten) {
+  geometry::write_ply_mesh(file("a.ply"), {cloud().points, {}});
+  expect_cloud(file("a.ply"));
+  pcl::io::savePCDFileASCII(file("ascii.pcd"), pcl_cloud());
+  pcl::io::savePCDFileBinary(file("binary.pcd"), pcl_cloud());
+  pcl::io::savePCDFileBinaryCompressed(file("compressed.PCD"), pcl_cloud());
+  for (const char* name : {"ascii.pcd", "binary.pcd", "compressed.PCD"}) expect_cloud(file(name));
+  scan_files::write_bag_scan(file("a.bag"), cloud(), "booth", ros::Time(5));
+  expect_cloud(file("a.bag"));
+}
+
+TEST_F(ScanFileTest, BagsOfOneCloudAreTheSameBytes) {
+  const auto bytes = [](const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  scan_files::write_bag_scan(file("a.bag"), cloud(), "booth", ros::Time(5));
+  scan_files::write_bag_scan(file("b.bag"), cloud(), "booth", ros::Time(5));
+  EXPECT_EQ(bytes(file("a.bag")), bytes(file("b.bag")));
+}
+
+TEST_F(ScanFileTest, ABagsScanTopicComesBeforeOtherClouds) {
+  scan_files::write_bag_scan(file("a.bag"), cloud(), "booth", ros::Time(5));
+  {
+    rosbag::Bag bag(file("a.bag"), rosbag::bagmode::Append);
+    bag.write("/another/points", ros::Time(1), sensor_msgs::PointCloud2());  // earlier, and empty
+  }
+  expect_cloud(file("a.bag"));
+}
+
+TEST_F(ScanFileTest, ABagOfAllSensorsHasTheirClouds) {
+  std::vector<virtual_booth::SensorScan> scans(2);
+  for (std::size_t sensor = 0; sensor < scans.size(); ++sensor) {
+    virtual_booth::SensorPose& pose = scans[sensor].pose;
+    pose.booth_from_sensor = Eigen::Translation3d(1.0 + sensor, 0, 2) *
+                             Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ());  // x is the booth's y
+    scans[sensor].cloud.points = {pose.booth_from_sensor * Vector3d(1, 2, 3)};
+  }
+  virtual_booth::write_sensor_bag(file("sensors.bag"), scans, "booth", ros::Time(5));
+  int clouds = 0, poses = 0;
+  const rosbag::Bag bag(file("sensors.bag"));
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+    if (const auto cloud = message.instantiate<sensor_msgs::PointCloud2>()) {
+      const std::string sensor = std::to_string(clouds);
+      EXPECT_EQ(message.getTopic(), "/sensors/" + sensor + "/points");
+      EXPECT_EQ(cloud->header.frame_id, "sensor_" + sensor);
+      EXPECT_EQ(cloud->header.stamp, ros::Time(5, 1000000 * clouds++));
+      pcl::PCLPointCloud2 points;
+      pcl_conversions::toPCL(*cloud, points);
+      const geometry::PointCloud seen = geometry::points_of(points);
+      ASSERT_EQ(seen.points.size(), 1u);
+      EXPECT_LT((seen.points[0] - Vector3d(1, 2, 3)).norm(), 1e-6);  // float32
+    }
+    if (const auto tf = message.instantiate<tf2_msgs::TFMessage>()) {
+      poses = static_cast<int>(tf->transforms.size());
+      EXPECT_EQ(tf->transforms.at(1).child_frame_id, "sensor_1");
+      EXPECT_EQ(tf->transforms.at(1).transform.translation.x, 2);
+      EXPECT_NEAR(tf->transforms.at(1).transform.rotation.z, std::sqrt(0.5), 1e-12);
+    }
+  }
+  EXPECT_EQ(clouds, 2);
+  EXPECT_EQ(poses, 2);
+  // None of them is the scan.
+  EXPECT_EQ(refusal_of(file("sensors.bag")), geometry::refusal::kBadOption);
+}
+
+TEST_F(ScanFileTest, ABagWithoutACloudIsRefused) {
+  {
+    rosbag::Bag bag(file("text.bag"), rosbag::bagmode::Write);
+    bag.write("/scan/points", ros::Time(1), std_msgs::String());
+  }
+  EXPECT_EQ(refusal_of(file("text.bag")), geometry::refusal::kBrokenFile);
+}
+
+TEST_F(ScanFileTest, TruncatedFilesAreRefused) {
+  geometry::write_ply_mesh(file("a.ply"), {cloud().points, {}});
+  pcl::io::savePCDFileASCII(file("ascii.pcd"), pcl_cloud());
+  pcl::io::savePCDFileBinary(file("binary.pcd"), pcl_cloud());
+  pcl::io::savePCDFileBinaryCompressed(file("compressed.pcd"), pcl_cloud());
+  scan_files::write_bag_scan(file("a.bag"), cloud(), "booth", ros::Time(5));
+  for (const char* name : {"a.ply", "ascii.pcd", "binary.pcd", "compressed.pcd", "a.bag"})
+    for (const double share : {0.0, 0.01, 0.2, 0.5, 0.9})
+      EXPECT_EQ(refusal_of(cut(file(name), share)), geometry::refusal::kBrokenFile)
+          << name << " cut to " << share;
+}
+
+TEST_F(ScanFileTest, HeadersThatPromiseTooMuchAreRefusedBeforeMemoryIsTaken) {
+  const std::string fields = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
+  const std::string many = "WIDTH 4000000000\nHEIGHT 1000000\nVIEWPOINT 0 0 0 1 0 0 0\n";
+  const std::string some = "WIDTH 1000000000\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1000000000\n";
+  for (const std::string& size : {many, some})
+    for (const char* data : {"ascii", "binary", "binary_compressed"})
+      EXPECT_EQ(refusal_of(text_file("huge.pcd", fields + size + "DATA " + data + "\n0 0 0\n1 1 1\n")),
+                geometry::refusal::kBrokenFile)
+          << size << data;
+  EXPECT_EQ(refusal_of(text_file("huge.ply",
+                                 "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\n"
+                                 "property float y\nproperty float z\nend_header\n0 0 0\n")),
+            geometry::refusal::kBrokenFile);
+}
+
+TEST_F(ScanFileTest, OtherFilesAreRefusedByName) {
+  EXPECT_EQ(refusal_of(text_file("scan.xyz", "0 0 0\n")), geometry::refusal::kBadOption);
+  EXPECT_EQ(refusal_of(text_file("scan", "0 0 0\n")), geometry::refusal::kBadOption);
+  for (const char* name : {"text.ply", "text.pcd", "text.bag"})
+    EXPECT_EQ(refusal_of(text_file(name, "this is no scan\n")), geometry::refusal::kBrokenFile) << name;
+  for (const char* name : {"absent.ply", "absent.pcd", "absent.bag"})
+    EXPECT_EQ(refusal_of(file(name)), geometry::refusal::kBrokenFile) << name;
+}
+
+}  // namespace

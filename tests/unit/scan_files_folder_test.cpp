@@ -1,0 +1,112 @@
+/// A folder that is watched for scans. The clock is the test's own.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "geometry/status.hpp"
+#include "scan_files/scan_folder.hpp"
+
+namespace tensegric_fit::scan_files {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ScanFolderTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(root_);
+    fs::create_directories(root_);
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(root_ / name) << text;
+    fs::last_write_time(root_ / name, fs::file_time_type(std::chrono::seconds(++written_)));
+  }
+
+  /// Names of the files that are complete now, with spaces between them.
+  static std::string played(ScanFolder& folder, double now) {
+    std::string names;
+    for (const std::string& path : folder.poll(now))
+      names += (names.empty() ? "" : " ") + fs::path(path).filename().string();
+    return names;
+  }
+
+  const fs::path root_ = fs::temp_directory_path() / "tensegric_fit_scan_folder_test";
+  int written_ = 0;
+};
+
+TEST_F(ScanFolderTest, AFileIsToldOnceAndOnlyWhenItIsStill) {
+  ScanFolder folder(root_, 1);
+  EXPECT_EQ(played(folder, 0), "");
+  write("a.ply", "half");
+  EXPECT_EQ(played(folder, 0.5), "");
+  EXPECT_EQ(played(folder, 1.4), "");  // still for less than a second
+  write("a.ply", "half and half");
+  EXPECT_EQ(played(folder, 1.6), "");
+  EXPECT_EQ(played(folder, 2.5), "");
+  EXPECT_EQ(played(folder, 2.6), "a.ply");
+  EXPECT_EQ(played(folder, 10), "");
+}
+
+TEST_F(ScanFolderTest, WhatWasThereBeforeIsOldAndNewOnesComeInTheirOrder) {
+  write("old.ply", "old");
+  ScanFolder folder(root_, 1);
+  folder.skip_all();
+  write("b.PCD", "first");
+  write("a.bag", "second");
+  EXPECT_EQ(played(folder, 0), "");
+  EXPECT_EQ(played(folder, 1), "b.PCD a.bag");
+}
+
+TEST_F(ScanFolderTest, RenamedInIsNewAndWrittenAgainIsNew) {
+  ScanFolder folder(root_, 1);
+  write("a.part", "whole");
+  EXPECT_EQ(played(folder, 0), "");
+  fs::rename(root_ / "a.part", root_ / "a.ply");
+  EXPECT_EQ(played(folder, 1), "");
+  EXPECT_EQ(played(folder, 2), "a.ply");
+  write("a.ply", "other");  // a booth that has one name for all
+  EXPECT_EQ(played(folder, 3), "");
+  EXPECT_EQ(played(folder, 4), "a.ply");
+}
+
+TEST_F(ScanFolderTest, WhatIsNoScanIsLeftOut) {
+  ScanFolder folder(root_, 1);
+  for (const char* name : {".hidden.ply", "readme.txt", "ply", "a.ply.part"}) write(name, "text");
+  fs::create_directories(root_ / "folder.ply");
+  fs::create_symlink(root_ / "nowhere", root_ / "dangling.ply");
+  played(folder, 0);
+  EXPECT_EQ(played(folder, 5), "");
+}
+
+TEST_F(ScanFolderTest, AnotherLifeGoesOnWhereTheFirstEnded) {
+  write("a.ply", "a");
+  ScanFolder first(root_, 1);
+  played(first, 0);
+  EXPECT_EQ(played(first, 1), "a.ply");
+  write("b.ply", "while nobody watched");
+  write("c.ply", "c");
+  ScanFolder second(root_, 1);
+  second.skip(first.played());
+  EXPECT_EQ(second.played().size(), 1u);
+  played(second, 0);
+  EXPECT_EQ(played(second, 1), "b.ply c.ply");
+  fs::remove(root_ / "a.ply");
+  played(second, 2);
+  EXPECT_EQ(second.played().size(), 2u);  // what is gone need not be remembered
+}
+
+TEST_F(ScanFolderTest, AFolderThatIsGoneIsSaidAndMayComeBack) {
+  ScanFolder folder(root_, 1);
+  fs::remove_all(root_);
+  EXPECT_THROW(folder.poll(0), geometry::Refusal);
+  fs::create_directories(root_);
+  write("a.ply", "a");
+  played(folder, 1);
+  EXPECT_EQ(played(folder, 2), "a.ply");
+}
+
+}  // namespace
+}  // namespace tensegric_fit::scan_files
