@@ -14,13 +14,6 @@ constexpr std::size_t kMostOpen = 8;  // captures; beyond, the oldest waits no l
 constexpr std::uint64_t kStartedOver =
     60000000000u;  // ns; so far back lies no late cloud, but a new recording
 
-void check(const char* name, double value, double low, double high) {
-  if (value >= low && value <= high) return;  // false for NaN
-  throw geometry::Refusal(
-      geometry::refusal::kBadOption,
-      fmt::format("assembler option '{}' is {}; it must lie in [{}, {}]", name, value, low, high));
-}
-
 std::uint64_t gap(std::uint64_t a, std::uint64_t b) {
   return a > b ? a - b : b - a;
 }
@@ -36,8 +29,8 @@ std::vector<int> Capture::missing() const {
 
 CaptureJoin::CaptureJoin(int sensors, const CaptureOptions& options)
     : sensors_(sensors), timeout_(options.timeout) {
-  check("slop", options.slop, 0, 60);
-  check("timeout", options.timeout, 0.01, 600);
+  geometry::check_option("slop", options.slop, kSlop);
+  geometry::check_option("timeout", options.timeout, kTimeout);
   slop_ = static_cast<std::uint64_t>(std::llround(1e9 * options.slop));
 }
 

@@ -195,13 +195,6 @@ class Columns {
   std::vector<Pair> pairs_;
 };
 
-void check(const char* name, double value, double low, double high) {
-  if (value >= low && value <= high) return;  // false for NaN
-  throw geometry::Refusal(
-      geometry::refusal::kBadOption,
-      fmt::format("registration option '{}' is {}; it must lie in [{}, {}]", name, value, low, high));
-}
-
 }  // namespace
 
 std::string to_string(RegistrationStatus status) {
@@ -219,8 +212,8 @@ std::string to_string(RegistrationStatus status) {
 }
 
 Registration register_columns(const std::vector<PointCloud>& columns, const RegistrationOptions& options) {
-  check("max_shift", options.max_shift, 0, 0.05);
-  check("max_turn", options.max_turn, 0, 0.1);
+  geometry::check_option("max_shift", options.max_shift, kMaxShift);
+  geometry::check_option("max_turn", options.max_turn, kMaxTurn);
   Registration result;
   result.corrections.assign(columns.size(), Isometry3d::Identity());
   Columns moving(columns);

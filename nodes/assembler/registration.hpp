@@ -6,13 +6,16 @@
 #include <vector>
 
 #include "geometry/point_cloud.hpp"
+#include "geometry/range.hpp"
 
 namespace tensegric_fit::assembler {
 
+inline constexpr geometry::Range kMaxShift{0, 0.05}, kMaxTurn{0, 0.1};
+
 /// Field defaults are the parameters' defaults. Metres, radians.
 struct RegistrationOptions {
-  double max_shift = 0.010;  ///< 0 to 0.05; columns that seem farther off are left as they are
-  double max_turn = 0.010;   ///< 0 to 0.1
+  double max_shift = 0.010;  ///< columns that seem farther off are left as they are
+  double max_turn = 0.010;
 };
 
 enum class RegistrationStatus {

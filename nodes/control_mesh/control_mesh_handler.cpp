@@ -30,9 +30,9 @@ std::optional<body_model::RegisteredBody> registered(const geometry::TriangleMes
 }  // namespace
 
 ControlMeshHandler::ControlMeshHandler(Parameters parameters) {
-  options_.control_triangles = parameters.integer("control_triangles", options_.control_triangles, 1, 100000);
-  options_.thickness =
-      parameters.number("thickness", options_.thickness, control_mesh::kThinnest, control_mesh::kThickest);
+  options_.control_triangles =
+      parameters.integer("control_triangles", options_.control_triangles, control_mesh::kControlTriangles);
+  options_.thickness = parameters.number("thickness", options_.thickness, control_mesh::kThickness);
   std::istringstream names(parameters.text("template", "bust+hips"));
   const std::string folder = parameters.text("template_directory", geometry::shipped_folder("templates"));
   parameters.check_all_known();

@@ -21,8 +21,6 @@ using Eigen::Vector3d;
 using geometry::Refusal;
 namespace refusal = geometry::refusal;
 
-constexpr int kMostTriangles = 200000;
-
 geometry::TriangleMesh in_body_frame(const geometry::TriangleMesh& body,
                                      const Eigen::Isometry3d& body_from_scan) {
   geometry::TriangleMesh moved = body;
@@ -189,13 +187,8 @@ geometry::ControlMesh laid_best(const Template& pattern, const geometry::BodyMea
 geometry::ControlMesh fit_template(const Template& pattern, const geometry::TriangleMesh& body,
                                    const geometry::BodyMeasures& measures, const Options& options,
                                    const body_model::RegisteredBody* model) {
-  if (options.control_triangles < 1 || options.control_triangles > kMostTriangles)
-    throw Refusal(refusal::kBadOption, "control_triangles is " + std::to_string(options.control_triangles) +
-                                           ", outside [1, " + std::to_string(kMostTriangles) + "]");
-  if (!(options.thickness >= kThinnest && options.thickness <= kThickest))
-    throw Refusal(refusal::kBadOption, "thickness is " + std::to_string(options.thickness) + ", outside [" +
-                                           std::to_string(kThinnest) + ", " + std::to_string(kThickest) +
-                                           "]");
+  geometry::check_option("control_triangles", options.control_triangles, kControlTriangles);
+  geometry::check_option("thickness", options.thickness, kThickness);
   geometry::check_mesh(body);
   if (body.triangles.empty()) throw Refusal(refusal::kNotABody, "the body mesh has no triangles");
 

@@ -5,16 +5,17 @@
 #include "control_mesh/template.hpp"
 #include "geometry/body_measures.hpp"
 #include "geometry/control_mesh.hpp"
+#include "geometry/range.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::control_mesh {
 
-inline constexpr double kThinnest = 0.2, kThickest = 3;
+inline constexpr geometry::Range kControlTriangles{1, 100000}, kThickness{0.2, 3};
 
 /// Field defaults are the parameters' defaults.
 struct Options {
   int control_triangles = 120;  ///< at least; the template is subdivided (x4) until it has that many
-  double thickness = 1;         ///< of the soft tissue, times the template's (P2 §6): kThinnest to kThickest
+  double thickness = 1;         ///< of the soft tissue, times the template's (P2 §6)
 };
 
 /// Nodes at landmarks and on the rim lie on the skin, the others up to 3 mm off it: so the patch holds as

@@ -17,9 +17,7 @@ std::vector<int> still_vertices(const std::vector<SkinPart>& parts) {
 }  // namespace
 
 Correlation correlate(const SimulatedBody& body, const WornBody& worn, const Options& options) {
-  if (!(options.thickness >= 0 && options.thickness <= kThickest))
-    throw geometry::Refusal(geometry::refusal::kBadOption, fmt::format("thickness: {} m is outside [0, {}] m",
-                                                                       options.thickness, kThickest));
+  geometry::check_option("thickness", options.thickness, kThickness);
   check(body);
   const SeenSurface surface(worn.mesh, worn.filled);
 

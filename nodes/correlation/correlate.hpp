@@ -6,17 +6,18 @@
 #include "correlation/distance_map.hpp"
 #include "correlation/likeness.hpp"
 #include "correlation/skin_parts.hpp"
+#include "geometry/range.hpp"
 
 namespace tensegric_fit::correlation {
 
-inline constexpr double kThickest = 0.03;  ///< m, of a garment
+inline constexpr geometry::Range kThickness{0, 0.03};  ///< m, of a garment
 
 /// m; a garment moves tissue, and adds none: half of what it covers is never that far outside the simulation.
 inline constexpr double kThickCloth = 0.012;
 
 /// Field defaults are the parameters' defaults.
 struct Options {
-  double thickness = 0;  ///< m, 0 to kThickest: of the garment, over the skin that it covers (SkinPart)
+  double thickness = 0;  ///< m, of the garment, over the skin that it covers (SkinPart)
 };
 
 struct Correlation {

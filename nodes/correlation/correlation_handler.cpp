@@ -48,7 +48,7 @@ Correlation::ConstPtr to_message(const DeformedMesh& deformed, const std::string
 
 CorrelationHandler::CorrelationHandler(Parameters parameters, MeasureScan measure)
     : measure_(std::move(measure)) {
-  options_.thickness = parameters.number("thickness", options_.thickness, 0, correlation::kThickest);
+  options_.thickness = parameters.number("thickness", options_.thickness, correlation::kThickness);
   parameters.check_all_known();
 }
 

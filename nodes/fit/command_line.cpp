@@ -100,11 +100,13 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
                          "where not said",
                          kShapeTriangles))
           ->capture_default_str()
-          ->check(CLI::Range(1, 100000));
+          ->check(CLI::Range(static_cast<int>(control_mesh::kControlTriangles.low),
+                             static_cast<int>(control_mesh::kControlTriangles.high)));
   app.add_option("--body-triangles", line.settings.reconstruction.body_triangles,
                  "Triangles of the body mesh")
       ->capture_default_str()
-      ->check(CLI::Range(2000, 1000000))
+      ->check(CLI::Range(static_cast<int>(reconstruction::kBodyTriangles.low),
+                         static_cast<int>(reconstruction::kBodyTriangles.high)))
       ->excludes(mesh);
   app.add_flag("--bust-only", line.settings.reconstruction.bust_only,
                "Legs, hands and head of a scan come coarse, in less time: enough for a bust garment")

@@ -19,7 +19,8 @@ std::optional<int> parse(int argc, char** argv, CorrelateLine& line) {
   app.add_option("--body-triangles", line.settings.reconstruction.body_triangles,
                  "Triangles of the worn body's mesh")
       ->capture_default_str()
-      ->check(CLI::Range(2000, 1000000))
+      ->check(CLI::Range(static_cast<int>(reconstruction::kBodyTriangles.low),
+                         static_cast<int>(reconstruction::kBodyTriangles.high)))
       ->excludes(mesh);
   app.add_option("--out", line.out, "Folder for the results")->capture_default_str();
   app.add_flag("--quiet", line.quiet, "No progress");

@@ -29,23 +29,23 @@ void take_tissue(const std::string& path, Settings& settings) {
        "volume_stiffness", "stiffening", "modulus", "prestress", "thickness", "evidence"},
       path, code);
   tensegric::ModelOptions& model = settings.model;
-  const auto take = [&](const char* key, double& value, double low, double high) {
-    if (file[key]) value = geometry::number_in(file, key, low, high, path, code);
+  const auto take = [&](const char* key, double& value, const geometry::Range& range) {
+    if (file[key]) value = geometry::number_in(file, key, range.low, range.high, path, code);
   };
   model.inner = tensegric::inner_nodes_from(
       geometry::optional<std::string>(file, "inner_nodes", to_string(model.inner), path, code));
   double layers = model.layers;
-  take("layers", layers, 1, tensegric::kMostLayers);
+  take("layers", layers, tensegric::kLayers);
   model.layers = geometry::optional(file, "layers", model.layers, path, code);
   model.uniform = geometry::optional(file, "uniform_stiffness", model.uniform, path, code);
-  take("strut_stiffness", model.strut_stiffness, tensegric::kSoftestStrut, tensegric::kStiffestStrut);
-  take("lateral_stiffness", model.lateral_stiffness, tensegric::kSoftestLateral, tensegric::kStiffestLateral);
-  take("skin", model.skin, 0, tensegric::kThickestSkin);
-  take("volume_stiffness", model.volume_stiffness, 0, tensegric::kStiffestVolume);
-  take("stiffening", model.stiffening, 0, tensegric::kMostStiffening);
-  take("modulus", model.modulus, tensegric::kLeastModulus, tensegric::kMostModulus);
-  take("prestress", model.prestress, tensegric::kLowestPrestress, tensegric::kHighestPrestress);
-  take("thickness", settings.control_mesh.thickness, control_mesh::kThinnest, control_mesh::kThickest);
+  take("strut_stiffness", model.strut_stiffness, tensegric::kStrutStiffness);
+  take("lateral_stiffness", model.lateral_stiffness, tensegric::kLateralStiffness);
+  take("skin", model.skin, tensegric::kSkin);
+  take("volume_stiffness", model.volume_stiffness, tensegric::kVolumeStiffness);
+  take("stiffening", model.stiffening, tensegric::kStiffening);
+  take("modulus", model.modulus, tensegric::kModulus);
+  take("prestress", model.prestress, tensegric::kPrestress);
+  take("thickness", settings.control_mesh.thickness, control_mesh::kThickness);
 }
 
 }  // namespace tensegric_fit::fit

@@ -10,11 +10,16 @@
 #include "body_model/standing.hpp"
 #include "geometry/fracture.hpp"
 #include "geometry/point_cloud.hpp"
+#include "geometry/range.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::reconstruction {
 
 /// Field defaults are the parameters' defaults.
+/// Of Options' fields, in their units.
+inline constexpr geometry::Range kBodyTriangles{1000, 1e6}, kPoissonDepth{5, 10}, kMinPoints{500, 1e6},
+    kMaxPoints{1e4, 1e8}, kSupportDistance{0.002, 0.05};
+
 struct Options {
   int body_triangles = 62000;  ///< triangles of the body mesh, the size in the papers
   int poisson_depth = 9;  ///< octree depth of the screened Poisson reconstruction: the smallest cells have

@@ -9,6 +9,7 @@
 #include "body_model/parts.hpp"
 #include "body_model/registration.hpp"
 #include "geometry/point_cloud.hpp"
+#include "reconstruction/validate.hpp"
 #include "ros/body_messages.hpp"
 
 namespace tensegric_fit::node {
@@ -32,12 +33,16 @@ std::string words(const std::vector<body_model::Unexplained>& things) {
 
 reconstruction::Options reconstruction_options(Parameters& parameters) {
   reconstruction::Options options;
-  options.body_triangles = parameters.integer("body_triangles", options.body_triangles, 1000, 2000000);
-  options.poisson_depth = parameters.integer("poisson_depth", options.poisson_depth, 5, 10);
-  options.min_points = parameters.integer("min_points", options.min_points, 100, 10000000);
-  options.max_points = parameters.integer("max_points", options.max_points, 100, 100000000);
-  options.support_distance = parameters.number("support_distance", options.support_distance, 0.001, 0.1);
+  options.body_triangles =
+      parameters.integer("body_triangles", options.body_triangles, reconstruction::kBodyTriangles);
+  options.poisson_depth =
+      parameters.integer("poisson_depth", options.poisson_depth, reconstruction::kPoissonDepth);
+  options.min_points = parameters.integer("min_points", options.min_points, reconstruction::kMinPoints);
+  options.max_points = parameters.integer("max_points", options.max_points, reconstruction::kMaxPoints);
+  options.support_distance =
+      parameters.number("support_distance", options.support_distance, reconstruction::kSupportDistance);
   options.bust_only = parameters.flag("bust_only", options.bust_only);
+  reconstruction::check_options(options);
   return options;
 }
 

@@ -20,12 +20,6 @@ constexpr double kBoothReach = 4.0;     // m from the middle: farther points are
 constexpr double kLargestExtent = 8.0;  // m, no booth is larger
 constexpr double kTypicalExtent = 1.7;  // m, of a body
 
-void check_range(const char* field, double value, double low, double high) {
-  if (!(value >= low && value <= high))
-    throw Refusal(refusal::kBadOption,
-                  fmt::format("{} is {}; it must lie between {} and {}", field, value, low, high));
-}
-
 /// Low, middle and high coordinates without the stray points, as rows.
 std::array<Eigen::Vector3d, 3> spread(const std::vector<Eigen::Vector3d>& points) {
   std::array<Eigen::Vector3d, 3> result;
@@ -61,11 +55,11 @@ void check_unit(double extent) {
 }  // namespace
 
 void check_options(const Options& options) {
-  check_range("body_triangles", options.body_triangles, 1000, 1000000);
-  check_range("poisson_depth", options.poisson_depth, 5, 10);
-  check_range("min_points", options.min_points, 500, 1e6);
-  check_range("max_points", options.max_points, 1e4, 1e8);
-  check_range("support_distance", options.support_distance, 0.002, 0.05);
+  geometry::check_option("body_triangles", options.body_triangles, kBodyTriangles);
+  geometry::check_option("poisson_depth", options.poisson_depth, kPoissonDepth);
+  geometry::check_option("min_points", options.min_points, kMinPoints);
+  geometry::check_option("max_points", options.max_points, kMaxPoints);
+  geometry::check_option("support_distance", options.support_distance, kSupportDistance);
   if (options.min_points > options.max_points)
     throw Refusal(refusal::kBadOption, "min_points is greater than max_points");
 }

@@ -58,24 +58,26 @@ const XmlRpcValue* Parameters::find(const std::string& name) {
   return values_.getType() == XmlRpcValue::TypeStruct && values_.hasMember(name) ? &values_[name] : nullptr;
 }
 
-int Parameters::integer(const std::string& name, int fallback, int low, int high) {
+int Parameters::integer(const std::string& name, int fallback, const geometry::Range& range) {
   const XmlRpcValue* found = find(name);
   if (!found) return fallback;
   const std::optional<double> value = number_in(*found);
   if (!value || *value != std::floor(*value))
     refuse(fmt::format("parameter '{}{}' is not an integer", prefix_, name));
-  if (!(*value >= low && *value <= high))
-    refuse(fmt::format("parameter '{}{}' is {:g}, not in [{}, {}]", prefix_, name, *value, low, high));
+  if (!range.holds(*value))
+    refuse(fmt::format("parameter '{}{}' is {:g}, not in [{}, {}]", prefix_, name, *value, range.low,
+                       range.high));
   return static_cast<int>(*value);
 }
 
-double Parameters::number(const std::string& name, double fallback, double low, double high) {
+double Parameters::number(const std::string& name, double fallback, const geometry::Range& range) {
   const XmlRpcValue* found = find(name);
   if (!found) return fallback;
   const std::optional<double> value = number_in(*found);
   if (!value) refuse(fmt::format("parameter '{}{}' is not a number", prefix_, name));
-  if (!(*value >= low && *value <= high))
-    refuse(fmt::format("parameter '{}{}' is {:g}, not in [{}, {}]", prefix_, name, *value, low, high));
+  if (!range.holds(*value))
+    refuse(fmt::format("parameter '{}{}' is {:g}, not in [{}, {}]", prefix_, name, *value, range.low,
+                       range.high));
   return *value;
 }
 

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/range.hpp"
+
 namespace tensegric_fit::node {
 
 /// Reads parameters by name; whatever is out of range, of another type, or left unread is refused by name.
@@ -24,8 +26,8 @@ class Parameters {
   Parameters(const YAML::Node& values, const std::string& stage);
 
   /// \throw Refusal bad_option naming parameter, value and range
-  int integer(const std::string& name, int fallback, int low, int high);
-  double number(const std::string& name, double fallback, double low, double high);
+  int integer(const std::string& name, int fallback, const geometry::Range& range);
+  double number(const std::string& name, double fallback, const geometry::Range& range);
   bool flag(const std::string& name, bool fallback);
   std::string text(const std::string& name, const std::string& fallback);
   /// A tf frame. Where none is set, `fallback` within the node's own namespace ("left/body" for

@@ -23,7 +23,7 @@ Setup setup_from(const ros::NodeHandle& private_node) {
   Parameters parameters(private_node);
   setup.bag = parameters.text("bag", "");
   setup.out = parameters.text("out", "");
-  setup.options.timeout = parameters.number("timeout", setup.options.timeout, 1, 86400);
+  setup.options.timeout = parameters.number("timeout", setup.options.timeout, {1, 86400});
   setup.options.measure_only = parameters.flag("measure_only", setup.options.measure_only);
   parameters.check_all_known();
   if (setup.out.empty() || std::filesystem::exists(setup.out))
@@ -37,7 +37,8 @@ bool ends_in(const std::string& topic, const std::string& ending) {
          topic.compare(topic.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-/// Number of messages that were not answered: with any, the output is OUT.incomplete. \throw rosbag::BagException, Refusal
+/// Number of messages that were not answered: with any, the output is OUT.incomplete. \throw
+/// rosbag::BagException, Refusal
 int run(const Setup& setup) {
   rosbag::Bag in(setup.bag, rosbag::bagmode::Read);
   rosbag::View view(in);

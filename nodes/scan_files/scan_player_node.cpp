@@ -34,9 +34,9 @@ Setup setup_from(Parameters parameters) {
   Setup setup;
   setup.file = parameters.text("file", "");
   setup.frame_id = parameters.frame("frame_id", "booth");
-  setup.rate = parameters.number("rate", 0, 0, 1000);
-  setup.interval = parameters.number("interval", 10, 0, 86400);
-  setup.settle = parameters.number("settle", 1, 0.1, 3600);
+  setup.rate = parameters.number("rate", 0, {0, 1000});
+  setup.interval = parameters.number("interval", 10, {0, 86400});
+  setup.settle = parameters.number("settle", 1, {0.1, 3600});
   setup.existing = parameters.flag("existing", false);
   setup.played_files = parameters.texts("played_files");
   parameters.check_all_known();

@@ -18,12 +18,6 @@ constexpr double kShortestMember = 1e-8;  // of the model's size; below it a dir
 constexpr double kHighestPull =
     0.8;  // tension / k at rest: a natural length stays above a fifth of the rest length
 
-void check_option(double value, double low, double high, const char* name) {
-  if (!(value >= low && value <= high))
-    throw Refusal(refusal::kBadOption, std::string(name) + " is " + std::to_string(value) + ", outside [" +
-                                           std::to_string(low) + ", " + std::to_string(high) + "]");
-}
-
 // Fewer than three fixed nodes, or all in one line, leave a piece free to move as a whole.
 void check_held(const Model& model, const Positions& rest) {
   const geometry::ControlMesh& control = model.control;
@@ -235,14 +229,14 @@ double Model::mean_tension() const {
 
 Model build_model(const geometry::ControlMesh& control, const ModelOptions& options) {
   geometry::check_control_mesh(control);
-  check_option(options.strut_stiffness, kSoftestStrut, kStiffestStrut, "strut_stiffness");
-  check_option(options.lateral_stiffness, kSoftestLateral, kStiffestLateral, "lateral_stiffness");
-  check_option(options.skin, 0, kThickestSkin, "skin");
-  check_option(options.volume_stiffness, 0, kStiffestVolume, "volume_stiffness");
-  check_option(options.modulus, kLeastModulus, kMostModulus, "modulus");
-  check_option(options.stiffening, 0, kMostStiffening, "stiffening");
-  check_option(options.prestress, kLowestPrestress, kHighestPrestress, "prestress");
-  check_option(options.layers, 1, kMostLayers, "layers");
+  geometry::check_option("strut_stiffness", options.strut_stiffness, kStrutStiffness);
+  geometry::check_option("lateral_stiffness", options.lateral_stiffness, kLateralStiffness);
+  geometry::check_option("skin", options.skin, kSkin);
+  geometry::check_option("volume_stiffness", options.volume_stiffness, kVolumeStiffness);
+  geometry::check_option("modulus", options.modulus, kModulus);
+  geometry::check_option("stiffening", options.stiffening, kStiffening);
+  geometry::check_option("prestress", options.prestress, kPrestress);
+  geometry::check_option("layers", options.layers, kLayers);
   Model model;
   model.control = control;
   model.options = options;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/control_mesh.hpp"
+#include "geometry/range.hpp"
 
 namespace tensegric_fit::tensegric {
 
@@ -14,12 +15,9 @@ namespace tensegric_fit::tensegric {
 /// outside. Metres, the scan's frame.
 using Positions = std::vector<Eigen::Vector3d>;
 
-inline constexpr double kSoftestStrut = 1e-3, kStiffestStrut = 1e6;
-inline constexpr double kLowestPrestress = 1e-6, kHighestPrestress = 0.5;
-inline constexpr double kSoftestLateral = 1e-3, kStiffestLateral = 1e3;
-inline constexpr double kThickestSkin = 10, kStiffestVolume = 1e3, kMostStiffening = 1e4;
-inline constexpr double kLeastModulus = 1, kMostModulus = 1e7;  ///< Pa
-inline constexpr int kMostLayers = 8;
+/// Of ModelOptions' fields, in their units.
+inline constexpr geometry::Range kStrutStiffness{1e-3, 1e6}, kLateralStiffness{1e-3, 1e3}, kSkin{0, 10},
+    kVolumeStiffness{0, 1e3}, kModulus{1, 1e7}, kStiffening{0, 1e4}, kPrestress{1e-6, 0.5}, kLayers{1, 8};
 
 /// Whether inner nodes settle (the papers) or are bound to the bones below them (P2 §6).
 enum class InnerNodes { free, bound };

@@ -26,11 +26,10 @@ void check_regions(const geometry::ControlMesh& control, const Garment& garment)
 
 void check_options(const geometry::ControlMesh& control, const SolverOptions& options) {
   if (!options.gravity.allFinite()) throw Refusal(refusal::kBadOption, "gravity is not finite");
-  if (options.max_iterations < 0) throw Refusal(refusal::kBadOption, "max_iterations is negative");
-  if (!(options.time_budget >= 0)) throw Refusal(refusal::kBadOption, "time_budget is negative");
-  for (double force : {options.line_force, options.volume_force})
-    if (!(force >= 0 && force <= 1e6))
-      throw Refusal(refusal::kBadOption, "line_force and volume_force must be in [0, 1000000]");
+  geometry::check_option("max_iterations", options.max_iterations, kMaxIterations);
+  geometry::check_option("time_budget", options.time_budget, kTimeBudget);
+  geometry::check_option("line_force", options.line_force, kPseudoForce);
+  geometry::check_option("volume_force", options.volume_force, kPseudoForce);
   for (int node : options.track)
     if (node < 0 || node >= static_cast<int>(control.outer.size()))
       throw Refusal(refusal::kBadOption, "a tracked node is not one of the control mesh");

@@ -10,6 +10,7 @@
 
 #include "geometry/fibre.hpp"
 #include "geometry/posture.hpp"
+#include "geometry/range.hpp"
 #include "tensegric/garment.hpp"
 #include "tensegric/model.hpp"
 #include "tensegric/region_volume.hpp"
@@ -59,6 +60,9 @@ struct Iterate {
   double merit_change =
       0;  ///< of the equilibrium solver's merit function in this step, relative: never a rise
 };
+
+/// Of SolverOptions' fields, in their units; kPseudoForce: of line_force and volume_force.
+inline constexpr geometry::Range kMaxIterations{0, 1e7}, kTimeBudget{0, 3600}, kPseudoForce{0, 1e6};
 
 /// Field defaults are the parameters' defaults.
 struct SolverOptions {

@@ -23,37 +23,36 @@ TensegricHandler::Setup TensegricHandler::setup_from(Parameters& parameters) {
   tensegric::ModelOptions& model = setup.fitter.model;
   model.inner = tensegric::inner_nodes_from(
       parameters.choice("inner_nodes", to_string(model.inner), {"free", "bound"}));
-  model.layers = parameters.integer("layers", model.layers, 1, tensegric::kMostLayers);
+  model.layers = parameters.integer("layers", model.layers, tensegric::kLayers);
   model.uniform = parameters.flag("uniform_stiffness", model.uniform);
-  model.lateral_stiffness = parameters.number("lateral_stiffness", model.lateral_stiffness,
-                                              tensegric::kSoftestLateral, tensegric::kStiffestLateral);
-  model.skin = parameters.number("skin", model.skin, 0, tensegric::kThickestSkin);
+  model.lateral_stiffness =
+      parameters.number("lateral_stiffness", model.lateral_stiffness, tensegric::kLateralStiffness);
+  model.skin = parameters.number("skin", model.skin, tensegric::kSkin);
   model.volume_stiffness =
-      parameters.number("volume_stiffness", model.volume_stiffness, 0, tensegric::kStiffestVolume);
-  model.stiffening = parameters.number("stiffening", model.stiffening, 0, tensegric::kMostStiffening);
-  model.modulus =
-      parameters.number("modulus", model.modulus, tensegric::kLeastModulus, tensegric::kMostModulus);
-  model.strut_stiffness = parameters.number("strut_stiffness", model.strut_stiffness,
-                                            tensegric::kSoftestStrut, tensegric::kStiffestStrut);
-  model.prestress = parameters.number("prestress", model.prestress, tensegric::kLowestPrestress,
-                                      tensegric::kHighestPrestress);
+      parameters.number("volume_stiffness", model.volume_stiffness, tensegric::kVolumeStiffness);
+  model.stiffening = parameters.number("stiffening", model.stiffening, tensegric::kStiffening);
+  model.modulus = parameters.number("modulus", model.modulus, tensegric::kModulus);
+  model.strut_stiffness =
+      parameters.number("strut_stiffness", model.strut_stiffness, tensegric::kStrutStiffness);
+  model.prestress = parameters.number("prestress", model.prestress, tensegric::kPrestress);
   tensegric::SolverOptions& solver = setup.fitter.solver;
   solver.solver = tensegric::solver_from(
       parameters.choice("solver", to_string(solver.solver), {"equilibrium", "adaptive", "relaxation"}));
-  solver.max_iterations = parameters.integer("max_iterations", solver.max_iterations, 0, 10000000);
-  solver.time_budget = parameters.number("time_budget", solver.time_budget, 0, 3600);
+  solver.max_iterations =
+      parameters.integer("max_iterations", solver.max_iterations, tensegric::kMaxIterations);
+  solver.time_budget = parameters.number("time_budget", solver.time_budget, tensegric::kTimeBudget);
   solver.volume = parameters.choice("volume", "control", {"control", "body"}) == "body"
                       ? tensegric::KeptVolume::body
                       : tensegric::KeptVolume::control;
   solver.gravity = parameters.vector("gravity", solver.gravity);
-  solver.line_force = parameters.number("line_force", solver.line_force, 0, 1e6);
-  solver.volume_force = parameters.number("volume_force", solver.volume_force, 0, 1e6);
+  solver.line_force = parameters.number("line_force", solver.line_force, tensegric::kPseudoForce);
+  solver.volume_force = parameters.number("volume_force", solver.volume_force, tensegric::kPseudoForce);
   geometry::Posture& posture = setup.fitter.posture;
   posture.twist =
-      parameters.number("twist", posture.twist, -geometry::kLargestTwist, geometry::kLargestTwist);
+      parameters.number("twist", posture.twist, {-geometry::kLargestTwist, geometry::kLargestTwist});
   posture.side_lean =
-      parameters.number("side_lean", posture.side_lean, -geometry::kLargestLean, geometry::kLargestLean);
-  setup.progress_period = parameters.number("progress_period", setup.progress_period, 0.001, 60);
+      parameters.number("side_lean", posture.side_lean, {-geometry::kLargestLean, geometry::kLargestLean});
+  setup.progress_period = parameters.number("progress_period", setup.progress_period, {0.001, 60});
   setup.garment = parameters.text("garment", setup.garment);
   setup.kept = parameters.text("worn", "");
   setup.garment_directory = parameters.text("garment_directory", geometry::shipped_folder("garments"));

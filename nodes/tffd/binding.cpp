@@ -13,20 +13,9 @@ namespace {
 using geometry::Refusal;
 namespace refusal = geometry::refusal;
 
-void check_options(const Options& options) {
-  if (!(options.truncation >= 0 && options.truncation <= 0.1))
-    throw Refusal(refusal::kBadOption, "t-FFD: truncation must be from 0 to 0.1");
-  if (options.setting == Setting::paper && (options.truncation > 0 || options.precision == Precision::fast))
-    throw Refusal(refusal::kBadOption,
-                  "t-FFD: the paper's setting has neither a fast precision nor a truncation");
-}
-
 double beta_of(const Options& options) {
-  if (options.beta == 0) return options.setting == Setting::paper ? 2.5 : 1.3;
-  // Below 1 the local kernels leave gaps between the triangles; far above, every triangle carries everything.
-  if (!(options.beta >= 1 && options.beta <= 20))
-    throw Refusal(refusal::kBadOption, "t-FFD: beta must be 0 (the setting's own) or from 1 to 20");
-  return options.beta;
+  if (options.beta != 0) return options.beta;
+  return options.setting == Setting::paper ? 2.5 : 1.3;
 }
 
 void check_nodes(const std::vector<Eigen::Vector3d>& nodes, std::size_t count) {
@@ -67,6 +56,14 @@ std::vector<Anchor> anchors_of(const NormalTerms& bound) {
 }
 
 }  // namespace
+
+void check_options(const Options& options) {
+  geometry::check_option("truncation", options.truncation, kTruncation);
+  if (options.beta != 0) geometry::check_option("beta", options.beta, kBeta);
+  if (options.setting == Setting::paper && (options.truncation > 0 || options.precision == Precision::fast))
+    throw Refusal(refusal::kBadOption,
+                  "t-FFD: the paper's setting has neither a fast precision nor a truncation");
+}
 
 Binding::Binding(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
                  const Options& options)

@@ -6,6 +6,7 @@
 
 #include "geometry/control_mesh.hpp"
 #include "geometry/posture.hpp"
+#include "geometry/range.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "tffd/reach.hpp"
 #include "tffd/untangle.hpp"
@@ -23,15 +24,23 @@ enum class Setting { standard, paper };
 /// mm of `reference`, which is double throughout.
 enum class Precision { reference, fast };
 
+/// Below 1 the local kernels leave gaps between the triangles; far above, every triangle carries everything.
+inline constexpr geometry::Range kBeta{1, 20};
+inline constexpr geometry::Range kTruncation{0, 0.1};
+
 /// Field defaults are the parameters' defaults.
 struct Options {
   Setting setting = Setting::standard;
   double beta = 0;  ///< reach of a triangle in its mean radii; 0: the setting's own, 1.3 (paper: 2.5)
   Precision precision = Precision::reference;
   /// Kernel weights below this part of a vertex's largest are dropped and the others scaled up: fewer entries
-  /// in M, affine-exact all the same; what it costs says Binding::truncation_error. 0: none. At most 0.1.
+  /// in M, affine-exact all the same; what it costs says Binding::truncation_error. 0: none.
   double truncation = 0;
 };
+
+/// \throw Refusal bad_option: beta, truncation, or anything but the defaults of precision and truncation in
+/// the paper's setting
+void check_options(const Options& options);
 
 /// A body bound to a control mesh at rest.
 class Binding {

@@ -58,13 +58,14 @@ std::string codes_of(const std::vector<FitWarning>& warnings) {
 TffdHandler::TffdHandler(Parameters parameters) {
   const std::string setting = parameters.choice("setting", "standard", {"standard", "paper"});
   options_.setting = setting == "paper" ? tffd::Setting::paper : tffd::Setting::standard;
-  options_.beta = parameters.number("beta", options_.beta, 0, 20);
+  options_.beta = parameters.number("beta", options_.beta, {0, tffd::kBeta.high});
   options_.precision = parameters.choice("precision", "reference", {"reference", "fast"}) == "fast"
                            ? tffd::Precision::fast
                            : tffd::Precision::reference;
-  options_.truncation = parameters.number("truncation", options_.truncation, 0, 0.1);
-  hold_.least_pull = parameters.number("least_pull", hold_.least_pull, 0, tffd::kHighestLeastPull);
+  options_.truncation = parameters.number("truncation", options_.truncation, tffd::kTruncation);
+  hold_.least_pull = parameters.number("least_pull", hold_.least_pull, tffd::kLeastPull);
   parameters.check_all_known();
+  tffd::check_options(options_);
 }
 
 TffdHandler::Output TffdHandler::handle(const Input& input) {

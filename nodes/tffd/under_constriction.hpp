@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/fit_warning.hpp"
+#include "geometry/range.hpp"
 #include "tffd/skin_check.hpp"
 
 namespace tensegric_fit::tffd {
@@ -15,8 +16,7 @@ inline constexpr double kOffSkin = 5e-3;
 inline constexpr double kLiftedShare = 0.25;
 /// m: half the width of a band where nothing else is said (30 mm): the skin that is held by a line.
 inline constexpr double kHeldSkin = 15e-3;
-/// Most that `least_pull` can be, pseudo force.
-inline constexpr double kHighestLeastPull = 1e6;
+inline constexpr geometry::Range kLeastPull{0, 1e6};  ///< pseudo force
 
 /// Field defaults are the parameters' defaults.
 struct HoldOptions {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/range.hpp"
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
 #include "virtual_body/model_landmarks.hpp"
@@ -67,26 +68,21 @@ double lowest(const std::vector<Vector3d>& vertices) {
 }  // namespace
 
 void check_parameters(const ModelBodyParameters& p) {
-  const auto check = [](const std::string& name, double value, double low, double high) {
-    if (value >= low && value <= high) return;  // false for NaN
-    throw geometry::Refusal(
-        geometry::refusal::kBadOption,
-        fmt::format("body parameter '{}' is {}; it must lie in [{}, {}]", name, value, low, high));
-  };
+  const auto check = geometry::check_option;
   for (Eigen::Index k = 0; k < p.shape.size(); ++k)
-    check(fmt::format("shape[{}]", k), p.shape[k], -kFarthestShape, kFarthestShape);
-  check("stature", p.stature, 1.40, 2.00);
+    check(fmt::format("shape[{}]", k), p.shape[k], {-kFarthestShape, kFarthestShape});
+  check("stature", p.stature, {1.40, 2.00});
   for (const Side side : kSides) {
-    check(std::string("arm_angle") + kSuffix[side], p.arms[side], 0.17, 1.05);
-    check(std::string("arm_forwards") + kSuffix[side], p.forwards[side], -0.5, 0.5);
-    check(std::string("elbow") + kSuffix[side], p.elbows[side], 0, 1);
+    check(std::string("arm_angle") + kSuffix[side], p.arms[side], {0.17, 1.05});
+    check(std::string("arm_forwards") + kSuffix[side], p.forwards[side], {-0.5, 0.5});
+    check(std::string("elbow") + kSuffix[side], p.elbows[side], {0, 1});
   }
-  check("legs", p.legs, -0.15, 0.30);
-  check("lean", p.lean, -0.2, 0.4);
-  check("bend", p.bend, -0.2, 0.2);
-  check("twist", p.twist, -0.2, 0.2);
-  check("yaw", p.yaw, -M_PI, M_PI);
-  check("tilt", p.tilt, -0.26, 0.26);
+  check("legs", p.legs, {-0.15, 0.30});
+  check("lean", p.lean, {-0.2, 0.4});
+  check("bend", p.bend, {-0.2, 0.2});
+  check("twist", p.twist, {-0.2, 0.2});
+  check("yaw", p.yaw, {-M_PI, M_PI});
+  check("tilt", p.tilt, {-0.26, 0.26});
 }
 
 StandingModel stand(const Model& model, const ModelBodyParameters& wanted) {

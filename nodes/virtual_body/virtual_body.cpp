@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/range.hpp"
 #include "geometry/status.hpp"
 #include "virtual_body/body_landmarks.hpp"
 #include "virtual_body/body_shape.hpp"
@@ -21,13 +22,6 @@ using Eigen::Vector3d;
 // who goes by the arm is beyond what ISO 20685 allows.
 constexpr double kApart = 0.007;
 constexpr double kGridSpacing = 0.0065;  // on the reference body; scales with the stature
-
-void check(const char* name, double value, double low, double high) {
-  if (value >= low && value <= high) return;  // false for NaN
-  throw geometry::Refusal(
-      geometry::refusal::kBadOption,
-      fmt::format("body parameter '{}' is {}; it must lie in [{}, {}]", name, value, low, high));
-}
 
 // Legs, trunk and arms apart: closed and of one piece, V - E + F is 2 for a sphere and E is 3/2 F.
 void check_apart(const geometry::TriangleMesh& mesh) {
@@ -53,18 +47,18 @@ BodyAxes axes_of(const BodyShape& shape, const geometry::BodyMeasures& truth) {
 }  // namespace
 
 void check_parameters(const BodyParameters& parameters) {
-  check("stature", parameters.stature, 1.40, 2.00);
-  check("build", parameters.build, 0.85, 1.50);
-  check("bust", parameters.bust, 0.75, 1.50);
-  check("firmness", parameters.firmness, -0.8, 1);
-  check("asymmetry", parameters.asymmetry, -0.2, 0.2);
-  check("waist", parameters.waist, 0.90, 1.40);
-  check("belly", parameters.belly, 0, 1);
-  check("hip", parameters.hip, 0.90, 1.25);
-  check("arm_angle", parameters.arm_angle, 0.25, 1.40);
-  check("stoop", parameters.stoop, -0.1, 0.4);
-  check("yaw", parameters.yaw, -M_PI, M_PI);
-  check("tilt", parameters.tilt, -0.26, 0.26);
+  geometry::check_option("stature", parameters.stature, {1.40, 2.00});
+  geometry::check_option("build", parameters.build, {0.85, 1.50});
+  geometry::check_option("bust", parameters.bust, {0.75, 1.50});
+  geometry::check_option("firmness", parameters.firmness, {-0.8, 1});
+  geometry::check_option("asymmetry", parameters.asymmetry, {-0.2, 0.2});
+  geometry::check_option("waist", parameters.waist, {0.90, 1.40});
+  geometry::check_option("belly", parameters.belly, {0, 1});
+  geometry::check_option("hip", parameters.hip, {0.90, 1.25});
+  geometry::check_option("arm_angle", parameters.arm_angle, {0.25, 1.40});
+  geometry::check_option("stoop", parameters.stoop, {-0.1, 0.4});
+  geometry::check_option("yaw", parameters.yaw, {-M_PI, M_PI});
+  geometry::check_option("tilt", parameters.tilt, {-0.26, 0.26});
 }
 
 VirtualBody make_body(const BodyParameters& parameters) {

@@ -26,11 +26,11 @@ Setup setup_from(Parameters parameters) {
   Setup setup;
   setup.family = virtual_booth::family_named(
       parameters.choice("family", virtual_booth::families().front(), virtual_booth::families()));
-  setup.first = parameters.integer("first_customer", 1, 0, 1000000);
-  setup.customers = parameters.integer("customers", 3, 0, 1000000);
-  setup.points = parameters.integer("points", 180000, 20000, 2000000);
-  setup.silent = parameters.integer("silent_sensor", -1, -1, kSensors - 1);
-  setup.interval = parameters.number("interval", 15, 0, 86400);
+  setup.first = parameters.integer("first_customer", 1, {0, 1000000});
+  setup.customers = parameters.integer("customers", 3, {0, 1000000});
+  setup.points = parameters.integer("points", 180000, {20000, 2000000});
+  setup.silent = parameters.integer("silent_sensor", -1, {-1, kSensors - 1});
+  setup.interval = parameters.number("interval", 15, {0, 86400});
   setup.frame_id = parameters.frame("frame_id", "booth");
   setup.sensor_frames = parameters.frame("sensor_frames", "sensor_");
   parameters.check_all_known();

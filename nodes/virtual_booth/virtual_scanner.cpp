@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/range.hpp"
 #include "geometry/status.hpp"
 #include "virtual_body/random.hpp"
 #include "virtual_booth/depth_image.hpp"
@@ -15,29 +16,22 @@ namespace {
 
 using Eigen::Vector3d;
 
-void check(const char* name, double value, double low, double high) {
-  if (value >= low && value <= high) return;  // false for NaN
-  throw geometry::Refusal(
-      geometry::refusal::kBadOption,
-      fmt::format("scanner option '{}' is {}; it must lie in [{}, {}]", name, value, low, high));
-}
-
 void check_options(const ScannerOptions& options) {
-  check("columns", options.columns, 2, 12);
-  check("sensors_per_column", options.sensors_per_column, 1, 6);
-  check("distance", options.distance, 1.0, 4.0);
-  check("points", options.points, 1000, 2000000);
-  check("noise", options.noise, 0, 0.01);
-  check("outliers", options.outliers, 0, 0.2);
-  check("misregistration", options.misregistration, 0, 0.01);
-  check("grazing", options.grazing, 0, 0.9);
-  check("floor_radius", options.floor_radius, 0.1, 3.0);
+  geometry::check_option("columns", options.columns, {2, 12});
+  geometry::check_option("sensors_per_column", options.sensors_per_column, {1, 6});
+  geometry::check_option("distance", options.distance, {1.0, 4.0});
+  geometry::check_option("points", options.points, {1000, 2000000});
+  geometry::check_option("noise", options.noise, {0, 0.01});
+  geometry::check_option("outliers", options.outliers, {0, 0.2});
+  geometry::check_option("misregistration", options.misregistration, {0, 0.01});
+  geometry::check_option("grazing", options.grazing, {0, 0.9});
+  geometry::check_option("floor_radius", options.floor_radius, {0.1, 3.0});
   for (const DarkPatch& patch : options.dark) {
-    check("dark.share", patch.share, 0, 1);
-    check("dark.radii", patch.radii.minCoeff(), 1e-6, 10);
+    geometry::check_option("dark.share", patch.share, {0, 1});
+    geometry::check_option("dark.radii", patch.radii.minCoeff(), {1e-6, 10});
   }
-  check("fracture.radii", options.fracture.radii.minCoeff(), 1e-6, 10);
-  check("fracture.shift", options.fracture.shift.norm(), 0, 0.05);
+  geometry::check_option("fracture.radii", options.fracture.radii.minCoeff(), {1e-6, 10});
+  geometry::check_option("fracture.shift", options.fracture.shift.norm(), {0, 0.05});
 }
 
 // Each sensor sees its share of the height, and half as much again for overlap.
@@ -152,7 +146,7 @@ Eigen::Isometry3d optical_frame(const Sensor& sensor) {
 // In the booth's own frame.
 VirtualScan scan_upright(const geometry::TriangleMesh& body, const ScannerOptions& options) {
   const double height = body.vertices.empty() ? 0 : geometry::bounding_box(body.vertices)[1].z();
-  check("height of the body over z = 0", height, 0.1, 3.0);
+  geometry::check_option("height of the body over z = 0", height, {0.1, 3.0});
   const std::vector<Sensor> all = sensors(options, body, height);
   const double pixels_per_unit = resolution(all, body, options);
 

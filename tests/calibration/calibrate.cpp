@@ -107,7 +107,8 @@ Cases read_cases(const std::string& path, const fit::Settings& settings) {
       geometry::check_keys(mesh, {"control_triangles", "layers"}, path, kCode);
       const calibration::Fineness fineness{
           static_cast<int>(geometry::number_in(mesh, "control_triangles", 1, 100000, path, kCode)),
-          static_cast<int>(geometry::number_in(mesh, "layers", 1, tensegric::kMostLayers, path, kCode))};
+          static_cast<int>(geometry::number_in(mesh, "layers", tensegric::kLayers.low,
+                                               tensegric::kLayers.high, path, kCode))};
       for (const calibration::CalibrationBody& body : bodies) {
         cases.bodies.push_back(body);
         cases.bodies.back().fineness = fineness;

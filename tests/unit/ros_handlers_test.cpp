@@ -1,4 +1,5 @@
 /// What stages do with messages, without a master.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <boost/make_shared.hpp>
@@ -7,6 +8,8 @@
 
 #include "fit/bind_body.hpp"
 #include "geometry/status.hpp"
+#include "reconstruction/reconstruction_handler.hpp"
+#include "reconstruction/validate.hpp"
 #include "ros/body_messages.hpp"
 #include "tensegric/kept_garment.hpp"
 #include "tensegric/tensegric_handler.hpp"
@@ -36,9 +39,9 @@ std::string refusal_of(const Read& read) {
 
 TEST(Parameters, FromAFileAreReadAndCheckedLikeThoseOfANode) {
   Parameters given = parameters("{count: 7, size: 2, exact: true, word: b, name: '12', way: [0, 0.5, -1]}");
-  EXPECT_EQ(given.integer("count", 1, 0, 10), 7);
-  EXPECT_EQ(given.number("size", 1, 0, 10), 2);
-  EXPECT_EQ(given.number("absent", 1.5, 0, 10), 1.5);
+  EXPECT_EQ(given.integer("count", 1, {0, 10}), 7);
+  EXPECT_EQ(given.number("size", 1, {0, 10}), 2);
+  EXPECT_EQ(given.number("absent", 1.5, {0, 10}), 1.5);
   EXPECT_TRUE(given.flag("exact", false));
   EXPECT_EQ(given.choice("word", "a", {"a", "b"}), "b");
   EXPECT_EQ(given.text("name", ""), "12");  // in quotes: no number
@@ -54,7 +57,7 @@ TEST(Parameters, AreRefusedByName) {
       given.check_all_known();
     });
   };
-  const auto count = [](Parameters& p) { p.integer("count", 1, 0, 10); };
+  const auto count = [](Parameters& p) { p.integer("count", 1, {0, 10}); };
   EXPECT_EQ(refused("{count: 11}", count), "parameter '/stage/count' is 11, not in [0, 10]");
   EXPECT_EQ(refused("{count: 1e300}", count), "parameter '/stage/count' is 1e+300, not in [0, 10]");
   EXPECT_EQ(refused("{count: 1.5}", count), "parameter '/stage/count' is not an integer");
@@ -63,6 +66,24 @@ TEST(Parameters, AreRefusedByName) {
   EXPECT_EQ(refused("{way: [1, 2]}", [](Parameters& p) { p.vector("way", Eigen::Vector3d::Zero()); }),
             "parameter '/stage/way' is not a list of three numbers");
   EXPECT_EQ(refused("[1]", count), "parameters of 'stage' are not a map");
+}
+
+TEST(Parameters, ThatANodeTakesAreNotRefusedByItsCore) {
+  const auto end = [](const char* name, double value) {
+    Parameters given = parameters(fmt::format("{{{}: {}}}", name, value));
+    return refusal_of([&] { reconstruction::check_options(reconstruction_options(given)); });
+  };
+  using geometry::Range;
+  for (const auto& [name, range] :
+       {std::pair<const char*, Range>{"body_triangles", reconstruction::kBodyTriangles},
+        {"poisson_depth", reconstruction::kPoissonDepth},
+        {"min_points", reconstruction::kMinPoints},
+        {"max_points", {reconstruction::kMinPoints.high, reconstruction::kMaxPoints.high}},
+        {"support_distance", reconstruction::kSupportDistance}})
+    for (const double value : {range.low, range.high}) EXPECT_EQ(end(name, value), "accepted") << name;
+  EXPECT_EQ(end("min_points", 499), "parameter '/stage/min_points' is 499, not in [500, 1000000]");
+  EXPECT_NE(end("max_points", 4999), "accepted");  // fewer than the least
+  EXPECT_NE(refusal_of([] { TffdHandler{parameters("{beta: 0.5}")}; }), "accepted");
 }
 
 /// Messages of scans that all have the same bust.

@@ -113,7 +113,7 @@ TEST(Layers, AWarmStartKnowsThem) {
 }
 
 TEST(Layers, AsManyAsMakeSense) {
-  for (const int layers : {-1, 0, kMostLayers + 1})
+  for (const int layers : {-1, 0, static_cast<int>(kLayers.high) + 1})
     EXPECT_THROW(build_model(bust_mesh(), layered(layers)), geometry::Refusal) << layers;
 }
 
