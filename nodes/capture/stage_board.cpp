@@ -17,11 +17,6 @@ const StageReport* StageBoard::find(const std::string& stage) const {
   return heard == stages_.end() ? nullptr : &heard->second.report;
 }
 
-bool StageBoard::is_silent(const std::string& stage, double now) const {
-  const auto heard = stages_.find(stage);
-  return heard == stages_.end() || now - heard->second.at > kSilent;
-}
-
 double StageBoard::working_seconds(const std::string& stage, double now) const {
   const auto heard = stages_.find(stage);
   if (heard == stages_.end() || heard->second.report.state != "working") return 0;

@@ -29,7 +29,6 @@ class StageBoard {
 
   /// Null where the stage never said anything.
   const StageReport* find(const std::string& stage) const;
-  bool is_silent(const std::string& stage, double now) const;
 
   /// For how long it has been at the work at hand, s; 0 where it is at none.
   double working_seconds(const std::string& stage, double now) const;

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "markup.hpp"
+#include "files/html.hpp"
 #include "report.hpp"
 
 namespace tensegric_fit::regression {
@@ -33,9 +33,9 @@ std::string test_case(const Outcome& outcome, const Verdict& verdict) {
       verdict.holds()
           ? ""
           : fmt::format("<failure message=\"{} of {} metrics, {} faults\">{}</failure>", verdict.failures(),
-                        verdict.rows.size(), verdict.faults.size(), markup_safe(words_of(verdict)));
+                        verdict.rows.size(), verdict.faults.size(), files::html_escaped(words_of(verdict)));
   return fmt::format("    <testcase classname=\"regression.{}\" name=\"{}\" time=\"{:.3f}\">{}</testcase>\n",
-                     verdict.runner, markup_safe(outcome.asked.name), outcome.seconds, failure);
+                     verdict.runner, files::html_escaped(outcome.asked.name), outcome.seconds, failure);
 }
 
 }  // namespace

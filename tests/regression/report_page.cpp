@@ -1,11 +1,10 @@
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <algorithm>
 
 #include "case_pictures.hpp"
+#include "files/html.hpp"
 #include "history_plot.hpp"
-#include "markup.hpp"
 #include "report.hpp"
 
 namespace tensegric_fit::regression {
@@ -25,33 +24,24 @@ img { max-width: 100%; height: auto; background: white; } figcaption { font-size
 .wide td:last-child { min-width: 14rem; }
 summary { cursor: pointer; })";
 
-std::string base64(const std::string& bytes) {
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
-  const int size =
-      EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                      reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
-  text.resize(static_cast<std::size_t>(size));
-  return text;
-}
-
 std::string mark(bool holds) {
   return holds ? "<span class=good>holds</span>" : "<span class=bad>FAILS</span>";
 }
 
 std::string cell(const std::string& text) {
-  return "<td class=n>" + markup_safe(text) + "</td>";
+  return "<td class=n>" + files::html_escaped(text) + "</td>";
 }
 
 std::string row_of(const Row& row) {
   const Expectation& asked = row.expectation;
   const auto difference = row.difference();
-  return "<tr><td>" + markup_safe(asked.metric) + "</td>" +
+  return "<tr><td>" + files::html_escaped(asked.metric) + "</td>" +
          cell(asked.value ? to_text(*asked.value) : "nothing so far") +
          cell(row.found ? to_text(*row.found) : "not found") +
          cell(difference ? fmt::format("{:+.3g}", *difference) : "") +
          cell(asked.tolerance > 0 ? fmt::format("{:g}", asked.tolerance) : "") +
          cell(row.error ? fmt::format("{:+.3g}", *row.error) : "") + "<td>" + mark(row.holds) + "</td><td>" +
-         (asked.golden ? "recorded: " : "") + markup_safe(asked.reason) + "</td></tr>\n";
+         (asked.golden ? "recorded: " : "") + files::html_escaped(asked.reason) + "</td></tr>\n";
 }
 
 std::string table_of(const std::vector<Row>& rows) {
@@ -78,7 +68,8 @@ std::string costs_of(const Verdict& verdict) {
 
 std::string verdict_of(const Verdict& verdict) {
   std::string html = fmt::format("<h3>{} runner: {}</h3>\n", verdict.runner, mark(verdict.holds()));
-  for (const std::string& fault : verdict.faults) html += "<p class=bad>" + markup_safe(fault) + "</p>\n";
+  for (const std::string& fault : verdict.faults)
+    html += "<p class=bad>" + files::html_escaped(fault) + "</p>\n";
   std::vector<Row> failing, holding;
   for (const Row& row : verdict.rows) (row.holds ? holding : failing).push_back(row);
   if (!failing.empty()) html += table_of(failing);
@@ -88,17 +79,17 @@ std::string verdict_of(const Verdict& verdict) {
 
 std::string section_of(const Outcome& outcome) {
   std::string html =
-      fmt::format("<h2 id=\"{0}\">{0}: {1}</h2>\n<p>{2}</p>\n", markup_safe(outcome.asked.name),
-                  mark(outcome.holds()), markup_safe(outcome.asked.about));
+      fmt::format("<h2 id=\"{0}\">{0}: {1}</h2>\n<p>{2}</p>\n", files::html_escaped(outcome.asked.name),
+                  mark(outcome.holds()), files::html_escaped(outcome.asked.about));
   for (const CasePicture& picture : pictures_of(outcome.recording))
     html += fmt::format(
         "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-        picture.caption, base64(picture.png));
+        picture.caption, files::base64(picture.png));
   for (std::size_t i = 0; i < outcome.recording.histories.size(); ++i) {
     const std::string plot = history_plot(outcome.recording.histories[i]);
     if (!plot.empty())
       html += fmt::format("<figure>{}<figcaption>how {} went</figcaption></figure>\n", plot,
-                          markup_safe(outcome.recording.fits[i]->garment));
+                          files::html_escaped(outcome.recording.fits[i]->garment));
   }
   for (const Verdict& verdict : outcome.verdicts) html += verdict_of(verdict);
   if (!outcome.recording.scan_id.empty()) {
@@ -111,11 +102,12 @@ std::string section_of(const Outcome& outcome) {
   if (!outcome.asked.updates.empty()) {
     html += "<details><summary>Why golden values were replaced</summary><ol>\n";
     for (const Update& update : outcome.asked.updates) {
-      html += "<li>" + markup_safe(update.reason);
-      if (!update.date.empty()) html += fmt::format(" ({}, {})", update.date, markup_safe(update.commit));
+      html += "<li>" + files::html_escaped(update.reason);
+      if (!update.date.empty())
+        html += fmt::format(" ({}, {})", update.date, files::html_escaped(update.commit));
       for (const auto& [metric, values] : update.values)
-        html += fmt::format("<br>{}: {} → {}", markup_safe(metric), markup_safe(values.first),
-                            markup_safe(values.second));
+        html += fmt::format("<br>{}: {} → {}", files::html_escaped(metric), files::html_escaped(values.first),
+                            files::html_escaped(values.second));
       html += "</li>\n";
     }
     html += "</ol></details>\n";
@@ -126,13 +118,13 @@ std::string section_of(const Outcome& outcome) {
 std::string overview_of(const std::vector<Outcome>& outcomes) {
   std::string html = "<div class=wide><table><tr><th>case<th>bag<th>replay<th>seconds<th>about</tr>\n";
   for (const Outcome& outcome : outcomes) {
-    html += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td>", markup_safe(outcome.asked.name));
+    html += fmt::format("<tr><td><a href=\"#{0}\">{0}</a></td>", files::html_escaped(outcome.asked.name));
     for (const std::string runner : {"bag", "replay"}) {
       const auto verdict = std::find_if(outcome.verdicts.begin(), outcome.verdicts.end(),
                                         [&](const Verdict& v) { return v.runner == runner; });
       html += "<td>" + (verdict == outcome.verdicts.end() ? "" : mark(verdict->holds())) + "</td>";
     }
-    html += cell(fmt::format("{:.1f}", outcome.seconds)) + "<td>" + markup_safe(outcome.asked.about) +
+    html += cell(fmt::format("{:.1f}", outcome.seconds)) + "<td>" + files::html_escaped(outcome.asked.about) +
             "</td></tr>\n";
   }
   return html + "</table></div>\n";
