@@ -9,6 +9,7 @@
 
 #include "geometry/halves.hpp"
 #include "geometry/point_tree.hpp"
+#include "geometry/rigid_motion.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::assembler {
@@ -182,10 +183,7 @@ class Columns {
   }
 
   void move(std::size_t column, const Vector6d& motion) {
-    const double angle = motion.head<3>().norm();
-    const Vector3d axis = angle > 0 ? Vector3d(motion.head<3>() / angle) : Vector3d::UnitX();
-    motion_[column] = Eigen::Translation3d(centre_ + motion.tail<3>()) * Eigen::AngleAxisd(angle, axis) *
-                      Eigen::Translation3d(-centre_) * motion_[column];
+    motion_[column] = geometry::motion_about(centre_, motion.head<3>(), motion.tail<3>()) * motion_[column];
   }
 
   const std::vector<PointCloud>& columns_;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/rigid_motion.hpp"
+
 namespace tensegric_fit::correlation {
 namespace {
 
@@ -14,6 +16,9 @@ using Eigen::Vector3d;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
+// Why not the assembler's registration: one patch against one surface with its holes, of which a share of the
+// nearest matches is kept, and which may leave the motion undetermined; columns are points, weighted, all in
+// one system.
 constexpr std::size_t kPoints = 2500;
 constexpr int kMostSteps = 80;
 constexpr double kKept = 0.8;       // share of the matches
@@ -74,11 +79,7 @@ Step step_from(const std::vector<Match>& matches) {
       Eigen::SelfAdjointEigenSolver<Matrix6d>(system, Eigen::EigenvaluesOnly).eigenvalues();
   if (!(eigenvalues[0] > kLoosest * eigenvalues[5])) return {Isometry3d::Identity(), 0, false};
   const Vector6d step = system.ldlt().solve(right);
-  const Vector3d turn = step.head<3>() / size;
-  Isometry3d motion = Isometry3d::Identity();
-  if (turn.norm() > 0) motion.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-  motion.translation() = middle + step.tail<3>() - motion.linear() * middle;
-  return {motion, step.norm(), true};
+  return {geometry::motion_about(middle, step.head<3>() / size, step.tail<3>()), step.norm(), true};
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "geometry/surface_tree.hpp"
 
-#include <algorithm>
-#include <limits>
+#include "geometry/nearest_on_sides.hpp"
 
 namespace tensegric_fit::geometry {
 namespace {
@@ -21,27 +20,11 @@ std::vector<Vector3d> centroids_of(const TriangleMesh& mesh) {
 Vector3d nearest_in(const std::array<Vector3d, 3>& corners, const Vector3d& q) {
   const Vector3d normal = area_vector(corners[0], corners[1], corners[2]);
   const double squared = normal.squaredNorm();
-  if (squared > 0) {
-    Vector3d inside;
+  Vector3d inside = Vector3d::Constant(-1);
+  if (squared > 0)
     for (int k = 0; k < 3; ++k)
       inside[k] = normal.dot(area_vector(q, corners[(k + 1) % 3], corners[(k + 2) % 3])) / squared;
-    if (inside.minCoeff() >= 0) return inside;
-  }
-  Vector3d best = Vector3d::Zero();
-  double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 3; ++k) {
-    const int a = (k + 1) % 3, b = (k + 2) % 3;
-    const Vector3d along = corners[b] - corners[a];
-    const double length = along.squaredNorm();
-    const double t = length > 0 ? std::clamp(along.dot(q - corners[a]) / length, 0.0, 1.0) : 0.0;
-    const double distance = (q - corners[a] - t * along).squaredNorm();
-    if (distance >= least) continue;
-    least = distance;
-    best.setZero();
-    best[a] = 1 - t;
-    best[b] = t;
-  }
-  return best;
+  return inside.minCoeff() >= 0 ? inside : nearest_on_sides(corners, inside, q);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "reconstruction/registration.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/rigid_motion.hpp"
 #include "reconstruction/percentile.hpp"
 #include "reconstruction/sheets.hpp"
 
@@ -122,11 +122,7 @@ void register_sensors(Points& points, const std::vector<int>& sensor_of) {
     std::vector<Eigen::Isometry3d> move;
     for (const Motion& motion : motions) {
       if (!(motion.head<3>().norm() < kMost && motion.tail<3>().norm() < kMost)) return;
-      const double angle = motion.tail<3>().norm();
-      const Eigen::Vector3d axis =
-          angle > 0 ? Eigen::Vector3d(motion.tail<3>() / angle) : Eigen::Vector3d::UnitX();
-      move.push_back(Eigen::Translation3d(middle + motion.head<3>()) * Eigen::AngleAxisd(angle, axis) *
-                     Eigen::Translation3d(-middle));
+      move.push_back(geometry::motion_about(middle, motion.tail<3>(), motion.head<3>()));
     }
     if (move.empty()) return;
     for (std::size_t i = 0; i < points.size(); ++i)

@@ -2,11 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
+#include "geometry/nearest_on_sides.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::tffd {
@@ -22,23 +21,7 @@ Eigen::Vector3d Frame::closest(const Eigen::Vector3d& q) const {
   const Eigen::Vector2d uv = in_plane_from_offset * (q - corners[0]);
   const Eigen::Vector3d inside(1 - uv[0] - uv[1], uv[0], uv[1]);
   if (inside.minCoeff() >= 0) return inside;
-
-  // Not over the triangle: the closest point lies on one of the sides that q is beyond.
-  Eigen::Vector3d best = Eigen::Vector3d::Zero();
-  double best_distance = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 3; ++k) {
-    if (inside[k] >= 0) continue;
-    const int a = (k + 1) % 3, b = (k + 2) % 3;
-    const Eigen::Vector3d along = corners[b] - corners[a];
-    const double t = std::clamp(along.dot(q - corners[a]) / along.squaredNorm(), 0.0, 1.0);
-    const double distance = (q - corners[a] - t * along).squaredNorm();
-    if (distance >= best_distance) continue;
-    best_distance = distance;
-    best.setZero();
-    best[a] = 1 - t;
-    best[b] = t;
-  }
-  return best;
+  return geometry::nearest_on_sides(corners, inside, q);
 }
 
 std::vector<Frame> frames_of(const geometry::ControlMesh& control, Axis axis) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "body_model/registered_body.hpp"
+#include "geometry/side.hpp"
 #include "geometry/status.hpp"
 #include "virtual_body/random.hpp"
 #include "virtual_body/sagittal.hpp"
@@ -44,7 +45,7 @@ bool is_womans_size(const body_model::Model& model, const virtual_body::ModelBod
   double height = 0;
   for (const char* name : {"bust_point_L", "bust_point_R"})
     height += body_model::skin_point(model, skin.mesh().vertices, name).z() / 2;
-  const double bust = girth(skin.round_trunk(height));
+  const double bust = virtual_body::girth(skin.round_trunk(height));
   return bust > 0.70 && bust < 1.42;  // m
 }
 
@@ -60,7 +61,8 @@ void part_limbs(const body_model::Model& model, virtual_body::ModelBodyParameter
       angle = std::min(angle + kStep, widest);
       moved = true;
     };
-    for (const Side side : kSides) open(collided.arms[side], body.arms[side], kWidestArms);
+    for (const geometry::Side side : geometry::kSides)
+      open(collided.arms[side], body.arms[side], kWidestArms);
     open(collided.legs, body.legs, kWidestLegs);
     if (!moved) return;
   }
@@ -101,7 +103,7 @@ virtual_body::ModelBodyParameters random_model_body(std::uint64_t seed, const bo
   // Mostly the pose that a booth asks for; one in four holds her arms wider
   const double arms = draw.chance(0.25) ? draw.between(38, 60) : draw.between(10, 38),
                elbows = draw.between(5, 35);
-  for (const Side side : kSides) {
+  for (const geometry::Side side : geometry::kSides) {
     body.arms[side] = std::clamp(arms + 3 * draw.normal_within(2), 10.0, 60.0) * kDegree;
     body.forwards[side] = 5 * kDegree * draw.normal_within(2);
     body.elbows[side] = std::clamp(elbows + 4 * draw.normal_within(2), 0.0, 45.0) * kDegree;
