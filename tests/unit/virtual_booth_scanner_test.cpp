@@ -234,13 +234,13 @@ TEST(VirtualScannerTest, OptionsOutOfRangeAreRefusedByName) {
   };
   ScannerOptions options;
   options.columns = 1;
-  EXPECT_NE(refused(options).find("bad_option scanner option 'columns'"), std::string::npos);
+  EXPECT_NE(refused(options).find("bad_option option 'columns'"), std::string::npos);
   options = {};
   options.noise = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(refused(options).find("bad_option scanner option 'noise'"), std::string::npos);
+  EXPECT_NE(refused(options).find("bad_option option 'noise'"), std::string::npos);
   options = {};
   options.points = -5;
-  EXPECT_NE(refused(options).find("bad_option scanner option 'points'"), std::string::npos);
+  EXPECT_NE(refused(options).find("bad_option option 'points'"), std::string::npos);
   EXPECT_THROW(virtual_booth::scan_body({}, ScannerOptions()), geometry::Refusal);
 }
 
