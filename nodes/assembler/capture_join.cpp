@@ -1,11 +1,7 @@
 #include "assembler/capture_join.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-
-#include "geometry/status.hpp"
 
 namespace tensegric_fit::assembler {
 namespace {

@@ -1,7 +1,5 @@
 #include "assembler/registration.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -10,7 +8,6 @@
 #include "geometry/halves.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/rigid_motion.hpp"
-#include "geometry/status.hpp"
 
 namespace tensegric_fit::assembler {
 namespace {

@@ -1,7 +1,5 @@
 #include "virtual_body/virtual_body.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

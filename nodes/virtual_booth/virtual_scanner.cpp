@@ -1,7 +1,5 @@
 #include "virtual_booth/virtual_scanner.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
