@@ -1,4 +1,4 @@
-/// Finer control meshes for the speed-against-error report (DESIGN §6).
+/// Finer control meshes for the speed-against-error report (README.md).
 #pragma once
 
 #include "control_mesh/skin.hpp"

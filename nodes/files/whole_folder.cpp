@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kUnfinished[] = ".unfinished";  // ending of hidden folders
+constexpr char kUnfinished[] = ".unfinished";  // suffix of hidden folders
 
 [[noreturn]] void fail(const std::string& path) {
   throw fs::filesystem_error("", path, std::error_code(errno, std::generic_category()));
@@ -39,7 +39,7 @@ std::string in_words(const fs::filesystem_error& error) {
   }
 }
 
-/// Closes what it holds.
+/// Owns a file descriptor.
 class Descriptor {
  public:
   Descriptor(const fs::path& path, int flags) : number_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {
@@ -73,7 +73,7 @@ fs::path hidden(const fs::path& folder) {
   return folder.parent_path() / ("." + folder.filename().string() + kUnfinished);
 }
 
-/// Held by one writer at a time; what is unfinished when it is taken was given up.
+/// Held by one writer at a time; unfinished folders that exist when it is acquired were abandoned.
 class ParentLock {
  public:
   explicit ParentLock(const fs::path& parent) : directory_(parent, O_RDONLY | O_DIRECTORY) {
@@ -126,7 +126,7 @@ std::vector<std::string> write_whole_folder(const std::string& folder,
         paths.push_back(wanted / file.name);
       }
       to_disk(unfinished);
-      fs::rename(unfinished, wanted);  // fails where a filled directory has come up meanwhile
+      fs::rename(unfinished, wanted);  // fails where a non-empty directory has been created in the meantime
       to_disk(wanted.parent_path());
     } catch (const fs::filesystem_error&) {
       std::error_code ignored;

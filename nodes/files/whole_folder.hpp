@@ -1,4 +1,4 @@
-/// Folders that are there whole or not at all.
+/// Folders that are written atomically: complete or not at all.
 #pragma once
 
 #include <string>

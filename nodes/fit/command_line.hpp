@@ -1,4 +1,4 @@
-/// The command line of `fit` (DESIGN §3).
+/// The command line of `fit` (launch/pages/programs.md).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// report.json and history.csv (DESIGN §3).
+/// report.json and history.csv (launch/pages/results.md).
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -37,7 +37,7 @@ class Run {
  public:
   explicit Run(const CommandLine& line) : line_(line), settings_(line.settings) {}
 
-  // The chain as it reads in DESIGN §1. Refusals leave as exceptions.
+  // The chain: launch/pages/architecture.md. Refusals leave as exceptions.
   void operator()() {
     const bool measured_only = line_.garment.empty() && !line_.is_shape();
     load_body();

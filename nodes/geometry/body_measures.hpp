@@ -16,7 +16,7 @@ struct Landmark {
   Eigen::Vector3d position;
   double confidence;
   std::string reason;
-  double half_width = 0;  ///< m, radius of the ball that holds it at 95 %; 0 where nothing is said
+  double half_width = 0;  ///< m, radius of the 95 % confidence ball; 0: unknown
 };
 
 /// A height above the soles or a girth, metres. Heights: bust, underbust, waist, hip, crotch, neck, stature.
@@ -26,10 +26,10 @@ struct Measure {
   double metres;
   double confidence;
   std::string reason;
-  double half_width = 0;  ///< m, of the 95 % interval; 0 where nothing is said
+  double half_width = 0;  ///< m, of the 95 % confidence interval; 0: unknown
 };
 
-/// The tape of a girth as drawn: a closed loop in the scan's frame.
+/// The tape along which a girth was measured: a closed loop in the scan's frame.
 struct GirthLoop {
   std::string name;
   std::vector<Eigen::Vector3d> points;
@@ -42,7 +42,7 @@ struct Missing {
 
 /// Names after ISO 8559-1; definitions in the README of the landmarks.
 struct BodyMeasures {
-  /// Takes the scan's frame to the body's (REP 103: x forward, y to her left, z up, origin on the floor
+  /// Transforms the scan's frame to the body's (REP 103: x forward, y to her left, z up, origin on the floor
   /// between the feet).
   Eigen::Isometry3d body_from_scan = Eigen::Isometry3d::Identity();
   std::vector<Landmark> landmarks;

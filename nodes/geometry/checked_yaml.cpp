@@ -15,7 +15,7 @@ YAML::Node load_yaml_map(const std::string& path, const std::string& code) {
   } catch (const YAML::Exception& error) {
     throw Refusal(code, path + ": not YAML: " + error.what());
   }
-  if (!root.IsMap()) throw Refusal(code, path + ": does not hold a YAML map");
+  if (!root.IsMap()) throw Refusal(code, path + ": is not a YAML map");
   return root;
 }
 
@@ -24,11 +24,11 @@ void check_keys(const YAML::Node& map, std::initializer_list<const char*> known,
   if (!map.IsMap()) throw Refusal(code, where + ": must be a map");
   std::set<std::string> met;
   for (const auto& entry : map) {
-    const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a word)";
+    const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(not a scalar)";
     const bool is_known =
         std::any_of(known.begin(), known.end(), [&key](std::string_view k) { return k == key; });
     if (!is_known) throw Refusal(code, where + ": unknown key '" + key + "'");
-    if (!met.insert(key).second) throw Refusal(code, where + ": key '" + key + "' stands there twice");
+    if (!met.insert(key).second) throw Refusal(code, where + ": key '" + key + "' is given twice");
   }
 }
 

@@ -13,8 +13,7 @@ namespace tensegric_fit::geometry {
 /// A file that must hold one YAML map. \throw Refusal `code`: not there, not YAML, not a map
 YAML::Node load_yaml_map(const std::string& path, const std::string& code);
 
-/// \throw Refusal `code` naming the first key of `map` that is not in `known` or stands there twice, and
-/// `where`
+/// \throw Refusal `code` naming `where` and the first key of `map` that is not in `known` or is given twice
 void check_keys(const YAML::Node& map, std::initializer_list<const char*> known, const std::string& where,
                 const std::string& code);
 

@@ -119,7 +119,8 @@ std::vector<int> route_over_edges(const ControlMesh& control, const std::vector<
       }
     }
     if (distance[stops[i - 1]] == kFar)
-      throw Refusal(refusal::kUnknownLine, "a line joins two parts of the control mesh that no edge joins");
+      throw Refusal(refusal::kUnknownLine,
+                    "a line joins two parts of the control mesh that are not connected");
     for (int node = stops[i - 1]; node != stops[i];) route.push_back(node = towards[node]);
   }
   return route;

@@ -1,4 +1,4 @@
-/// The control mesh: what the tensegric model stands on and t-FFD is driven by (P1 §3.3, Fig. 4).
+/// The control mesh: the tensegric model is built on it, and it drives t-FFD (P1 §3.3, Fig. 4).
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@ struct ControlLine {
   std::vector<int> nodes;
 };
 
-/// A part of the control mesh whose volume is kept by itself (P2 §2.3).
+/// A part of the control mesh whose volume is conserved separately (P2 §2.3).
 struct ControlRegion {
   std::string name;
   std::vector<int> triangles;
@@ -38,11 +38,11 @@ struct ControlMesh {
   int node(const std::string& name) const;
 };
 
-/// \throw Refusal bad_mesh: sizes that do not fit each other, indices out of range, no region, a non-manifold
-/// edge.
+/// \throw Refusal bad_mesh: array sizes that do not match, indices out of range, no region, a non-manifold
+/// edge; non_finite
 void check_control_mesh(const ControlMesh& control);
 
-/// Several control meshes of one body as one: their pieces stay apart, nodes are numbered on.
+/// Several control meshes of one body as one: the pieces stay unconnected, nodes are numbered consecutively.
 /// \throw Refusal bad_template: two of them have a node, a region or a line of the same name
 ControlMesh joined(const std::vector<ControlMesh>& parts);
 
@@ -52,8 +52,8 @@ std::vector<Eigen::Vector3i> region_triangles(const ControlMesh& control, const 
 /// The fixed apex of the region's tetrahedra: the centre of gravity of its outer nodes at rest (P1 §3.4).
 Eigen::Vector3d region_apex(const ControlMesh& control, const ControlRegion& region);
 
-/// Nodes along the shortest way over the mesh's edges that visits `stops` in order; ties go to the lower
-/// index. \throw Refusal unknown_line: two stops are in parts of the mesh that no edge joins.
+/// Nodes along the shortest path over the mesh's edges that visits `stops` in order; ties go to the lower
+/// index. \throw Refusal unknown_line: two stops are in parts of the mesh that are not connected.
 std::vector<int> route_over_edges(const ControlMesh& control, const std::vector<int>& stops);
 
 /// Length of an open line over the nodes at `positions`.

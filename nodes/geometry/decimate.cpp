@@ -30,7 +30,7 @@ Mesh to_open_mesh(const TriangleMesh& mesh) {
   for (const Eigen::Vector3i& t : mesh.triangles)
     if (!result.add_face(Mesh::VertexHandle(t[0]), Mesh::VertexHandle(t[1]), Mesh::VertexHandle(t[2]))
              .is_valid())
-      throw Refusal(refusal::kBadMesh, "the mesh is not manifold: sheets meet in one edge or vertex");
+      throw Refusal(refusal::kBadMesh, "the mesh is not manifold: surfaces meet in one edge or vertex");
   return result;
 }
 
@@ -47,8 +47,9 @@ TriangleMesh from_open_mesh(const Mesh& mesh) {
   return result;
 }
 
-// Where the surface is flat or bends one way only, the quadric error does not say which edge to collapse, and
-// slivers are left: the shorter one goes first. A border keeps its shape likewise.
+// Where the surface is flat or curved in one direction only, the quadric error is the same for many edges and
+// slivers would be left: the shortest edge is collapsed first. Along a border the deviation from the border
+// is added.
 class EvenQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
  public:
   using Base = OpenMesh::Decimater::ModQuadricT<Mesh>;
@@ -65,7 +66,7 @@ class EvenQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
  private:
   static constexpr double kEven = 0.01;
 
-  // Squared distance of the border vertex that goes from the border that stays; 0 inside.
+  // Squared distance of the removed border vertex from the remaining border; 0 inside.
   double off_border(const CollapseInfo& collapse) {
     if (!mesh().is_boundary(collapse.v0)) return 0;
     double largest = 0;
@@ -100,9 +101,9 @@ void collapse_to(Mesh& mesh, std::size_t triangles, double worst_aspect) {
   mesh.garbage_collection();
 }
 
-// Longest edges first, of those whose middle is between two heights.
+// Splits the longest edges first, of those whose midpoint is between two heights.
 void split_to(Mesh& mesh, std::size_t triangles, double lowest, double highest) {
-  using Entry = std::tuple<double, int>;  // squared length, minus the edge's number: ties go to the lower one
+  using Entry = std::tuple<double, int>;  // squared length, negated edge index: ties go to the lower index
   std::priority_queue<Entry> longest;
   const auto push = [&](Mesh::EdgeHandle e) {
     const double height = mesh.calc_edge_midpoint(e)[2];
@@ -113,14 +114,14 @@ void split_to(Mesh& mesh, std::size_t triangles, double lowest, double highest) 
     const auto [squared, number] = longest.top();
     longest.pop();
     const Mesh::EdgeHandle edge(-number);
-    if (mesh.calc_edge_sqr_length(edge) != squared) continue;  // it has been halved since
+    if (mesh.calc_edge_sqr_length(edge) != squared) continue;  // it has been split since it was queued
     const Mesh::VertexHandle middle = mesh.add_vertex(mesh.calc_edge_midpoint(edge));
     mesh.split(edge, middle);
     for (const auto e : mesh.ve_range(middle)) push(e);
   }
 }
 
-/// True where no triangle that stays turns by 60 degrees or more.
+/// True where no remaining triangle turns by 60 degrees or more.
 bool keeps_facing(const Mesh& mesh, Mesh::HalfedgeHandle collapse) {
   constexpr double kCosine = 0.5;
   const OpenMesh::Vec3d from = mesh.point(mesh.from_vertex_handle(collapse)),
@@ -175,7 +176,8 @@ TriangleMesh without_short_edges(const TriangleMesh& mesh, double shortest) {
           !keeps_facing(work, collapse))
         continue;
       work.collapse(collapse);
-      work.status(stays).set_locked(true);  // or a row of vertices would go one after the other
+      work.status(stays).set_locked(
+          true);  // else a whole row of vertices would be collapsed one after the other
       break;
     }
   }

@@ -1,4 +1,4 @@
-/// The number of triangles of a mesh.
+/// Decimation and refinement of a mesh to a number of triangles.
 #pragma once
 
 #include "geometry/triangle_mesh.hpp"
@@ -6,22 +6,22 @@
 namespace tensegric_fit::geometry {
 
 /// The same surface with `triangles` triangles, or one less: edges are collapsed by quadric error (Garland
-/// and Heckbert 1997) without turning a triangle over, or the longest are split. What was closed stays so,
-/// and each piece keeps its holes. Keeps more triangles where no edge can be collapsed any more. \pre the
-/// mesh has passed check_mesh and is not empty. \throw Refusal bad_mesh: an edge or a vertex in which sheets
-/// meet
+/// and Heckbert 1997) without turning a triangle over, or the longest edges are split. A closed mesh stays
+/// closed, and each piece keeps its holes. More triangles are left where no edge can be collapsed any more.
+/// \pre the mesh has passed check_mesh and is not empty. \throw Refusal bad_mesh: a non-manifold edge or
+/// vertex
 TriangleMesh with_triangles(const TriangleMesh& mesh, int triangles);
 
-/// The same with triangles of more even size and shape, a little farther from the surface: what a tensegric
-/// model stands on.
+/// The same with triangles of more even size and shape, a little farther from the surface: for control
+/// meshes.
 TriangleMesh with_even_triangles(const TriangleMesh& mesh, int triangles);
 
-/// The same surface with up to so many triangles: the longest edges between two heights (z) are split. \pre
-/// and \throw as above
+/// The same surface with at most `triangles` triangles: the longest edges between two heights (z, m) are
+/// split. \pre and \throw as above
 TriangleMesh with_finer_belt(const TriangleMesh& mesh, int triangles, double lowest, double highest);
 
-/// Most edges shorter than `shortest`, metres, are collapsed, where that turns no triangle over: a surface
-/// from cells has slivers. No vertex moves farther than that. What was closed stays so. \pre and \throw as
+/// Collapses edges shorter than `shortest`, metres, where that turns no triangle over: an isosurface of grid
+/// cells has slivers. No vertex moves farther than `shortest`. A closed mesh stays closed. \pre and \throw as
 /// above
 TriangleMesh without_short_edges(const TriangleMesh& mesh, double shortest);
 

@@ -8,13 +8,13 @@
 
 namespace tensegric_fit::geometry {
 
-/// A point that goes from `rest` by the weighted sum of what control nodes move.
+/// A point whose displacement from `rest` is the weighted sum of the control nodes' displacements.
 struct CarriedPoint {
   Eigen::Vector3d rest;                         ///< m, scan frame
   std::vector<std::pair<int, double>> weights;  ///< node (outer i is i, inner i is V + i) and weight, by node
 };
 
-/// One thread of a band, and its part in the band's length.
+/// One thread of a band, and its share of the band's length.
 struct Fibre {
   double share;
   std::vector<CarriedPoint> points;  ///< in order, two or more

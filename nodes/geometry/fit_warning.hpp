@@ -1,4 +1,4 @@
-/// What a fit gives a person to know beyond its figures: skin that folds, lines that do not hold.
+/// Warnings and notices of a fit: skin that folds, lines that do not hold.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,11 +7,11 @@
 
 namespace tensegric_fit::geometry {
 
-/// Codes of warnings: what is shown is no smooth skin.
+/// Codes of warnings: the shape shown is not smooth skin.
 namespace warning {
 inline constexpr char kShelf[] = "shelf", kTurnedOver[] = "turned_over";
 }
-/// Codes of notices: the shape is sound, and somebody may want to know.
+/// Codes of notices: the shape is sound, but something may need attention.
 namespace notice {
 inline constexpr char kSkinTurns[] = "skin_turns", kOverStretched[] = "over_stretched",
                       kPressedTogether[] = "pressed_together", kUnderConstricted[] = "under_constricted";
@@ -23,15 +23,16 @@ inline constexpr char kSlack[] = "slack", kLiftsOff[] = "lifts_off", kWeak[] = "
 
 struct FitWarning {
   std::string code;
-  std::string line;  ///< of the garment: the nearest one, or the one that it is about; empty: none near
+  std::string line;  ///< garment line concerned, or the nearest one; empty: none nearby
   std::string lack;  ///< of under_constricted, else empty
-  Eigen::Vector3d at_rest = Eigen::Vector3d::Zero();  ///< middle of the place, scan frame, m
+  Eigen::Vector3d at_rest = Eigen::Vector3d::Zero();  ///< centre of the skin concerned, scan frame, m
   Eigen::Vector3d worn = Eigen::Vector3d::Zero();     ///< the same on the worn skin
   double area = 0;                                    ///< of the skin concerned, at rest, m^2
-  double shelf_area = 0;                              ///< what of it is turned by more than 60 degrees, m^2
-  /// Largest turn (rad), most or least stretch, tension, or the share of the line that came off the skin.
+  double shelf_area = 0;  ///< part of it that is turned by more than 60 degrees, m^2
+  /// By code: largest turn (rad), largest or least stretch, tension (pseudo force), or the share of the line
+  /// that came off the skin.
   double value = 0;
-  std::vector<int> vertices{};  ///< of the body, the skin concerned, ascending
+  std::vector<int> vertices{};  ///< of the body: the skin concerned, ascending
 
   bool is_warning() const { return code == warning::kShelf || code == warning::kTurnedOver; }
 };

@@ -7,7 +7,7 @@
 namespace tensegric_fit::geometry {
 namespace {
 
-constexpr double kDoubtful = 0.4;  // below the 0.5 from which a measure is to be trusted
+constexpr double kDoubtful = 0.4;  // below 0.5, the threshold of a trusted measure
 
 const Fracture* fracture_at(const std::vector<Fracture>& fractures, const Eigen::Vector3d& point) {
   for (const Fracture& fracture : fractures)

@@ -8,17 +8,17 @@
 
 namespace tensegric_fit::geometry {
 
-/// A body part that was scanned in two places, because the person moved between one column's turn and
-/// another's: two sheets of points that face the same way. What is measured there is off by up to `offset`.
+/// A body part that was scanned in two places, because the person moved between the exposures of two sensor
+/// columns: two layers of points that face the same way. Measures taken there are off by up to `offset`.
 struct Fracture {
   Eigen::Vector3d centre;  ///< scan frame, metres
-  double radius;           ///< m, of the ball around `centre` that holds what was seen twice
+  double radius;           ///< m, of the ball around `centre` that contains the skin seen twice
   double area;             ///< m^2 of skin
-  double offset;           ///< m between the two sheets, along their normal, where they are farthest apart
+  double offset;           ///< m, largest distance between the two layers along their normal
 };
 
-/// Lowers the confidence of the landmarks, and of the girths whose tape runs, where the scan shows skin
-/// twice, and says why.
+/// Lowers the confidence of landmarks in a fracture and of girths whose tape runs through one, and adds the
+/// reason.
 void doubt_fractured(const std::vector<Fracture>& fractures, BodyMeasures& measures);
 
 }  // namespace tensegric_fit::geometry

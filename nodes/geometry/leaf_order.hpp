@@ -1,4 +1,4 @@
-/// Points of a nanoflann kd-tree beside each other in memory where they are beside each other in space.
+/// Memory layout of a nanoflann kd-tree: points close in space are stored close in memory.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace tensegric_fit::geometry {
 
-/// Puts the points of a tree that is built into the order of its leaves, so that those of a leaf are read in
-/// one go. Returns the index that each had: results of the tree count in the new order.
+/// Reorders the points of a built tree by its leaves, so that each leaf's points are contiguous. Returns the
+/// former index of each point; query results are indices in the new order.
 template <typename Tree, typename Point>
 std::vector<int> to_leaf_order(Tree& tree, std::vector<Point>& points) {
   const std::vector<int> order = tree.vAcc;

@@ -7,10 +7,11 @@
 
 namespace tensegric_fit::geometry {
 
-/// Through the mean of the points; the first of `near` is best close to the others.
+/// Least-squares plane through the mean of the points. Numerically best if the first of `near` is close to
+/// the others.
 struct LocalPlane {
-  Eigen::Vector3d normal;  ///< unit, either way
-  double squares;          ///< sum of the points' squared distances from it, m^2
+  Eigen::Vector3d normal;  ///< unit, sign arbitrary
+  double squares;          ///< sum of squared distances of the points from the plane, m^2
 };
 
 inline LocalPlane local_plane(const std::vector<Eigen::Vector3d>& points, const std::vector<int>& near) {

@@ -15,17 +15,17 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kOnTape = 1e-4;    // m
-constexpr double kSteepest = 0.5;   // of the trunk: how much wider it is by how much higher or lower
-constexpr double kSmallest = 1e-8;  // m^2; a loop round less has no plane
+constexpr double kSteepest = 0.5;   // of the trunk's outline: change of half-width per change of height
+constexpr double kSmallest = 1e-8;  // m^2; a loop enclosing less has no defined plane
 
 /// A tape in its own plane.
 class FlatTape {
  public:
-  /// Without a plane where the loop has none.
+  /// has_plane() is false where the loop encloses too little area.
   explicit FlatTape(const std::vector<Vector3d>& loop) {
     if (loop.size() < 3) return;
     for (const Vector3d& p : loop) origin_ += p / static_cast<double>(loop.size());
-    Vector3d area = Vector3d::Zero();  // twice the loop's
+    Vector3d area = Vector3d::Zero();  // twice the loop's area vector
     for (std::size_t i = 0; i < loop.size(); ++i)
       area += (loop[i] - origin_).cross(loop[(i + 1) % loop.size()] - origin_);
     if (!(area.norm() > kSmallest)) return;
@@ -68,7 +68,7 @@ std::optional<double> girth_change(const MovedSkin& skin, const std::vector<Vect
   return length_of(after, true) - length_of(before, true);
 }
 
-/// Mean rise along the body's z of those landmarks that there are.
+/// Mean rise along the body's z of the landmarks that were found.
 std::optional<double> rise(const std::vector<std::string>& names, const BodyMeasures& measures,
                            const MovedSkin& skin) {
   double sum = 0;
@@ -107,7 +107,8 @@ std::vector<Vector3d> tape_after(const MovedSkin& skin, const std::vector<Vector
   for (const Eigen::Vector3i& triangle : skin.before.triangles) {
     for (int k = 0; k < 3; ++k) {
       const int a = triangle[k], b = triangle[(k + 1) % 3];
-      if (height[a] < 0 || height[b] >= 0) continue;  // each edge once: its other triangle runs it upwards
+      if (height[a] < 0 || height[b] >= 0)
+        continue;  // each crossing edge once: the other triangle runs along it upwards
       const double u = height[a] / (height[a] - height[b]);
       const Vector3d was = (1 - u) * skin.before.vertices[a] + u * skin.before.vertices[b];
       if (before.outside(was) <= kOnTape + kSteepest * std::abs(before.above(was)))

@@ -1,4 +1,4 @@
-/// What becomes of measures where the skin moves.
+/// Girths and heights after the skin has moved.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,33 +10,33 @@
 
 namespace tensegric_fit::geometry {
 
-/// A body's skin before and after. Only borrowed; `after` has one place per vertex of `before`. Metres, scan
-/// frame.
+/// A body's skin before and after. Holds references only; `after` has one position per vertex of `before`.
+/// Metres, scan frame.
 struct MovedSkin {
   const TriangleMesh& before;
   const std::vector<Eigen::Vector3d>& after;
 };
 
-/// Where a point on the skin went: along with the nearest vertex.
+/// The point displaced like the nearest vertex of the skin.
 Eigen::Vector3d carried(const Eigen::Vector3d& point, const MovedSkin& skin);
 
-/// A girth's tape after the skin has moved: in the plane of `loop`, the tape before, round the skin that
-/// belonged to it. Skin outside that tape (arms, the other thigh, breasts over their fold) counts only as far
-/// as it came from another level. Empty where the plane meets none.
+/// A girth's tape after the skin has moved: in the plane of `loop`, the tape before, round the skin that was
+/// inside it. Skin outside the tape before (arms, the other thigh, breasts overhanging their fold) counts
+/// only where it has come from another level. Empty where the plane cuts no such skin.
 std::vector<Eigen::Vector3d> tape_after(const MovedSkin& skin, const std::vector<Eigen::Vector3d>& loop);
 
-/// A height or a girth before, and what it is after, metres; nothing where that is not known.
+/// A height or a girth before and after, metres; `after` is empty where it is unknown.
 struct ChangedMeasure {
   Measure before;
   std::optional<double> after;
-  /// m, as somebody finds it who subtracts the two where they are shown to the millimetre. \pre after
+  /// m, the difference of the two values as displayed, each rounded to the millimetre. \pre after
   double change() const;
 };
 
-/// Each girth at the plane at which it was measured; those whose tape was not drawn have none after.
+/// Each girth in the plane in which it was measured; `after` is empty for girths without a recorded tape.
 std::vector<ChangedMeasure> girths_after(const BodyMeasures& measures, const MovedSkin& skin);
 
-/// Each height where the skin of the landmarks that define it went; stature, that of the highest vertex.
+/// Each height by the displacement of the landmarks that define it; stature by the highest vertex.
 std::vector<ChangedMeasure> heights_after(const BodyMeasures& measures, const MovedSkin& skin);
 
 }  // namespace tensegric_fit::geometry

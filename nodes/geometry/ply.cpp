@@ -16,10 +16,11 @@
 namespace tensegric_fit::geometry {
 namespace {
 
-// PCL allocates what a header promises; a header that promises more than the file can hold is broken.
+// PCL allocates what the header declares: a header that declares more than the file can hold is refused
+// first.
 void check_header(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Refusal(refusal::kBrokenFile, path + ": is not there, or cannot be read");
+  if (!file) throw Refusal(refusal::kBrokenFile, path + ": does not exist or cannot be read");
   std::string line;
   if (!std::getline(file, line) || line.compare(0, 3, "ply") != 0)
     throw Refusal(refusal::kBrokenFile, path + ": is not a PLY file");
@@ -35,14 +36,14 @@ void check_header(const std::string& path) {
     if (words >> element >> name >> count && element == "element" && count > size)
       throw Refusal(refusal::kBrokenFile, path + ": is shorter than its header says");
   }
-  throw Refusal(refusal::kBrokenFile, path + ": has no whole PLY header");
+  throw Refusal(refusal::kBrokenFile, path + ": has no complete PLY header");
 }
 
 }  // namespace
 
 void read_ply(const std::string& path, pcl::PolygonMesh& mesh) {
   check_header(path);
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // what it would print is in the refusal
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // the refusal carries its messages
   int result = -1;
   try {
     result = pcl::PLYReader().read(path, mesh);
@@ -62,7 +63,7 @@ TriangleMesh read_ply_mesh(const std::string& path) {
       mesh.triangles.emplace_back(static_cast<int>(v[0]), static_cast<int>(v[k - 1]), static_cast<int>(v[k]));
   }
   if (mesh.vertices.empty() || mesh.triangles.empty())
-    throw Refusal(refusal::kBadMesh, path + ": holds no triangles");
+    throw Refusal(refusal::kBadMesh, path + ": has no triangles");
   check_mesh(mesh);
   return mesh;
 }

@@ -15,23 +15,22 @@ struct PolygonMesh;
 
 namespace tensegric_fit::geometry {
 
-/// Reads a PLY of points or of a mesh as it stands: ASCII or binary of either byte order.
-/// \throw Refusal broken_file: not there, truncated, not PLY
+/// Reads a PLY of points or of a mesh unchanged: ASCII, or binary of either byte order.
+/// \throw Refusal broken_file: does not exist, truncated, not PLY
 void read_ply(const std::string& path, pcl::PolygonMesh& mesh);
 
 /// Reads a mesh; faces with more than three corners are fanned. \throw Refusal broken_file, wrong_fields,
 /// bad_mesh
 TriangleMesh read_ply_mesh(const std::string& path);
 
-/// Bodies are written as float32, control meshes as float64: they are what exactness is checked on.
+/// Bodies are written as float32; control meshes as float64, since numerical accuracy is checked on them.
 enum class Coordinates { float32, float64 };
 
-/// A file's bytes: binary little-endian; `colours` is empty or has one RGB triple a vertex.
+/// A file's bytes: binary little-endian; `colours` is empty or has one RGB triple per vertex.
 std::string ply_bytes(const TriangleMesh& mesh, const std::vector<std::array<std::uint8_t, 3>>& colours = {},
                       Coordinates coordinates = Coordinates::float32);
 
-/// The file of ply_bytes(). It appears whole or not at all. \throw std::runtime_error where it cannot be
-/// written
+/// Writes ply_bytes() to a file atomically. \throw std::runtime_error where it cannot be written
 void write_ply_mesh(const std::string& path, const TriangleMesh& mesh,
                     const std::vector<std::array<std::uint8_t, 3>>& colours = {},
                     Coordinates coordinates = Coordinates::float32);

@@ -86,16 +86,18 @@ std::vector<int> bytes(const pcl::PCLPointCloud2& cloud, const Field& field) {
   return result;
 }
 
-// The last row may lack its padding; a single row's step does not matter.
+// The last row may lack its padding; the row step of a single row is irrelevant.
 void check_size(const pcl::PCLPointCloud2& cloud) {
   const std::size_t rows = cloud.width == 0 ? 0 : cloud.height,
                     row = static_cast<std::size_t>(cloud.width) * cloud.point_step,
                     step = rows > 1 ? cloud.row_step : std::max<std::size_t>(row, cloud.row_step);
   const std::size_t least = rows == 0 ? 0 : (rows - 1) * step + row;
   if ((rows > 1 && step < row) || cloud.data.size() < least)
-    throw Refusal(refusal::kBrokenFile, "the cloud's data are shorter than its width, height and steps say");
+    throw Refusal(refusal::kBrokenFile,
+                  "the cloud's data are shorter than its width, height and steps require");
   if (cloud.data.size() > rows * step)
-    throw Refusal(refusal::kBrokenFile, "the cloud's data are longer than its width, height and steps say");
+    throw Refusal(refusal::kBrokenFile,
+                  "the cloud's data are longer than its width, height and steps require");
 }
 
 }  // namespace
@@ -120,7 +122,7 @@ PointCloud joined(const std::vector<PointCloud>& clouds) {
   const bool normals = any([](const PointCloud& c) { return !c.normals.empty(); });
   const bool sensors = any([](const PointCloud& c) { return !c.sensor.empty(); });
   PointCloud result;
-  int first = 0;  // number of the next cloud's sensor 0
+  int first = 0;  // index of the next cloud's sensor 0
   for (const PointCloud& cloud : clouds) {
     if (cloud.points.empty())
       throw Refusal(refusal::kEmptyCloud,

@@ -13,7 +13,7 @@ using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// Gauss-Legendre, 6 points on [0, 1]: to rounding for angles within the limits.
+// Gauss-Legendre quadrature, 6 points on [0, 1]: exact to rounding for angles within the limits.
 constexpr double kNode[] = {0.033765242898423975, 0.16939530676686776, 0.38069040695840156,
                             0.61930959304159844,  0.83060469323313224, 0.96623475710157603};
 constexpr double kWeight[] = {0.085662246189585178, 0.18038078652406930, 0.23395696728634552,
@@ -25,12 +25,12 @@ void check_angle(double value, double limit, const char* name) {
                                            " rad, beyond the limit of " + std::to_string(limit));
 }
 
-// The part of the angles that the spine has turned by, `up` of the way from pelvis to chest.
+// Share of the angles that the spine has turned by at share `up` of its length from pelvis to chest.
 double turned(double up) {
   return up * up * (3 - 2 * up);
 }
 
-// The spine from the pelvis to `up` of the way to the chest leaning by `lean` in all, for a length of 1.
+// Position on a spine of length 1 that leans by `lean` in all, at share `up` of its length from the pelvis.
 Vector3d way_up(double up, double lean) {
   Vector3d sum = Vector3d::Zero();
   for (int i = 0; i < 6; ++i) {

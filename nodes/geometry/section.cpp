@@ -9,7 +9,7 @@
 namespace tensegric_fit::geometry {
 namespace {
 
-// The plane crosses an edge once; both triangles on it must name the crossing alike.
+// The plane crosses an edge once; both triangles on it must use the same key for the crossing.
 using EdgeKey = std::pair<int, int>;
 EdgeKey key_of(int a, int b) {
   return {std::min(a, b), std::max(a, b)};

@@ -18,15 +18,15 @@ struct SectionLoop {
 
 /// All loops of the plane through `origin` with unit normal `normal`, in a fixed order. A vertex that lies on
 /// the plane counts as above it, so the section is always a set of simple polylines. Closed loops run
-/// counter-clockwise seen from the tip of `normal` round material that is inside.
+/// counter-clockwise seen from the tip of `normal`, around the mesh's interior.
 std::vector<SectionLoop> plane_section(const TriangleMesh& mesh, const Eigen::Vector3d& origin,
                                        const Eigen::Vector3d& normal);
 
 /// Length of a polyline, with the closing segment if closed. Metres.
 double length_of(const std::vector<Eigen::Vector3d>& points, bool closed);
 
-/// A line in even steps, each point the mean of its neighbours by a Gaussian of `deviation` steps that is cut
-/// off at `reach` steps; the ends count as often as the window wants them.
+/// A polyline of even steps convolved with a Gaussian of standard deviation `deviation` steps, truncated at
+/// `reach` steps; beyond the ends the end points are repeated.
 std::vector<Eigen::Vector3d> smoothed(const std::vector<Eigen::Vector3d>& line, double deviation, int reach);
 
 /// Convex hull in a plane, counter-clockwise, without collinear points.

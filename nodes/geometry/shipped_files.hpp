@@ -1,5 +1,5 @@
-/// Where the shipped garments and templates lie: share/tensegric_fit beside the program, installed or not, so
-/// that no environment is needed to find them.
+/// Paths of the shipped garments and templates: share/tensegric_fit relative to the program, installed or
+/// not, so that no environment variable is needed.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace tensegric_fit::geometry {
 std::string shipped_folder(const std::string& name);
 
 /// `word` itself where it is a path or ends in .yaml, else the file of that name in `folder`.
-/// \throw Refusal `code`, naming the files that there are: no such file
+/// \throw Refusal `code`, naming the existing files: there is no such file
 std::string yaml_file(const std::string& folder, const std::string& word, const std::string& code);
 
 }  // namespace tensegric_fit::geometry

@@ -1,4 +1,4 @@
-/// Named refusals: how a stage says no to bad input.
+/// Named refusals: how a stage rejects bad input.
 #pragma once
 
 #include <stdexcept>
@@ -6,14 +6,14 @@
 
 namespace tensegric_fit::geometry {
 
-/// Codes of the refusals (DESIGN §3). One name a cause; `missing_part` is followed by ":<part>".
+/// Codes of the refusals, one per cause; `missing_part` is followed by ":<part>".
 namespace refusal {
 inline constexpr char kBrokenFile[] = "broken_file";         ///< truncated, unreadable, or of another format
 inline constexpr char kWrongFields[] = "wrong_fields";       ///< no usable x, y, z
 inline constexpr char kEmptyCloud[] = "empty_cloud";         ///< no points at all
 inline constexpr char kNonFinite[] = "non_finite";           ///< no finite point, or NaN where none may be
 inline constexpr char kTooFewPoints[] = "too_few_points";    ///< too sparse for the resolution needed
-inline constexpr char kTooManyPoints[] = "too_many_points";  ///< more than memory is meant for
+inline constexpr char kTooManyPoints[] = "too_many_points";  ///< more than memory is planned for
 inline constexpr char kWrongUnit[] = "wrong_unit";      ///< the size of a body in another unit than metres
 inline constexpr char kNotABody[] = "not_a_body";       ///< a shape, but not that of a standing person
 inline constexpr char kMissingPart[] = "missing_part";  ///< missing_part:<part>
@@ -23,30 +23,31 @@ inline constexpr char kUnknownLine[] =
     "unknown_line";  ///< a line or node that the control mesh does not have
 inline constexpr char kBadTemplate[] = "bad_template";      ///< control mesh template YAML
 inline constexpr char kBadOption[] = "bad_option";          ///< an option or parameter out of range
-inline constexpr char kCannotWrite[] = "cannot_write";      ///< a folder that is read-only, full, not there
+inline constexpr char kCannotWrite[] = "cannot_write";      ///< a folder that is read-only, full or missing
 inline constexpr char kMissingSensor[] = "missing_sensor";  ///< a sensor of the booth sent nothing in time
-inline constexpr char kLateCloud[] = "late_cloud";      ///< a sensor's cloud came after its capture had left
-inline constexpr char kNoStamp[] = "no_stamp";          ///< a sensor's cloud without a time
-inline constexpr char kNoTransform[] = "no_transform";  ///< tf does not know where a sensor stands
+inline constexpr char kLateCloud[] =
+    "late_cloud";  ///< a sensor's cloud came after its capture had been published
+inline constexpr char kNoStamp[] = "no_stamp";                ///< a sensor's cloud without a time
+inline constexpr char kNoTransform[] = "no_transform";        ///< tf has no transform for a sensor
 inline constexpr char kWrongReference[] = "wrong_reference";  ///< a reference that was made on another mesh
 inline constexpr char kTooFewData[] = "too_few_data";         ///< too little to calibrate or to compare by
 inline constexpr char kNotSettled[] = "not_settled";    ///< a fit that a calibration needs did not converge
 inline constexpr char kAtBound[] = "at_bound";          ///< a calibration that ran into its bounds
 inline constexpr char kOtherPerson[] = "other_person";  ///< a second scan of somebody else
-inline constexpr char kOtherPose[] = "other_pose";      ///< a second scan in which she stands otherwise
+inline constexpr char kOtherPose[] = "other_pose";      ///< a second scan in another pose
 inline constexpr char kCoatOn[] = "coat_on";            ///< a second scan with thick clothes on
 inline constexpr char kBadModel[] =
     "bad_model";  ///< a registered body model whose arrays do not fit each other
 inline constexpr char kOtherModel[] =
     "other_model";  ///< registered with another body model file than this build's
 inline constexpr char kTriggerFailed[] = "trigger_failed";  ///< the booth could not be triggered
-inline constexpr char kTimedOut[] = "timed_out";      ///< a capture that did not come to its end in time
-inline constexpr char kSuperseded[] = "superseded";   ///< a newer scan came before this one was through
+inline constexpr char kTimedOut[] = "timed_out";            ///< a capture that did not finish in time
+inline constexpr char kSuperseded[] = "superseded";   ///< a newer scan arrived before this one was finished
 inline constexpr char kNothingYet[] = "nothing_yet";  ///< asked for a result before there is one
 }  // namespace refusal
 
-/// Bad input, refused by name. Thrown by the cores; `fit` turns it into exit code 3 and `reason`, a node into
-/// diagnostics and a log line, and goes on serving.
+/// Bad input, refused by name. Thrown by the cores; `fit` reports it as exit code 3 with `reason`, a node as
+/// diagnostics and a log line, and keeps running.
 class Refusal : public std::runtime_error {
  public:
   Refusal(std::string code, const std::string& message)

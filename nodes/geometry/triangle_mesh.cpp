@@ -13,7 +13,7 @@ namespace tensegric_fit::geometry {
 std::vector<TriangleSide> sorted_sides(const TriangleMesh& mesh) {
   int highest = 0;
   for (const Eigen::Vector3i& t : mesh.triangles) highest = std::max(highest, t.maxCoeff());
-  std::vector<std::size_t> begin(highest + 2, 0);  // of the sides of each low vertex
+  std::vector<std::size_t> begin(highest + 2, 0);  // of each low vertex's sides
   for (const Eigen::Vector3i& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) ++begin[std::min(t[k], t[(k + 1) % 3]) + 1];
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
@@ -40,7 +40,7 @@ void check_mesh(const TriangleMesh& mesh) {
   const int count = static_cast<int>(mesh.vertices.size());
   for (const Eigen::Vector3i& t : mesh.triangles) {
     if (t.minCoeff() < 0 || t.maxCoeff() >= count)
-      throw Refusal(refusal::kBadMesh, "a triangle names a vertex that the mesh does not have");
+      throw Refusal(refusal::kBadMesh, "a triangle's vertex index is out of range");
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
       throw Refusal(refusal::kBadMesh, "a triangle has two equal corners");
   }
@@ -83,7 +83,7 @@ std::vector<Edge> edges_of(const TriangleMesh& mesh) {
     Edge edge{h.low, h.high, -1, -1};
     for (std::size_t j = i; j < end; ++j) (sides[j].forward ? edge.left : edge.right) = sides[j].triangle();
     if (edge.left < 0)
-      std::swap(edge.left, edge.right);  // a boundary edge that its triangle runs from high to low
+      std::swap(edge.left, edge.right);  // a boundary edge whose triangle runs from high to low
     edges.push_back(edge);
     i = end;
   }

@@ -1,4 +1,4 @@
-/// Triangle meshes and what can be said of one without knowing what it depicts.
+/// Triangle meshes: checks, normals, volume, topology.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -27,8 +27,8 @@ inline Eigen::Vector3d area_vector(const Eigen::Vector3d& a, const Eigen::Vector
 std::vector<Eigen::Vector3d> vertex_normals(const std::vector<Eigen::Vector3d>& vertices,
                                             const std::vector<Eigen::Vector3i>& triangles);
 
-/// Sum of the tetrahedra that join `apex` to every triangle, m^3: the volume of a closed mesh whatever the
-/// apex, and the measure of an open patch's volume that P1 §3.4 uses.
+/// Sum of the signed volumes of the tetrahedra that join `apex` to every triangle, m^3: for a closed mesh its
+/// volume, for any apex; for an open patch the volume measure of P1 §3.4.
 double cone_volume(const std::vector<Eigen::Vector3d>& vertices,
                    const std::vector<Eigen::Vector3i>& triangles,
                    const Eigen::Vector3d& apex = Eigen::Vector3d::Zero());
@@ -42,31 +42,31 @@ struct TriangleSide {
   int triangle() const { return number / 3; }
 };
 
-/// All sides by (low, high, number): those of one edge stand together.
+/// All sides in order of (low, high, number): the sides of one edge are consecutive.
 std::vector<TriangleSide> sorted_sides(const TriangleMesh& mesh);
 
-/// An undirected edge (first < second) with the triangles on it: `left` runs it from first to second, `right`
-/// back. On a boundary `left` is the only triangle, whichever way it runs, and `right` is -1.
+/// An undirected edge (first < second) with its triangles: `left` runs from first to second, `right` from
+/// second to first. On a boundary `left` is the only triangle, whichever its direction, and `right` is -1.
 struct Edge {
   int first, second;
   int left, right;
 };
 
 /// Edges in ascending order of (first, second).
-/// \throw Refusal bad_mesh: an edge with more than two triangles, or two that run it the same way.
+/// \throw Refusal bad_mesh: an edge with more than two triangles, or with two that run in the same direction.
 std::vector<Edge> edges_of(const TriangleMesh& mesh);
 
-/// True where every edge has two triangles that run it in opposite directions.
+/// True where every edge has two triangles that run in opposite directions.
 bool is_closed(const TriangleMesh& mesh);
 
 /// Vertices around each vertex (neighbours by an edge), each list ascending.
 std::vector<std::vector<int>> neighbours_of(std::size_t vertex_count,
                                             const std::vector<Eigen::Vector3i>& triangles);
 
-/// Number of the connected component (by shared vertices) of each triangle, 0 the first one met.
+/// Index of the connected component (by shared vertices) of each triangle, numbered by first triangle.
 std::vector<int> components_of(const TriangleMesh& mesh);
 
-/// The triangles for which keep is non-zero, with the vertices that they use, in their old order.
+/// The triangles for which keep is non-zero, with the vertices that they use, in the original order.
 TriangleMesh submesh(const TriangleMesh& mesh, const std::vector<char>& keep);
 
 /// Lowest and highest corner of the box around the points. \pre not empty

@@ -1,4 +1,4 @@
-/// Body mesh and the body model registered to it -> landmarks, heights, girths (ISO 8559-1 names; DESIGN §2
+/// Body mesh and the body model registered to it -> landmarks, heights, girths (ISO 8559-1 names; README.md
 /// and §6).
 #pragma once
 

@@ -1,4 +1,4 @@
-/// Points of a scan -> closed body mesh (DESIGN §6).
+/// Points of a scan -> closed body mesh (README.md).
 #pragma once
 
 #include <cstddef>

@@ -63,7 +63,7 @@ Header read_header(std::istream& file, const std::string& path) {
 void check_header(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file || !std::filesystem::is_regular_file(path))
-    throw Refusal(refusal::kBrokenFile, path + ": is not there, or cannot be read");
+    throw Refusal(refusal::kBrokenFile, path + ": does not exist or cannot be read");
   Header header = read_header(file, path);
   const std::uint64_t rest = std::filesystem::file_size(path) - static_cast<std::uint64_t>(file.tellg());
   const Refusal shorter(refusal::kBrokenFile, path + ": is shorter than its header says");

@@ -1,5 +1,5 @@
 /// A garment line laid on the model: one tension along a polyline of outer nodes, or along the fibres of a
-/// band on the body (P1 §3.5; DESIGN §4 "Lines are bands").
+/// band on the body (P1 §3.5; README.md, Lines and bands).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// A band's length, and its derivatives by the free nodes (DESIGN §4).
+/// A band's length, and its derivatives by the free nodes (README.md).
 #pragma once
 
 #include <Eigen/Core>

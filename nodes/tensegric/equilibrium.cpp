@@ -17,7 +17,7 @@ constexpr double kTightestHold = 200;    // times k, of a band without a limit o
                                          // what taut hips pull at 0.95
 constexpr double kFirstRatioStep = 0.1;  // change of a neutral length in the first load step, relative
 constexpr double kShortestLoadStep = 1.0 / 1024;
-constexpr double kTrue = 1e-6;       // of a length: what DESIGN §7 asks for
+constexpr double kTrue = 1e-6;       // of a length: README.md, Exactness
 constexpr double kSamePlace = 1e-9;  // m
 // What is handed back of an unfinished way: pulls that are left over are below the tissue's own.
 constexpr Tolerance kHandedBack{1, 1e-9, 1};

@@ -1,4 +1,4 @@
-/// The equilibrium solver: least energy at constant volumes under the bands (DESIGN §4, solver 3).
+/// The equilibrium solver: least energy at constant volumes under the bands (README.md).
 #pragma once
 
 #include "tensegric/problem.hpp"

@@ -1,4 +1,5 @@
-/// Garments: constraining lines with neutral lengths and tension laws (P1 §3.5, P2 §4; DESIGN §3 and §4).
+/// Garments: constraining lines with neutral lengths and tension laws (P1 §3.5, P2 §4;
+/// launch/pages/garments_and_templates.md).
 #pragma once
 
 #include <Eigen/Core>

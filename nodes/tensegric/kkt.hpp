@@ -1,4 +1,4 @@
-/// One Newton step on the conditions of balance: forces, volumes and bands together (DESIGN §4, solver 3).
+/// One Newton step on the conditions of balance: forces, volumes and bands together (README.md).
 /// The second derivative is taken whole where that leads to a minimum, else with as much of its negative
 /// parts (pressed struts, volumes, units about to fold) as does. With none of them everywhere, steps past a
 /// point where the tissue snaps over were too short: 300 of them did not do what 14 do.

@@ -1,4 +1,4 @@
-/// Forces of struts and tensile parts, and the energy that they come from (P1 §3.1; DESIGN §4):
+/// Forces of struts and tensile parts, and the energy that they come from (P1 §3.1; README.md):
 /// E = sum over tensile parts 1/2 k/l0 max(0, l - d)^2 + sum over struts 1/2 k/l0 (l - h)^2
 ///     + sum over struts and extended tensile parts 1/4 k c l0 e^4, e = l/l0 - 1: they stiffen with strain.
 #pragma once

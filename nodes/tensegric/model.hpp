@@ -1,4 +1,4 @@
-/// The tensegric model on a control mesh (P1 §3.1-3.2, P2 §2.1; DESIGN §4).
+/// The tensegric model on a control mesh (P1 §3.1-3.2, P2 §2.1; README.md).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// Newton's method at one load: steps, line search, and what each band does (DESIGN §4, solver 3).
+/// Newton's method at one load: steps, line search, and what each band does (README.md).
 #pragma once
 
 #include "tensegric/kkt.hpp"
@@ -10,7 +10,7 @@ struct Tolerance {
   double residual, volume, length;
 };
 inline constexpr Tolerance kWanted{1e-8, 1e-9,
-                                   1e-8};  ///< what counts as balanced (DESIGN §7 asks for 1e-6 in length)
+                                   1e-8};  ///< what counts as balanced (README.md, Exactness: 1e-6 in length)
 
 bool within(const Defect& defect, const Tolerance& tolerance);
 

@@ -1,4 +1,4 @@
-/// Prestress: force densities that balance the undeformed model (P2 §2.1, DESIGN §4).
+/// Prestress: force densities that balance the undeformed model (P2 §2.1, README.md).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 /// The volume of one region and its derivatives: of the control mesh (P1 §3.4, tetrahedra from a fixed apex),
-/// or of the body below it (DESIGN §5).
+/// or of the body below it (tffd/README.md).
 #pragma once
 
 #include <Eigen/Core>

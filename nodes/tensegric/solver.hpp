@@ -1,4 +1,4 @@
-/// One interface to the three solvers (P1 §3.1, P2 §5, DESIGN §4).
+/// One interface to the three solvers (P1 §3.1, P2 §5, README.md).
 #pragma once
 
 #include <Eigen/Core>

@@ -99,7 +99,7 @@ StrutRelaxation::Centre StrutRelaxation::centre(int node, int strut) const {
   return c;
 }
 
-// The closed form of DESIGN §4 with the strut's length between its own and the one that it is pressed to.
+// The closed form in README.md with the strut's length between its own and the one that it is pressed to.
 void StrutRelaxation::settle_strut(int s) {
   const Member& m = model_.members[s];
   const bool a_free = problem_.free_index[m.a] >= 0, b_free = problem_.free_index[m.b] >= 0;

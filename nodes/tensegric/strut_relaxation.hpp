@@ -35,7 +35,7 @@ class StrutRelaxation {
 
  private:
   /// Where a node would go if one of its struts let go of it: the mean of the ends of its taut parts, each
-  /// moved by its natural length (C_a of DESIGN §4), and their weight.
+  /// moved by its natural length (C_a in README.md), and their weight.
   struct Centre {
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
     double weight = 0;

@@ -1,4 +1,4 @@
-/// What a garment line pulls at which length (DESIGN §4 "Lines are bands").
+/// What a garment line pulls at which length (README.md, Lines and bands).
 #pragma once
 
 #include "tensegric/garment.hpp"

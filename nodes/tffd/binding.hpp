@@ -1,4 +1,4 @@
-/// t-FFD: free-form deformation by a triangular mesh (P1 §3.2, ref. [10]; DESIGN §5).
+/// t-FFD: free-form deformation by a triangular mesh (P1 §3.2, ref. [10]; README.md).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// The body's own volume under a region of the control mesh, as a function of the control nodes (DESIGN §5).
+/// The body's own volume under a region of the control mesh, as a function of the control nodes (README.md).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// Distortion of the deformed skin (P1 Fig. 8; DESIGN §5).
+/// Distortion of the deformed skin (P1 Fig. 8; README.md).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-/// Control triangles as t-FFD sees them at rest (P1 §3.2, DESIGN §5).
+/// Control triangles as t-FFD sees them at rest (P1 §3.2, README.md).
 #pragma once
 
 #include <Eigen/Core>

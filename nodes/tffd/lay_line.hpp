@@ -1,4 +1,4 @@
-/// Lays a garment's line on the body and lets the control mesh carry it (DESIGN §3 `points`, §5 constant M).
+/// Lays a garment's line on the body and lets the control mesh carry it (README.md).
 #pragma once
 
 #include <Eigen/Core>

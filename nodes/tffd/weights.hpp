@@ -1,4 +1,4 @@
-/// The weights with which control triangles carry a vertex (P1 §3.2, ref. [10]; DESIGN §5).
+/// The weights with which control triangles carry a vertex (P1 §3.2, ref. [10]; README.md).
 #pragma once
 
 #include <Eigen/Core>

@@ -15,7 +15,7 @@
 namespace tensegric_fit::benchmarks {
 namespace {
 
-constexpr int kPoints = 180000;  // the scan of DESIGN §7
+constexpr int kPoints = 180000;  // of one scan
 
 struct Setting {
   int points = kPoints;

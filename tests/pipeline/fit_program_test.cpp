@@ -114,13 +114,14 @@ TEST_F(FitProgram, WritesEveryFieldAndFile) {
   EXPECT_EQ(r["control"]["struts"], 360);
   EXPECT_EQ(r["control"]["tensile_parts"], 469);
   EXPECT_EQ(r["solver"]["status"], "converged");
-  EXPECT_LE(r["solver"]["residual"], 1e-8);  // DESIGN §7
+  EXPECT_LE(r["solver"]["residual"], 1e-8);  // nodes/tensegric/README.md, Exactness
   const json& line = r["lines"].at(0);
   EXPECT_EQ(line["request"], 0.9);
-  EXPECT_NEAR(line["ratio"].get<double>(), 0.9, 1e-6);  // DESIGN §7
+  EXPECT_NEAR(line["ratio"].get<double>(), 0.9, 1e-6);  // nodes/tensegric/README.md, Exactness
   EXPECT_GT(line["tension"], 0);
   const json& volume = r["regions"].at(0)["control_volume"];
-  EXPECT_NEAR(volume[1].get<double>() / volume[0].get<double>(), 1, 1e-9);  // DESIGN §7
+  EXPECT_NEAR(volume[1].get<double>() / volume[0].get<double>(), 1,
+              1e-9);  // nodes/tensegric/README.md, Exactness
   EXPECT_LT(r["distortion"]["min"], 1);
   const auto body = tensegric_fit::geometry::read_ply_mesh(file("out/body.ply"));
   const auto deformed = tensegric_fit::geometry::read_ply_mesh(file("out/deformed.ply"));
@@ -260,7 +261,7 @@ TEST_F(FitProgram, TakesControlMeshesOfOnesOwn) {
   ASSERT_EQ(fit(worn), 0) << read_file(file("log"));
   const json r = report();
   EXPECT_EQ(r["control"]["triangles"], 60);
-  EXPECT_NEAR(r["lines"].at(0)["ratio"].get<double>(), 0.95, 1e-6);  // DESIGN §7
+  EXPECT_NEAR(r["lines"].at(0)["ratio"].get<double>(), 0.95, 1e-6);  // nodes/tensegric/README.md, Exactness
 }
 
 TEST_F(FitProgram, FinerControlMeshesHaveTissueInLayers) {
@@ -272,10 +273,12 @@ TEST_F(FitProgram, FinerControlMeshesHaveTissueInLayers) {
     const json r = report();
     EXPECT_EQ(r["solver"]["status"], "converged");
     EXPECT_EQ(r["control"]["struts"].get<int>(), 3 * 3 * r["control"]["triangles"].get<int>());
-    for (const json& line : r["lines"]) EXPECT_NEAR(line["ratio"].get<double>(), 0.95, 1e-6);  // DESIGN §7
+    for (const json& line : r["lines"])
+      EXPECT_NEAR(line["ratio"].get<double>(), 0.95, 1e-6);  // nodes/tensegric/README.md, Exactness
     for (const json& region : r["regions"]) {
       const json& kept = region[std::string(volume) + "_volume"];
-      EXPECT_NEAR(kept[1].get<double>() / kept[0].get<double>(), 1, 1e-9);  // DESIGN §7
+      EXPECT_NEAR(kept[1].get<double>() / kept[0].get<double>(), 1,
+                  1e-9);  // nodes/tensegric/README.md, Exactness
     }
   }
 }
@@ -288,9 +291,10 @@ TEST_F(FitProgram, AGarmentIsWornInAnyPosture) {
   EXPECT_NEAR(r["posture"]["lean"].get<double>(), -10, 1e-12);
   EXPECT_TRUE(r["warnings"].empty());
   EXPECT_EQ(r["solver"]["status"], "converged");
-  EXPECT_NEAR(r["lines"].at(0)["ratio"].get<double>(), 0.95, 1e-6);  // DESIGN §7
+  EXPECT_NEAR(r["lines"].at(0)["ratio"].get<double>(), 0.95, 1e-6);  // nodes/tensegric/README.md, Exactness
   const json& volume = r["regions"].at(0)["control_volume"];
-  EXPECT_NEAR(volume[1].get<double>() / volume[0].get<double>(), 1, 1e-9);  // DESIGN §7
+  EXPECT_NEAR(volume[1].get<double>() / volume[0].get<double>(), 1,
+              1e-9);  // nodes/tensegric/README.md, Exactness
   const auto body = tensegric_fit::geometry::read_ply_mesh(file("out/body.ply"));
   const auto moved = tensegric_fit::geometry::read_ply_mesh(file("out/deformed.ply"));
   const double hip = r["heights"]["hip"], neck = r["heights"]["neck"];

@@ -59,10 +59,11 @@ class FitShape : public ::testing::Test {
   void expect_sound() const {
     const json r = report();
     EXPECT_EQ(r["solver"]["status"], "converged") << r["solver"]["note"];
-    EXPECT_LE(r["solver"]["residual"], 1e-8);  // DESIGN §7
+    EXPECT_LE(r["solver"]["residual"], 1e-8);  // nodes/tensegric/README.md, Exactness
     for (const json& region : r["regions"]) {
       const json& volume = region["control_volume"];
-      EXPECT_NEAR(volume[1].get<double>() / volume[0].get<double>(), 1, 1e-9);  // DESIGN §7
+      EXPECT_NEAR(volume[1].get<double>() / volume[0].get<double>(), 1,
+                  1e-9);  // nodes/tensegric/README.md, Exactness
     }
     const TriangleMesh before = mesh("body.ply"), after = mesh("deformed.ply");
     ASSERT_EQ(before.triangles, after.triangles);
@@ -210,7 +211,7 @@ TEST_F(FitShape, ASymmetricLoadOnASymmetricControlMeshBendsSymmetrically) {
     for (int k = 0; k < kAcross; ++k) {
       const Vector3d& p = bent.vertices[kAcross * i + k];
       const Vector3d& q = bent.vertices[kAcross * ((kAround - i) % kAround) + k];
-      EXPECT_LT((p - Vector3d(q.x(), -q.y(), q.z())).norm(), 1e-9);  // DESIGN §7
+      EXPECT_LT((p - Vector3d(q.x(), -q.y(), q.z())).norm(), 1e-9);  // nodes/tensegric/README.md, Exactness
     }
 }
 

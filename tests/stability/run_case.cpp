@@ -38,9 +38,9 @@ bool fixed_nodes_stay(const Case& hard, const Solution& s) {
   return true;
 }
 
-// DESIGN §7, where a balance is claimed; and the last one on the way, where the equilibrium solver gave up.
-// The papers' solvers pull lines by pseudo forces only, and leave the volume as it comes (relaxation) or
-// bring it back to about 1e-6 % (adaptive, P2 §4).
+// nodes/tensegric/README.md, Exactness, where a balance is claimed; and the last one on the way, where the
+// equilibrium solver gave up. The papers' solvers pull lines by pseudo forces only, and leave the volume as
+// it comes (relaxation) or bring it back to about 1e-6 % (adaptive, P2 §4).
 void check_balance(const Ending& ending, const tensegric::SolverOptions& options, Status status,
                    std::vector<std::string>& faults) {
   const SolverName solver = options.solver;
@@ -74,8 +74,8 @@ Ending run(const Case& hard, SolverName solver, int most_iterations) {
     if (solver != SolverName::equilibrium && options.max_iterations == 0)
       options.max_iterations = most_iterations;
     const tensegric::Model model = tensegric::build_model(hard.control, hard.model);
-    const Solution s = tensegric::solve(model, hard.garment, options, hard.start ? &*hard.start : nullptr, {}, {},
-                                        hard.laid);
+    const Solution s = tensegric::solve(model, hard.garment, options, hard.start ? &*hard.start : nullptr, {},
+                                        {}, hard.laid);
     ending.status = to_string(s.status);
     ending.iterations = s.iterations;
     ending.residual = s.residual;

@@ -176,7 +176,7 @@ TEST_P(OnTrunk, SymmetricBodyGivesSymmetricControlMesh) {
     for (std::size_t w = 1; w < control.outer.size(); ++w)
       if ((control.outer[w] - mirrored).norm() < (control.outer[twin] - mirrored).norm()) twin = w;
     met[twin] = 1;
-    EXPECT_LE((control.outer[twin] - mirrored).norm(), 1e-9);  // DESIGN §7
+    EXPECT_LE((control.outer[twin] - mirrored).norm(), 1e-9);  // symmetric to 1e-9 m
     EXPECT_LE((control.inner[twin] - control.inner[v].cwiseProduct(Vector3d(1, -1, 1))).norm(), 1e-9);
     EXPECT_EQ(control.outer_fixed[twin], control.outer_fixed[v]);
   }

@@ -150,7 +150,7 @@ TEST(HipsTemplate, SymmetricBodyGivesSymmetricControlMesh) {
       outer_miss = miss;
       inner_miss = (body.measures.body_from_scan * control.inner[w] - inner.cwiseProduct(mirror)).norm();
     }
-    EXPECT_LE(outer_miss, 1e-9) << "node " << v;  // DESIGN §7
+    EXPECT_LE(outer_miss, 1e-9) << "node " << v;  // symmetric to 1e-9 m
     EXPECT_LE(inner_miss, 1e-9) << "node " << v;
   }
 }

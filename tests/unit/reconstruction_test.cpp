@@ -123,8 +123,8 @@ TEST(Reconstruction, AWomanBecomesOneClosedSurfaceOnHerSkin) {
   const BodyMesh& body = her().body;
   expect_sound(body, kTriangles);
   const std::vector<double> error = errors(body);
-  EXPECT_LT(percentile(error, 0.5), 0.0005);   // DESIGN §7
-  EXPECT_LT(percentile(error, 0.95), 0.0015);  // DESIGN §7
+  EXPECT_LT(percentile(error, 0.5), 0.0005);   // asked of noise of 1 mm and less
+  EXPECT_LT(percentile(error, 0.95), 0.0015);  // asked of noise of 1 mm and less
   // Floor and stray points are gone; what was not seen lies near the skin too.
   for (const Eigen::Vector3d& v : body.mesh.vertices) EXPECT_LT(distance(v), 0.02);
   std::size_t on_skin = 0;

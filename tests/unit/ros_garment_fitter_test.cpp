@@ -81,7 +81,7 @@ TEST_F(GarmentFitterTest, KeepsTheBodysVolumeWhereItIsAskedTo) {
   const Eigen::Vector3d apex = geometry::region_apex(control, control.regions[0]);
   EXPECT_NEAR(geometry::cone_volume(after, skin.triangles, apex) /
                   geometry::cone_volume(sent.vertices, skin.triangles, apex),
-              1, 1e-9);  // DESIGN 7
+              1, 1e-9);  // nodes/tensegric/README.md, Exactness
 }
 
 TEST_F(GarmentFitterTest, APostureTakesTheBoundNodesAlong) {

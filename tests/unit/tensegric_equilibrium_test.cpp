@@ -44,7 +44,7 @@ bool is_finite(const Solution& s) {
          std::all_of(s.inner.begin(), s.inner.end(), finite);
 }
 
-// DESIGN §7.
+// nodes/tensegric/README.md, Exactness.
 void expect_exact(const Solution& s) {
   EXPECT_EQ(s.status, Status::converged) << s.note;
   EXPECT_LE(s.residual, 1e-8);

@@ -55,7 +55,7 @@ TEST(Layers, EverySolverLeavesTheUndeformedModelStill) {
     EXPECT_EQ(s.status, Status::converged);
     ASSERT_EQ(s.between.size(), 2U * 77);
     for (std::size_t i = 0; i < s.between.size(); ++i)
-      EXPECT_LE((s.between[i] - rest[2 * 77 + i]).norm(), 1e-9);  // DESIGN §7
+      EXPECT_LE((s.between[i] - rest[2 * 77 + i]).norm(), 1e-9);  // nodes/tensegric/README.md, Exactness
     for (std::size_t i = 0; i < 77; ++i) EXPECT_LE((s.outer[i] - rest[i]).norm(), 1e-9);
   }
 }
@@ -66,15 +66,17 @@ TEST(Layers, LineVolumeAndSymmetryAreExact) {
     const Solution s = solve(model, chest(ratio), {});
     EXPECT_EQ(s.status, Status::converged) << s.note;
     EXPECT_LE(s.residual, 1e-8);
-    EXPECT_NEAR(s.lines[0].final / s.lines[0].neutral, 1, 1e-6);                   // DESIGN §7
-    EXPECT_NEAR(s.regions[0].volume_after / s.regions[0].volume_before, 1, 1e-9);  // DESIGN §7
+    EXPECT_NEAR(s.lines[0].final / s.lines[0].neutral, 1, 1e-6);  // nodes/tensegric/README.md, Exactness
+    EXPECT_NEAR(s.regions[0].volume_after / s.regions[0].volume_before, 1,
+                1e-9);  // nodes/tensegric/README.md, Exactness
     for (const auto* level : {&s.outer, &s.inner, &s.between})
       for (std::size_t first = 0; first < level->size(); first += 77)
         for (int row = 0; row <= 6; ++row)
           for (int column = 0; column <= 10; ++column) {
             const Eigen::Vector3d& p = (*level)[first + 11 * row + column];
             const Eigen::Vector3d& q = (*level)[first + 11 * row + 10 - column];
-            EXPECT_LE((p - q.cwiseProduct(Eigen::Vector3d(-1, 1, 1))).norm(), 1e-9);  // DESIGN §7
+            EXPECT_LE((p - q.cwiseProduct(Eigen::Vector3d(-1, 1, 1))).norm(),
+                      1e-9);  // nodes/tensegric/README.md, Exactness
           }
   }
 }
