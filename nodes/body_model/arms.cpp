@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 constexpr double kDegree = M_PI / 180;
 constexpr double kFarthest = 0.15;  // m; an arm that is farther is elsewhere, however far
 // Degrees from the arm at rest, which is lifted by some 45: raised, taken forwards, and bent at the elbow.
-constexpr int kEvery = 4;           // n-th fit point is enough to say where an arm is
+constexpr int kEvery = 4;  // n-th fit point is enough to say where an arm is
 constexpr double kRaised[] = {-60, -40, -20, 0, 20, 40, 60};
 constexpr double kForwards[] = {-20, 0, 20, 40};
 constexpr double kBent[] = {-50, 0, 50};
@@ -31,7 +31,8 @@ Arm arm_of(const Model& model, const Parameters& p, const std::string& side) {
   int met = 0;
   for (const int v : model.fit_points) {
     const std::string& part = model.parts[model.part[v]];
-    if ((part == "upper_arm" + side || part == "forearm" + side || part == "hand" + side) && met++ % kEvery == 0) {
+    if ((part == "upper_arm" + side || part == "forearm" + side || part == "hand" + side) &&
+        met++ % kEvery == 0) {
       arm.vertices.push_back(v);
       arm.normals.push_back(posed.blend(v).transpose() * normals[v]);
     }
@@ -46,7 +47,8 @@ double distance(const Model& model, const Matcher& matcher, const Parameters& p,
   double sum = 0;
   for (std::size_t i = 0; i < arm.vertices.size() && sum < enough; ++i) {
     const int v = arm.vertices[i];
-    sum += std::min(matcher.distance(posed.vertex(v), (posed.blend(v) * arm.normals[i]).normalized()), kFarthest);
+    sum += std::min(matcher.distance(posed.vertex(v), (posed.blend(v) * arm.normals[i]).normalized()),
+                    kFarthest);
   }
   return sum;
 }

@@ -6,7 +6,8 @@
 
 namespace tensegric_fit::body_model {
 
-/// Sets each arm, trunk and all else as it is, to the one of many poses in which its skin is nearest to the samples.
+/// Sets each arm, trunk and all else as it is, to the one of many poses in which its skin is nearest to the
+/// samples.
 Parameters with_arms_placed(const Model& model, const Matcher& matcher, const Parameters& parameters);
 
 }  // namespace tensegric_fit::body_model

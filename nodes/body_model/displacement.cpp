@@ -14,8 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDeviation = 0.010, kRange = 0.15;  // m, of the field: what sixty components leave of a woman who is not of their kind
-constexpr double kNoise = 0.001;                     // m, of a match, samples beside each other taken together
+constexpr double
+    kDeviation = 0.010,
+    kRange = 0.15;  // m, of the field: what sixty components leave of a woman who is not of their kind
+constexpr double kNoise = 0.001;  // m, of a match, samples beside each other taken together
 constexpr double kScales[] = {0.03, 0.02, 0.015, 0.012};  // m, of distances
 constexpr int kSamples = 20000;
 constexpr int kShared = 5;  // nodes that a vertex takes its displacement from
@@ -27,7 +29,8 @@ void nearest_nodes(const Model& model, std::vector<int>& node, std::vector<doubl
   distance.assign(model.mean.size(), 1e9);
   using Entry = std::tuple<double, int, int>;  // distance, vertex, node
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-  for (std::size_t i = 0; i < model.fit_points.size(); ++i) front.emplace(0.0, model.fit_points[i], static_cast<int>(i));
+  for (std::size_t i = 0; i < model.fit_points.size(); ++i)
+    front.emplace(0.0, model.fit_points[i], static_cast<int>(i));
   while (!front.empty()) {
     const auto [far, v, n] = front.top();
     front.pop();
@@ -48,7 +51,8 @@ SkinField::SkinField(const Model& model) {
   area_.assign(model.fit_points.size(), 0);
   std::set<std::pair<int, int>> pairs;
   for (const Eigen::Vector3i& t : model.triangles) {
-    const double area = geometry::area_vector(model.mean[t[0]], model.mean[t[1]], model.mean[t[2]]).norm() / 2;
+    const double area =
+        geometry::area_vector(model.mean[t[0]], model.mean[t[1]], model.mean[t[2]]).norm() / 2;
     for (int c = 0; c < 3; ++c) {
       const int a = node[t[c]], b = node[t[(c + 1) % 3]];
       if (a >= 0) area_[a] += area / 3;
@@ -64,8 +68,10 @@ SkinField::SkinField(const Model& model) {
   shares_.resize(model.mean.size());
   for (std::size_t v = 0; v < model.mean.size(); ++v) {
     if (node[v] < 0) continue;
-    std::vector<std::pair<double, int>> near{{(model.mean[v] - model.mean[model.fit_points[node[v]]]).norm(), node[v]}};
-    for (const int n : around[node[v]]) near.emplace_back((model.mean[v] - model.mean[model.fit_points[n]]).norm(), n);
+    std::vector<std::pair<double, int>> near{
+        {(model.mean[v] - model.mean[model.fit_points[node[v]]]).norm(), node[v]}};
+    for (const int n : around[node[v]])
+      near.emplace_back((model.mean[v] - model.mean[model.fit_points[n]]).norm(), n);
     std::sort(near.begin(), near.end());
     near.resize(std::min<std::size_t>(near.size(), kShared));
     double sum = 0;
@@ -112,7 +118,8 @@ std::vector<double> SkinField::spread(const std::vector<double>& at_nodes) const
   return result;
 }
 
-Displaced displace(const Model& model, const SkinField& field, const Matcher& matcher, const Parameters& parameters) {
+Displaced displace(const Model& model, const SkinField& field, const Matcher& matcher,
+                   const Parameters& parameters) {
   const PosedModel posed(model, parameters);
   const std::vector<Vector3d> skin = posed.vertices();
   const int n = static_cast<int>(field.nodes());

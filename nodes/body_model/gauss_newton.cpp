@@ -163,8 +163,7 @@ Fitted fit_stage(const Model& model, const Matcher& matcher, Parameters start, c
     fitted.residual = residual_of(matching, skin.weights);
     MatrixXd matrix;
     VectorXd gradient;
-    normal_equations(posed, points.vertices(), matching.pulls, active, scale <= 0.02, matrix,
-                     gradient);
+    normal_equations(posed, points.vertices(), matching.pulls, active, scale <= 0.02, matrix, gradient);
     const Prior prior = prior_of(model, p, stature);
     fitted.surprise = surprise_of(matching, prior, p.log_scale);
     matrix /= noise * noise;

@@ -19,7 +19,8 @@ void take_header(const Json& header, const Check& check, Model& model) {
   const int count = static_cast<int>(model.bones.size());
   check(count > 0, "no bones");
   for (int b = 0; b < count; ++b)
-    check(model.bones[b].parent >= (b == 0 ? -1 : 0) && model.bones[b].parent < b, "a bone's parent must stand before it");
+    check(model.bones[b].parent >= (b == 0 ? -1 : 0) && model.bones[b].parent < b,
+          "a bone's parent must stand before it");
   for (const Json& group : header.at("groups")) {
     const std::vector<double> spread = group.at("spread");
     check(spread.size() == 3 && *std::min_element(spread.begin(), spread.end()) > 0, "a group's spread");
@@ -37,7 +38,9 @@ void take_header(const Json& header, const Check& check, Model& model) {
 }
 
 void take_arrays(const ArrayFile& file, const Check& check, Model& model) {
-  const auto array = [&](const std::string& name, const std::vector<std::size_t>& shape) { return file.numbers(name, shape); };
+  const auto array = [&](const std::string& name, const std::vector<std::size_t>& shape) {
+    return file.numbers(name, shape);
+  };
   model.mean = points(array("mean", {0, 3}));
   const std::size_t vertices = model.mean.size();
   const std::vector<double> step = array("step", {0});
@@ -46,16 +49,21 @@ void take_arrays(const ArrayFile& file, const Check& check, Model& model) {
   model.basis.resize(static_cast<Eigen::Index>(components), static_cast<Eigen::Index>(3 * vertices));
   for (std::size_t i = 0; i < 3 * vertices; ++i)
     for (std::size_t k = 0; k < components; ++k)
-      model.basis(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = static_cast<float>(step[k] * basis[k * 3 * vertices + i]);
+      model.basis(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
+          static_cast<float>(step[k] * basis[k * 3 * vertices + i]);
 
   const std::size_t inner = model.bones.size() + model.bone_points.size();
   model.inner_mean = points(array("extra_mean", {inner, 3}));
   const std::vector<double> inner_basis = array("extra_basis", {components, inner, 3});
-  model.inner_basis = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-      inner_basis.data(), static_cast<Eigen::Index>(components), static_cast<Eigen::Index>(3 * inner));
+  model.inner_basis =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+          inner_basis.data(), static_cast<Eigen::Index>(components), static_cast<Eigen::Index>(3 * inner));
 
-  const auto is_index = [](double value, std::size_t size) { return value >= 0 && value < static_cast<double>(size); };
-  const std::vector<double> bones = array("bones", {vertices, Model::kWeights}), weights = array("weights", {vertices, Model::kWeights});
+  const auto is_index = [](double value, std::size_t size) {
+    return value >= 0 && value < static_cast<double>(size);
+  };
+  const std::vector<double> bones = array("bones", {vertices, Model::kWeights}),
+                            weights = array("weights", {vertices, Model::kWeights});
   model.carriers.resize(vertices);
   model.weights.resize(vertices);
   for (std::size_t v = 0; v < vertices; ++v) {
@@ -115,7 +123,8 @@ int Model::part_named(const std::string& name) const {
 }
 
 int Model::group_named(const std::string& name) const {
-  const auto found = std::find_if(groups.begin(), groups.end(), [&](const PoseGroup& g) { return g.name == name; });
+  const auto found =
+      std::find_if(groups.begin(), groups.end(), [&](const PoseGroup& g) { return g.name == name; });
   return found == groups.end() ? -1 : static_cast<int>(found - groups.begin());
 }
 

@@ -37,11 +37,13 @@ struct OrientedTree::Tree {
   }
 };
 
-OrientedTree::OrientedTree(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3d>& normals, double reach)
+OrientedTree::OrientedTree(const std::vector<Eigen::Vector3d>& points,
+                           const std::vector<Eigen::Vector3d>& normals, double reach)
     : tree_(std::make_unique<Tree>()) {
   tree_->reach = static_cast<float>(reach);
   tree_->places.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) tree_->places.push_back(tree_->place(points[i], normals[i]));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    tree_->places.push_back(tree_->place(points[i], normals[i]));
   tree_->build();
 }
 

@@ -19,13 +19,15 @@ Matrix3d rotation_of(const Vector3d& v) {
   return angle > 0 ? Eigen::AngleAxisd(angle, v / angle).toRotationMatrix() : Matrix3d::Identity();
 }
 
-/// exp(v + dv) = exp(J dv) exp(v): the left Jacobian of SO(3) (Barfoot 2017, State Estimation for Robotics, 7.77).
+/// exp(v + dv) = exp(J dv) exp(v): the left Jacobian of SO(3) (Barfoot 2017, State Estimation for
+/// Robotics, 7.77).
 Matrix3d left_jacobian(const Vector3d& v) {
   const double angle = v.norm();
   const Matrix3d k = cross(v);
   if (angle < 1e-6) return Matrix3d::Identity() + 0.5 * k;  // the next term is below 1e-12
   const double square = angle * angle;
-  return Matrix3d::Identity() + (1 - std::cos(angle)) / square * k + (angle - std::sin(angle)) / (square * angle) * k * k;
+  return Matrix3d::Identity() + (1 - std::cos(angle)) / square * k +
+         (angle - std::sin(angle)) / (square * angle) * k * k;
 }
 
 }  // namespace
@@ -38,13 +40,18 @@ Parameters Parameters::plus(const Eigen::VectorXd& step) const {
   next.rotation = rotation_of(step.head<3>()) * rotation;
   next.position += step.segment<3>(3);
   next.log_scale += step[kScale];
-  for (std::size_t g = 0; g < turns.size(); ++g) next.turns[g] += step.segment<3>(kTurns + 3 * static_cast<int>(g));
+  for (std::size_t g = 0; g < turns.size(); ++g)
+    next.turns[g] += step.segment<3>(kTurns + 3 * static_cast<int>(g));
   next.shape += step.tail(shape.size());
   return next;
 }
 
 PosedModel::PosedModel(const Model& model, const Parameters& parameters)
-    : model_(model), parameters_(parameters), bones_(model.bones.size()), turns_of_(model.bones.size()), shift_by_shape_(model.bones.size()) {
+    : model_(model),
+      parameters_(parameters),
+      bones_(model.bones.size()),
+      turns_of_(model.bones.size()),
+      shift_by_shape_(model.bones.size()) {
   const double scale = std::exp(parameters.log_scale);
   struct Own {
     int group;
@@ -54,7 +61,8 @@ PosedModel::PosedModel(const Model& model, const Parameters& parameters)
   for (std::size_t g = 0; g < model.groups.size(); ++g)
     for (const auto& [bone, share] : model.groups[g].bones) own[bone].push_back({static_cast<int>(g), share});
 
-  bones_[0] = Eigen::Translation3d(parameters.position) * (scale * parameters.rotation) * Eigen::Translation3d(-inner_at_rest(0));
+  bones_[0] = Eigen::Translation3d(parameters.position) * (scale * parameters.rotation) *
+              Eigen::Translation3d(-inner_at_rest(0));
   shift_by_shape_[0] = -bones_[0].linear() * model.inner_basis.leftCols<3>().transpose();
   for (std::size_t b = 1; b < bones_.size(); ++b) {
     const int parent = model.bones[b].parent;
@@ -71,16 +79,19 @@ PosedModel::PosedModel(const Model& model, const Parameters& parameters)
     bones_[b].linear() = turned;
     bones_[b].translation() = here - turned * rest;
     shift_by_shape_[b] = shift_by_shape_[parent] +
-                         (above.linear() - turned) * model.inner_basis.middleCols(3 * static_cast<Eigen::Index>(b), 3).transpose();
+                         (above.linear() - turned) *
+                             model.inner_basis.middleCols(3 * static_cast<Eigen::Index>(b), 3).transpose();
   }
 }
 
 Vector3d PosedModel::inner_at_rest(int index) const {
-  return model_.inner_mean[index] + model_.inner_basis.middleCols<3>(3 * index).transpose() * parameters_.shape;
+  return model_.inner_mean[index] +
+         model_.inner_basis.middleCols<3>(3 * index).transpose() * parameters_.shape;
 }
 
 Vector3d PosedModel::rest_vertex(int v) const {
-  const Eigen::Vector3f offset = model_.basis.middleCols<3>(3 * v).transpose() * parameters_.shape.cast<float>();
+  const Eigen::Vector3f offset =
+      model_.basis.middleCols<3>(3 * v).transpose() * parameters_.shape.cast<float>();
   return model_.mean[v] + offset.cast<double>();
 }
 
@@ -108,7 +119,8 @@ std::vector<Vector3d> PosedModel::vertices() const {
 
 Matrix3d PosedModel::blend(int v) const {
   Matrix3d sum = Matrix3d::Zero();
-  for (int j = 0; j < Model::kWeights; ++j) sum += model_.weights[v][j] * bones_[model_.carriers[v][j]].linear();
+  for (int j = 0; j < Model::kWeights; ++j)
+    sum += model_.weights[v][j] * bones_[model_.carriers[v][j]].linear();
   return sum;
 }
 
@@ -117,7 +129,8 @@ Vector3d PosedModel::joint(int bone) const {
 }
 
 Vector3d PosedModel::bone_point(int index) const {
-  return bones_[model_.bone_points[index].bone] * inner_at_rest(static_cast<int>(model_.bones.size()) + index);
+  return bones_[model_.bone_points[index].bone] *
+         inner_at_rest(static_cast<int>(model_.bones.size()) + index);
 }
 
 void PosedModel::derivative(int v, Eigen::Ref<Eigen::Matrix3Xd> into) const {

@@ -19,7 +19,8 @@ struct Parameters {
   /// Those of the mean woman at rest.
   explicit Parameters(const Model& model);
 
-  /// Their number, and where the turns and the shape begin: rotation (3), position (3), log_scale, turns, shape.
+  /// Their number, and where the turns and the shape begin: rotation (3), position (3), log_scale, turns,
+  /// shape.
   int count() const { return kTurns + 3 * static_cast<int>(turns.size()) + static_cast<int>(shape.size()); }
   static constexpr int kScale = 6, kTurns = 7;
   int shape_at() const { return kTurns + 3 * static_cast<int>(turns.size()); }

@@ -131,8 +131,7 @@ RegisteredBody Registrar::operator()(const Samples& surface) const {
   // shape; 4. what they leave over.
   std::vector<std::pair<Stand, double>> from;
   for (const Stand& stand : stands_of(samples))
-    for (int k = 0; k < kYaws; ++k)
-      from.emplace_back(stand, 2 * M_PI * k / kYaws);
+    for (int k = 0; k < kYaws; ++k) from.emplace_back(stand, 2 * M_PI * k / kYaws);
   std::vector<Fitted> tried(from.size());
   geometry::in_halves(tried.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i)

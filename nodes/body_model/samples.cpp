@@ -25,9 +25,11 @@ void add_samples(const geometry::TriangleMesh& mesh, const std::vector<Vector3d>
                  const std::vector<char>& filled, const std::vector<double>& area_up_to, unsigned begin,
                  unsigned end, Samples& samples) {
   for (unsigned i = begin; i < end; ++i) {
-    const double at = area_up_to.back() * radical_inverse(i, 5);  // any first n of them are spread over the whole
+    const double at =
+        area_up_to.back() * radical_inverse(i, 5);  // any first n of them are spread over the whole
     const auto found = std::lower_bound(area_up_to.begin(), area_up_to.end(), at);
-    const Eigen::Vector3i& t = mesh.triangles[std::min<std::size_t>(found - area_up_to.begin(), mesh.triangles.size() - 1)];
+    const Eigen::Vector3i& t =
+        mesh.triangles[std::min<std::size_t>(found - area_up_to.begin(), mesh.triangles.size() - 1)];
     const double s = std::sqrt(radical_inverse(i, 2)), r = radical_inverse(i, 3);
     const Vector3d share(1 - s, s * (1 - r), s * r);
     Eigen::Index nearest;
@@ -50,7 +52,8 @@ Samples shuffled(const Samples& samples) {
   std::vector<std::size_t> order(samples.points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::mt19937 random(1);
-  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);  // std::shuffle differs between libraries
+  for (std::size_t i = order.size(); i > 1; --i)
+    std::swap(order[i - 1], order[random() % i]);  // std::shuffle differs between libraries
   Samples result;
   for (const std::size_t i : order) {
     result.points.push_back(samples.points[i]);

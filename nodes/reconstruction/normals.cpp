@@ -27,7 +27,8 @@ bool more_certain(const Link& l, const Link& r) {
   return std::tie(r.agreement, l.a, l.b) < std::tie(l.agreement, r.a, r.b);
 }
 
-/// Unsigned normals of the points from `begin` to `end` in the tree's order, and links from each to its nearest neighbours.
+/// Unsigned normals of the points from `begin` to `end` in the tree's order, and links from each to its
+/// nearest neighbours.
 void plane_normals(const std::vector<Eigen::Vector3d>& points, const geometry::PointTree& tree,
                    std::size_t begin, std::size_t end, std::vector<Eigen::Vector3d>& normals,
                    std::vector<Link>& links) {

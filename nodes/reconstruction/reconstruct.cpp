@@ -108,10 +108,10 @@ double cell_width(const std::vector<Eigen::Vector3d>& points, int depth) {
   return std::ldexp(kRoom * (box[1] - box[0]).maxCoeff(), -depth);
 }
 
-/// The body's points, upright, the ground under the soles at z = 0; `from_scan` takes the scan to them. `left_out`: points
-/// above the ground that are not taken for hers.
-PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometry3d& from_scan, bool& on_floor,
-                         PointCloud& left_out) {
+/// The body's points, upright, the ground under the soles at z = 0; `from_scan` takes the scan to them.
+/// `left_out`: points above the ground that are not taken for hers.
+PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometry3d& from_scan,
+                         bool& on_floor, PointCloud& left_out) {
   const std::optional<Floor> floor = find_floor(pick(scan, without_stray(scan.points)).points);
   const Eigen::Vector3d middle = geometry::bounding_box(scan.points)[0];
   from_scan = floor ? level(floor->normal, floor->offset, middle)
@@ -145,10 +145,10 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
 
 /// What a scan shows of a person.
 struct Person {
-  PointCloud cloud;                           ///< with outward normals, upright, the ground under the soles at z = 0
-  PointCloud left_out;                        ///< points beside her, in the cloud's frame
-  Eigen::Isometry3d from_scan;                ///< takes the scan to the cloud's frame
-  bool on_floor;                              ///< the floor was seen: z = 0 is it
+  PointCloud cloud;             ///< with outward normals, upright, the ground under the soles at z = 0
+  PointCloud left_out;          ///< points beside her, in the cloud's frame
+  Eigen::Isometry3d from_scan;  ///< takes the scan to the cloud's frame
+  bool on_floor;                ///< the floor was seen: z = 0 is it
   /// Finds fractures, scan frame; in the cloud they are mended where it is known who saw what.
   std::function<std::vector<geometry::Fracture>()> fractures;
 };
@@ -159,7 +159,8 @@ Person find_person(const PointCloud& scan, const Options& options) {
   // sensor where the others see them.
   Person person;
   PointCloud& body = person.cloud;
-  body = standing_body(without_surplus(usable_points(scan, options), options), options, person.from_scan, person.on_floor, person.left_out);
+  body = standing_body(without_surplus(usable_points(scan, options), options), options, person.from_scan,
+                       person.on_floor, person.left_out);
   const std::vector<int> sensor_of = std::move(body.sensor);
   body.sensor.clear();
   register_sensors(body.points, sensor_of);

@@ -23,7 +23,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from hm08 import Hm08
-from train import DRIVEN, STATURE, four_weights, host, rest_shapes, weights_of
+from train import DRIVEN, STATURE, four_weights, rest_shapes, weights_of
 
 LEAN = dict(weight=0., muscle=0., cup=0., firm=.5, mods={}, L={}, R={})
 INSET = .005                                      # m: skin of 2 mm (Southwood 1955), and as much again that calipers press flat

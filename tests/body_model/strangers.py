@@ -7,7 +7,7 @@ import os
 import sys
 
 import numpy as np
-from scipy.spatial import ConvexHull, cKDTree
+from scipy.spatial import ConvexHull
 
 
 def read(path):
@@ -146,7 +146,7 @@ def main():
     things['head'] = kept(body, v[:, 2] > .90 * top)
     for name, mesh in things.items():
         write(os.path.join(out, name + '.ply'), *mesh)
-    z, x, y = v[:, 2] / top, v[:, 0], v[:, 1]
+    z, x = v[:, 2] / top, v[:, 0]
     halves = dict(upper=z > .5, lower=z < .5, trunk=(z > .44) & (z < .87) & (np.abs(x) < .6 * arm), no_head=z < .87, no_feet=z > .10, no_legs=z > .46, no_crown=z < .955,
                   no_left_forearm=~((x > .55 * arm) & (z < .80)), no_arms=(np.abs(x) < .13) | (z < .45) | (z > .85), left_half=x > -.02)
     for name, keep in halves.items():

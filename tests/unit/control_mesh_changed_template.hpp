@@ -12,7 +12,8 @@
 
 namespace tensegric_fit::control_mesh {
 
-/// The template with the first `what` replaced, read back; the refusal's message, or "" where it was accepted.
+/// The template with the first `what` replaced, read back; the refusal's message, or "" where it was
+/// accepted.
 inline std::string refusal_with(const std::string& file, const std::string& what, const std::string& by) {
   std::ifstream in(file);
   std::stringstream text;

@@ -115,7 +115,8 @@ TEST(Garment, ALineThroughNodesIsABandUnlessItSaysOtherwise) {
   const GarmentLine string = line("through: [a, b], width: 0");
   EXPECT_EQ(string.smooth, 0);
   EXPECT_FALSE(string.on_body());
-  EXPECT_NE(refusal(with_line("through: [a, b], width: 0, smooth: 0.02")).find("'smooth'"), std::string::npos);
+  EXPECT_NE(refusal(with_line("through: [a, b], width: 0, smooth: 0.02")).find("'smooth'"),
+            std::string::npos);
   EXPECT_NE(refusal(with_line("through: [a, b], width: 0.3")).find("'width'"), std::string::npos);
 }
 
