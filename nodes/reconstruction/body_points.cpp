@@ -45,6 +45,7 @@ std::vector<int> clusters_of(const VoxelGrid& grid) {
 }  // namespace
 
 std::vector<int> without_stray(const Points& points) {
+  if (points.empty()) return {};
   const VoxelGrid grid(points, kNeighbourhood);
   std::vector<int> company(grid.cell_count()), cells, sorted;
   for (int c = 0; c < grid.cell_count(); ++c) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "geometry/decimate.hpp"
+#include "reconstruction/body_points.hpp"
 #include "reconstruction/floor.hpp"
 #include "reconstruction/fractures.hpp"
 #include "reconstruction/handles.hpp"
@@ -237,6 +238,10 @@ TEST(ReconstructionSteps, AFingerKeepsItsThickness) {
   for (const Eigen::Vector3d& v : mesh.vertices) sum += v.norm() / static_cast<double>(mesh.vertices.size());
   // Along the points' own normals the mean would lie bandwidth^2 / radius = 1.1 mm too far out.
   EXPECT_NEAR(sum, kRadius, 0.0002);
+}
+
+TEST(WithoutStray, NoPointsAreNone) {
+  EXPECT_TRUE(without_stray({}).empty());
 }
 
 }  // namespace
