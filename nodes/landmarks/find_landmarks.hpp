@@ -1,5 +1,5 @@
-/// Body mesh and the body model registered to it -> landmarks, heights, girths (ISO 8559-1 names; README.md
-/// and §6).
+/// Body mesh and the body model registered to it -> landmarks, heights, girths (ISO 8559-1 names;
+/// README.md).
 #pragma once
 
 #include <vector>
