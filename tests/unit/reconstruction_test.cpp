@@ -378,13 +378,16 @@ TEST(Reconstruction, RefusesOptionsOutOfRangeByTheirName) {
     }
     return std::string("accepted");
   };
-  EXPECT_EQ(message_with([](Options& o) { o.body_triangles = 10; }).find("bad_option: body_triangles"), 0u);
-  EXPECT_EQ(message_with([](Options& o) { o.poisson_depth = 20; }).find("bad_option: poisson_depth"), 0u);
-  EXPECT_EQ(message_with([](Options& o) { o.min_points = -1; }).find("bad_option: min_points"), 0u);
-  EXPECT_EQ(message_with([](Options& o) { o.max_points = 0; }).find("bad_option: max_points"), 0u);
+  EXPECT_EQ(
+      message_with([](Options& o) { o.body_triangles = 10; }).find("bad_option: option 'body_triangles'"),
+      0u);
+  EXPECT_EQ(message_with([](Options& o) { o.poisson_depth = 20; }).find("bad_option: option 'poisson_depth'"),
+            0u);
+  EXPECT_EQ(message_with([](Options& o) { o.min_points = -1; }).find("bad_option: option 'min_points'"), 0u);
+  EXPECT_EQ(message_with([](Options& o) { o.max_points = 0; }).find("bad_option: option 'max_points'"), 0u);
   EXPECT_EQ(message_with([](Options& o) {
               o.support_distance = std::nan("");
-            }).find("bad_option: support_distance"),
+            }).find("bad_option: option 'support_distance'"),
             0u);
 }
 
