@@ -268,7 +268,22 @@ def parameters():
     return found
 
 
-MAKE = r"\b(advertise|subscribe|keep|listen|advertiseService|serviceClient|KeptPublisher)\b"
+def keys(file):
+    """Keys that a YAML reader knows: what it hands to check_keys."""
+    return {word for _, arguments in calls(source(file), r"\bcheck_keys")
+            for word in map(text_in, split_at_commas(arguments[1].strip("{}"))) if word}
+
+
+def numbers(file):
+    """Key of a YAML reader: (low, high), and what the field begins as, of those that it reads as numbers in a range."""
+    found = {}
+    for _, arguments in calls(source(file), r"\btake"):  # fit/tissue_file.cpp
+        if len(arguments) == 3 and text_in(arguments[0]):
+            found[text_in(arguments[0])] = range_of(arguments[2], file)
+    for _, arguments in calls(source(file), r"\bnumber_in"):
+        if text_in(arguments[1]):
+            found[text_in(arguments[1])] = tuple(value_of(argument, file) for argument in arguments[2:4])
+    return found
 
 
 def topics():

@@ -155,10 +155,15 @@ def launch_faults(text, folder=ROOT / "launch"):
     return faults
 
 
-def keys_in(file):
-    """Keys that a YAML reader knows: what it hands to check_keys."""
-    return {word for _, arguments in code.calls(code.source(file), r"\bcheck_keys")
-            for word in map(code.text_in, code.split_at_commas(arguments[1].strip("{}"))) if word}
+def range_faults(rows, expected):
+    """Of rows of key, range: each number's range as the code has it."""
+    said = {key: row[1] for row in rows for key in quoted(row[0])}
+    faults = []
+    for key, bounds in expected.items():
+        ends = said.get(key, "").split(" to ")
+        if len(ends) != 2 or not all(map(same, ends, bounds)):
+            faults.append(f"{key}: the page has {said.get(key)}, the code {' to '.join(map(in_words, bounds))}")
+    return faults
 
 
 def anchors(path):
@@ -234,12 +239,14 @@ class Files(unittest.TestCase):
             file = next(file for file in code.all_sources() if file.endswith(ending))
             rows = [row for above, rows in tables(text) if heading in above for row in rows]
             said = {key for row in rows for key in quoted(row[0])}
-            self.assertEqual(said, keys_in(file), heading)
+            self.assertEqual(said, code.keys(file), heading)
+            self.assertGreater(len(code.numbers(file)), 4, heading)
+            self.assertEqual(range_faults(rows, code.numbers(file)), [], heading)
 
     def test_keys_of_templates(self):
         text = (code.NODES / "control_mesh" / "README.md").read_text(encoding="utf-8")
         said = {word for words in quoted(text) for word in re.findall(r"\w+", words)}
-        self.assertEqual(keys_in("control_mesh/load_template.cpp") - said, set())
+        self.assertEqual(code.keys("control_mesh/load_template.cpp") - said, set())
 
     def test_report(self):
         text = page("results.md")
@@ -323,6 +330,12 @@ class FaultsAreFound(unittest.TestCase):
             self.assertEqual(launch_faults(text, folder), [])
             for wrong, right in (("| 0 |", "| 1 |"), ("| `rate` | 0 |", ""), ("`bag`", "`bug`"), ("a.launch", "b.launch")):
                 self.assertNotEqual(launch_faults(text.replace(wrong, right), folder), [])
+
+    def test_ranges(self):
+        expected = {"ratio": (0.05, 10.0)}
+        self.assertEqual(range_faults([["`ratio`", "0.05 to 10"]], expected), [])
+        for row in (["`ratio`", "0.3 to 1.5"], ["`ratio`", "any"], ["`width`", "0.05 to 10"]):
+            self.assertEqual(len(range_faults([row], expected)), 1)
 
     def test_links_and_cells(self):
         with tempfile.TemporaryDirectory() as name:
