@@ -11,7 +11,7 @@ namespace tensegric_fit::gauge {
 double quantile(std::vector<double> values, double share);
 
 /// From some thousand of the points, evenly by their order, to the surface; metres. `left_out` is empty or
-/// has one flag a point.
+/// has one flag per point.
 std::vector<double> distances(const std::vector<Eigen::Vector3d>& points, const std::vector<char>& left_out,
                               const geometry::TriangleMesh& surface);
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "assembler/viewpoint_normals.hpp"
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::assembler {
@@ -47,7 +47,7 @@ Assembly assemble(const Capture& capture, const std::vector<Isometry3d>& booth_f
   Assembly assembly;
   // 1. Columns in the booth's frame, with normals.
   std::vector<PointCloud> clouds(capture.clouds.size());
-  geometry::in_halves(clouds.size(), [&](std::size_t begin, std::size_t end, int) {
+  geometry::parallel_for(clouds.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t sensor = begin; sensor < end; ++sensor)
       if (capture.clouds[sensor])
         clouds[sensor] = in_booth(capture.clouds[sensor]->cloud, booth_from_sensor[sensor]);

@@ -21,7 +21,7 @@ struct SensorCloud {
 
 struct Capture {
   std::uint64_t first, last;                               ///< stamps, ns
-  std::vector<std::shared_ptr<const SensorCloud>> clouds;  ///< one a sensor, null where none came
+  std::vector<std::shared_ptr<const SensorCloud>> clouds;  ///< one per sensor, null where none came
 
   std::vector<int> missing() const;
 };

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/rigid_motion.hpp"
 
@@ -122,7 +122,7 @@ class Columns {
       for (int b = 0; b < count; ++b)
         if (a != b && trees_[a] && trees_[b]) pairs_.push_back({a, b, {}});
     const std::size_t most = std::max<std::size_t>(400, kSearches / std::max<std::size_t>(1, pairs_.size()));
-    geometry::in_halves(pairs_.size(), [&](std::size_t begin, std::size_t end, int) {
+    geometry::parallel_for(pairs_.size(), [&](std::size_t begin, std::size_t end, int) {
       for (std::size_t p = begin; p < end; ++p) choose_points(pairs_[p], most);
     });
     pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(),
@@ -144,7 +144,7 @@ class Columns {
   /// Every other point, the first or the second of two.
   std::vector<Match> matches(std::size_t first) const {
     std::vector<Match> found[2];
-    geometry::in_halves(pairs_.size(), [&](std::size_t begin, std::size_t end, int half) {
+    geometry::parallel_for(pairs_.size(), [&](std::size_t begin, std::size_t end, int half) {
       Match match;
       for (std::size_t p = begin; p < end; ++p)
         for (std::size_t i = first; i < pairs_[p].points.size(); i += 2)

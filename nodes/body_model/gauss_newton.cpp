@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::body_model {
@@ -139,7 +139,7 @@ void normal_equations(const PosedModel& posed, const std::vector<int>& vertices,
   if (points < kWorthThreads)
     accumulate(0, points, 0);
   else
-    geometry::in_halves(points, accumulate);
+    geometry::parallel_for(points, accumulate);
   matrix = matrices[0] + matrices[1];
   gradient = gradients[0] + gradients[1];
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 
 namespace tensegric_fit::body_model {
 namespace {
@@ -35,7 +35,7 @@ constexpr std::size_t kWorthThreads = 800;  // points; fewer are done before a s
 template <typename Work>
 void in_parallel(std::size_t count, const Work& work) {
   if (count < kWorthThreads) return work(0, count);
-  geometry::in_halves(count, [&](std::size_t begin, std::size_t end, int) { work(begin, end); });
+  geometry::parallel_for(count, [&](std::size_t begin, std::size_t end, int) { work(begin, end); });
 }
 
 }  // namespace

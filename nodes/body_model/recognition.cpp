@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "body_model/oriented_tree.hpp"
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
 #include "geometry/triangle_mesh.hpp"
@@ -182,7 +182,7 @@ struct Off {
 Off off_skin(const RegisteredBody& body, const Samples& samples) {
   const geometry::PointTree tree(body.skin);
   Off off{std::vector<double>(asked(samples)), std::vector<int>(asked(samples))};
-  geometry::in_halves(off.nearest.size(), [&](std::size_t begin, std::size_t end, int) {
+  geometry::parallel_for(off.nearest.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t s = begin; s < end; ++s) {
       off.nearest[s] = tree.nearest(samples.points[s]);
       off.distances[s] = (body.skin[off.nearest[s]] - samples.points[s]).norm();
@@ -202,7 +202,7 @@ double misfit_of(const RegisteredBody& body, const Samples& samples, const Off& 
   const std::vector<Vector3d> normals = geometry::vertex_normals(body.posed, body.model->triangles);
   const OrientedTree tree(body.posed, normals);
   std::vector<double> distances(off.distances.size(), -1);
-  geometry::in_halves(distances.size(), [&](std::size_t begin, std::size_t end, int) {
+  geometry::parallel_for(distances.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t s = begin; s < end; ++s) {
       if (off.distances[s] > kOff) continue;
       const int v = tree.nearest(samples.points[s], samples.normals[s]);

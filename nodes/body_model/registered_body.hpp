@@ -35,7 +35,7 @@ struct RegisteredBody {
   std::vector<double> off;      ///< m, of the skin from the surface; Matching::kUnmatched where there is none
   std::vector<double> support;  ///< m, of the skin from the middle of the samples nearest to it: small where
                                 ///< they lie all round
-  std::vector<Eigen::Vector3d> joints;  ///< one a bone
+  std::vector<Eigen::Vector3d> joints;  ///< one per bone
   std::vector<Eigen::Vector3d> bone_points;
   Evidence evidence;
   std::vector<Unexplained> unexplained;  ///< largest first

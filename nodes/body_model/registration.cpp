@@ -9,7 +9,7 @@
 #include "body_model/arms.hpp"
 #include "body_model/gauss_newton.hpp"
 #include "body_model/recognition.hpp"
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
@@ -104,7 +104,7 @@ std::vector<Stand> stands_of(const Samples& samples) {
 std::vector<double> support_of(const std::vector<Vector3d>& skin, const std::vector<Vector3d>& samples) {
   const geometry::PointTree tree(samples);
   std::vector<double> support(skin.size());
-  geometry::in_halves(skin.size(), [&](std::size_t begin, std::size_t end, int) {
+  geometry::parallel_for(skin.size(), [&](std::size_t begin, std::size_t end, int) {
     std::vector<int> near;
     for (std::size_t v = begin; v < end; ++v) {
       tree.nearest(skin[v], kAround, near);
@@ -133,14 +133,14 @@ RegisteredBody Registrar::operator()(const Samples& surface) const {
   for (const Stand& stand : stands_of(samples))
     for (int k = 0; k < kYaws; ++k) from.emplace_back(stand, 2 * M_PI * k / kYaws);
   std::vector<Fitted> tried(from.size());
-  geometry::in_halves(tried.size(), [&](std::size_t begin, std::size_t end, int) {
+  geometry::parallel_for(tried.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i)
       tried[i] = fit_stage(model, matcher, start_at(model, samples, from[i].first, from[i].second), kRough);
   });
   const auto likelier = [](const Fitted& a, const Fitted& b) { return a.surprise < b.surprise; };
   std::stable_sort(tried.begin(), tried.end(), likelier);
   tried.erase(tried.begin() + 2, tried.end());
-  geometry::in_halves(2, [&](std::size_t begin, std::size_t end, int) {
+  geometry::parallel_for(2, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i)
       tried[i] = fit_stage(model, matcher, with_arms_placed(model, matcher, tried[i].parameters), kSecond);
   });

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 
 namespace tensegric_fit::body_model {
 namespace {
@@ -72,7 +72,7 @@ Samples sample_surface(const geometry::TriangleMesh& mesh, const std::vector<cha
   }
   std::array<Samples, 2> of_half;
   if (!(sum > 0)) return {};
-  geometry::in_halves(count, [&](std::size_t begin, std::size_t end, int half) {
+  geometry::parallel_for(count, [&](std::size_t begin, std::size_t end, int half) {
     add_samples(mesh, normals, filled, area_up_to, static_cast<unsigned>(begin), static_cast<unsigned>(end),
                 of_half[half]);
   });

@@ -18,7 +18,7 @@ struct Samples {
 Samples shuffled(const Samples& samples);
 
 /// `count` points spread evenly over the mesh's area, as any first n of them are, the same for the same mesh;
-/// those whose nearest corner is flagged in `filled` (empty, or one flag a vertex) are left out: no scan
+/// those whose nearest corner is flagged in `filled` (empty, or one flag per vertex) are left out: no scan
 /// point backs the surface there.
 Samples sample_surface(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, int count);
 

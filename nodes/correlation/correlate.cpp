@@ -29,7 +29,7 @@ Correlation correlate(const SimulatedBody& body, const WornBody& worn, const Opt
   if (result.alignment.status != AlignmentStatus::converged &&
       result.alignment.status != AlignmentStatus::capped)
     throw geometry::Refusal(geometry::refusal::kTooFewData,
-                            "the skin that the garment leaves alone does not tell how the scan lies on it");
+                            "the skin outside the garment does not fix the position of the scan");
   result.map = distance_map(body, result.parts, surface, result.alignment.patch_from_scan, options.thickness);
   result.covered = summary_of(result.map, body, result.parts, SkinPart::covered);
   if (result.covered.median > kThickCloth)

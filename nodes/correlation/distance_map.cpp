@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 
 namespace tensegric_fit::correlation {
 namespace {
@@ -45,7 +45,7 @@ DistanceMap distance_map(const SimulatedBody& body, const std::vector<SkinPart>&
   const std::vector<Vector3d> normals = geometry::vertex_normals(body.deformed, body.rest.triangles);
   const Eigen::Isometry3d worn_from_simulated = simulated_from_worn.inverse();
   DistanceMap map{std::vector<double>(parts.size(), 0.0), std::vector<char>(parts.size(), 0)};
-  geometry::in_halves(parts.size(), [&](std::size_t begin, std::size_t end, int) {
+  geometry::parallel_for(parts.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t v = begin; v < end; ++v) {
       if (parts[v] == SkinPart::mobile) continue;
       const double out = parts[v] == SkinPart::covered ? thickness : 0;

@@ -130,7 +130,7 @@ void check_same(const Likeness& likeness) {
   using geometry::Refusal;
   if (!likeness.chest && !likeness.pelvis)
     throw Refusal(refusal::kTooFewData,
-                  "neither chest nor pelvis shows enough skin beside the garment to tell whose it is");
+                  "neither chest nor pelvis shows enough skin beside the garment to recognise the body");
   const bool as_tall = std::abs(likeness.stature) <= kSameStature;
   if (as_tall && likeness.shanks && *likeness.shanks <= kSameShank && likeness.growth >= kCoat)
     throw Refusal(

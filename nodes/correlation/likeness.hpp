@@ -14,7 +14,7 @@ namespace tensegric_fit::correlation {
 /// A second scan of her, with the garment on. Only borrowed. Metres, its own frame.
 struct WornBody {
   const geometry::TriangleMesh& mesh;
-  const std::vector<char>& filled;  ///< empty, or one flag a vertex: 1 where the scan saw nothing
+  const std::vector<char>& filled;  ///< empty, or one flag per vertex: 1 where the scan saw nothing
   const geometry::BodyMeasures& measures;
 };
 

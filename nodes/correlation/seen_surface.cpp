@@ -10,7 +10,7 @@ const geometry::TriangleMesh& checked(const geometry::TriangleMesh& mesh, const 
   if (mesh.triangles.empty())
     throw geometry::Refusal(geometry::refusal::kBadMesh, "the worn body has no triangles");
   if (!filled.empty() && filled.size() != mesh.vertices.size())
-    throw geometry::Refusal(geometry::refusal::kBadMesh, "one flag a vertex is needed to tell filled holes");
+    throw geometry::Refusal(geometry::refusal::kBadMesh, "filled holes need one flag per vertex");
   return mesh;
 }
 

@@ -12,8 +12,8 @@ namespace tensegric_fit::correlation {
 /// Nearest places of a scanned body's skin.
 class SeenSurface {
  public:
-  /// `filled` is empty or has one flag a vertex: 1 where the scan saw nothing. The mesh must outlive it.
-  /// \throw Refusal bad_mesh, non_finite; bad_mesh: not one flag a vertex
+  /// `filled` is empty or has one flag per vertex: 1 where the scan saw nothing. The mesh must outlive it.
+  /// \throw Refusal bad_mesh, non_finite; bad_mesh: not one flag per vertex
   SeenSurface(const geometry::TriangleMesh& mesh, std::vector<char> filled);
 
   struct Place {

@@ -22,7 +22,7 @@ struct Part {
 /// One per region of the control mesh; behind where most of its skin faces backwards.
 std::vector<Part> parts_of(const geometry::ControlMesh& control, const Eigen::Isometry3d& body_from_scan);
 
-/// The same of a control mesh whose regions are not known: one a connected piece.
+/// The same of a control mesh whose regions are not known: one per connected piece.
 std::vector<Part> parts_of(const geometry::TriangleMesh& control, const Eigen::Isometry3d& body_from_scan);
 
 /// A body before and after. Only borrowed: the meshes and measures must outlive the scene.

@@ -26,7 +26,7 @@ struct NamedDot {
 struct MemberPulls {
   std::vector<Eigen::Vector3d> nodes;
   std::vector<int> ends;       ///< two a member
-  std::vector<double> forces;  ///< one a member, over the mean pull at rest
+  std::vector<double> forces;  ///< one per member, over the mean pull at rest
 };
 
 /// Everything is kept with the scan that it is of, and drawn over a body of that scan only. Landmarks,

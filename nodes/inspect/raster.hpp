@@ -7,7 +7,7 @@
 
 namespace tensegric_fit::inspect {
 
-/// One entry a pixel. Depth grows away from the camera.
+/// One entry per pixel. Depth grows away from the camera.
 struct Raster {
   cv::Mat1f depth;     ///< infinity where there is nothing
   cv::Mat1i triangle;  ///< -1 where there is nothing

@@ -18,8 +18,8 @@ struct Reading {
   std::vector<Figure> figures;
 };
 
-/// `filled` is empty or has one flag a vertex: 1 where the scan saw nothing. `model`: registered to the same
-/// person, in the mesh's frame. \throw Refusal bad_mesh, non_finite
+/// `filled` is empty or has one flag per vertex: 1 where the scan saw nothing. `model`: registered to the
+/// same person, in the mesh's frame. \throw Refusal bad_mesh, non_finite
 Reading read_figures(const geometry::TriangleMesh& mesh, const std::vector<char>& filled,
                      const body_model::RegisteredBody& model, const Precision& precision);
 

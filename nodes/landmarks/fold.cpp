@@ -9,11 +9,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kMedial = 0.055;   // m inwards of the bust point (definition)
-constexpr double kApart = 0.0025;   // m between two profiles
-constexpr double kRim = 0.020;      // m along the skin: the areola's own rim is hollow too
-constexpr double kReach = 0.17;     // m along the skin, from a bust point to its fold
-constexpr double kPull = 15;        // 1/m of curvature that a place loses at the search's end
+constexpr double kMedial = 0.055;           // m inwards of the bust point (definition)
+constexpr double kSectionSpacing = 0.0025;  // m between two profiles
+constexpr double kRim = 0.020;              // m along the skin: the areola's own rim is hollow too
+constexpr double kReach = 0.17;             // m along the skin, from a bust point to its fold
+constexpr double kPull = 15;                // 1/m of curvature that a place loses at the search's end
 constexpr double kStep = 0.012;     // m that a fold rises or falls from one profile to the next, at most
 constexpr double kContinued = 0.3;  // of its curvature below the bust point: less is no fold any more
 constexpr double kBottom = 0.6;     // of the curvature: skin that is as hollow takes part in the place
@@ -82,7 +82,7 @@ Vector3d lowest_of_arc(const std::vector<Vector3d>& places, Side side) {
 Fold find_fold(const Trunk& trunk, const Vector3d& bust_point, Side side,
                const std::vector<Vector3d>& expected, double reach) {
   Fold fold;
-  for (double medial = 0; medial < kMedial + kApart / 2; medial += kApart) {
+  for (double medial = 0; medial < kMedial + kSectionSpacing / 2; medial += kSectionSpacing) {
     const std::size_t i = fold.places.size();
     if (i >= expected.size() && expected.size() != 1) break;
     const Profile profile =

@@ -10,7 +10,7 @@
 #include "geometry/point_tree.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "reconstruction/percentile.hpp"
-#include "reconstruction/sheets.hpp"
+#include "reconstruction/sensor_patches.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -36,7 +36,7 @@ constexpr double kTolerance = 1e-6;  // of the solution, relative
 constexpr double kLowest = 0.10, kHighest = 0.85;  // toes end below, in m; the neck here, in heights
 
 /// Middles of the patches whose sheets part, where many do.
-Points parted(const Sheets& all, double height) {
+Points parted(const SensorPatches& all, double height) {
   std::vector<double> differences, thicknesses;  // a sheet
   PatchEquations equations;
   for (const Patch& patch : all.patches) {
@@ -92,7 +92,7 @@ class Field {
   }
 
   /// The shifts after which the sheets of each patch lie best on one surface.
-  void bring_together(const Sheets& all) {
+  void bring_together(const SensorPatches& all) {
     Entries of_sheets, of_shifts, held;  // how sheets' heights hold each other, and follow the shifts
     const int sheets = static_cast<int>(all.sheets.size());
     Eigen::VectorXd right(sheets);
@@ -174,7 +174,7 @@ class Field {
 bool mend_fractures(Points& points, const Points& normals, const std::vector<int>& sensor_of) {
   const int sensors = sensor_of.empty() ? 0 : *std::max_element(sensor_of.begin(), sensor_of.end()) + 1;
   if (sensors < 2) return false;
-  const Points places = parted(sheets_of(points, normals, sensor_of, sensors, kRadii[0], kSearchStep),
+  const Points places = parted(sensor_patches_of(points, normals, sensor_of, sensors, kRadii[0], kSearchStep),
                                geometry::bounding_box(points)[1].z());
   if (places.empty()) return false;
   const std::vector<int> near = near_to(places, points);
@@ -187,7 +187,7 @@ bool mend_fractures(Points& points, const Points& normals, const std::vector<int
   }
   for (double radius : kRadii) {
     Field field(moved, seen_by);
-    field.bring_together(sheets_of(moved, facing, seen_by, sensors, radius, kMendStep));
+    field.bring_together(sensor_patches_of(moved, facing, seen_by, sensors, radius, kMendStep));
     for (std::size_t i = 0; i < moved.size(); ++i)
       if (seen_by[i] >= 0) moved[i] += field.shift(moved[i], seen_by[i]);
   }

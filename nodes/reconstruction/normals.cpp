@@ -7,8 +7,8 @@
 #include <numeric>
 #include <tuple>
 
-#include "geometry/halves.hpp"
 #include "geometry/local_plane.hpp"
+#include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
 #include "reconstruction/visibility.hpp"
 
@@ -102,10 +102,10 @@ std::vector<Eigen::Vector3d> outward_normals(const std::vector<Eigen::Vector3d>&
   const geometry::PointTree tree(points);
   std::vector<Eigen::Vector3d> normals(points.size());
   std::array<std::vector<Link>, 2> links_of_half;
-  geometry::in_halves(points.size(), [&](std::size_t begin, std::size_t end, int half) {
+  geometry::parallel_for(points.size(), [&](std::size_t begin, std::size_t end, int half) {
     plane_normals(points, tree, begin, end, normals, links_of_half[half]);
   });
-  geometry::in_halves(2, [&](std::size_t, std::size_t, int half) {
+  geometry::parallel_for(2, [&](std::size_t, std::size_t, int half) {
     for (Link& link : links_of_half[half])
       link.agreement = static_cast<float>(std::abs(normals[link.a].dot(normals[link.b])));
     std::sort(links_of_half[half].begin(), links_of_half[half].end(), more_certain);

@@ -6,7 +6,7 @@
 
 #include "geometry/rigid_motion.hpp"
 #include "reconstruction/percentile.hpp"
-#include "reconstruction/sheets.hpp"
+#include "reconstruction/sensor_patches.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -42,8 +42,8 @@ Eigen::Matrix<double, 3, 6> terms_of_motion(const Patch& patch, double radius,
 
 /// One round: the motions after which the sheets of each patch lie best on one surface, and how much each
 /// counts in the next round.
-void improve(const Sheets& all, double radius, const Eigen::Vector3d& middle, std::vector<double>& weights,
-             Eigen::VectorXd& motions) {
+void improve(const SensorPatches& all, double radius, const Eigen::Vector3d& middle,
+             std::vector<double>& weights, Eigen::VectorXd& motions) {
   Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(motions.size(), motions.size());
   Eigen::VectorXd right = Eigen::VectorXd::Zero(motions.size());
   std::vector<double> difference(all.sheets.size());
@@ -54,7 +54,7 @@ void improve(const Sheets& all, double radius, const Eigen::Vector3d& middle, st
     const auto at = [&](std::size_t i) { return 6 * all.sheets[patch.begin + i].sensor; };
     heights.clear();
     for (std::size_t i = patch.begin; i < patch.end; ++i) {
-      const Sheet& s = all.sheets[i];
+      const SensorPatch& s = all.sheets[i];
       heights.push_back(s.heights + s.gram.leftCols<3>() * (of_motion * motions.segment<6>(6 * s.sensor)));
     }
     equations.set(all, patch, heights, &weights[patch.begin]);
@@ -78,7 +78,7 @@ std::vector<Motion> motions_of(const Points& points, const std::vector<int>& sen
                                const Eigen::Vector3d& middle) {
   const double radius =
       std::min(kLargest, kRadius * std::sqrt(std::max(1.0, kDense / static_cast<double>(points.size()))));
-  const Sheets sheets = sheets_of(points, {}, sensor_of, sensors, radius, kStep);
+  const SensorPatches sheets = sensor_patches_of(points, {}, sensor_of, sensors, radius, kStep);
   if (sheets.sheets.empty()) return {};
   std::vector<double> weights(sheets.sheets.size(), 1);
   Eigen::VectorXd motions = Eigen::VectorXd::Zero(6 * sensors);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -19,7 +19,7 @@ double confidence_of(double area) {
 std::vector<char> filled_vertices(const geometry::TriangleMesh& mesh, const geometry::PointTree& points,
                                   std::size_t seen, double distance) {
   std::vector<char> filled(mesh.vertices.size());
-  geometry::in_halves(filled.size(), [&](std::size_t begin, std::size_t end, int) {
+  geometry::parallel_for(filled.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t v = begin; v < end; ++v)
       filled[v] = !points.any_within(mesh.vertices[v], distance,
                                      [seen](int i) { return static_cast<std::size_t>(i) < seen; });

@@ -6,7 +6,7 @@
 
 namespace tensegric_fit::reconstruction {
 
-/// One flag a vertex: 1 where the nearest of the first `seen` points of the tree is farther away than
+/// One flag per vertex: 1 where the nearest of the first `seen` points of the tree is farther away than
 /// `distance`.
 std::vector<char> filled_vertices(const geometry::TriangleMesh& mesh, const geometry::PointTree& points,
                                   std::size_t seen, double distance);

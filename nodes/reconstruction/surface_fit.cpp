@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -83,7 +83,7 @@ void fit_to_points(geometry::TriangleMesh& mesh, const geometry::PointCloud& clo
   std::vector<Surroundings> surroundings(mesh.vertices.size());
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<Eigen::Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
-    geometry::in_halves(mesh.vertices.size(), [&](std::size_t begin, std::size_t end, int) {
+    geometry::parallel_for(mesh.vertices.size(), [&](std::size_t begin, std::size_t end, int) {
       std::vector<int> near;
       for (std::size_t v = begin; v < end; ++v) {
         surroundings[v].nearest(tree, cloud.points, mesh.vertices[v], near);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
 #include "reconstruction/percentile.hpp"
 #include "reconstruction/voxel_grid.hpp"
@@ -27,7 +27,7 @@ std::vector<char> look_stray(const Points& points, const geometry::PointTree& tr
   Points sample(count);
   std::vector<double> reach(count);
   std::vector<char> stray(count);
-  geometry::in_halves(count, [&](std::size_t begin, std::size_t end, int) {
+  geometry::parallel_for(count, [&](std::size_t begin, std::size_t end, int) {
     std::vector<int> near;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
     for (std::size_t s = begin; s < end; ++s) {

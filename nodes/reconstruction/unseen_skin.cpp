@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "body_model/samples.hpp"
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
 #include "reconstruction/voxel_grid.hpp"
 
@@ -43,12 +43,12 @@ geometry::PointCloud unseen_skin(const body_model::RegisteredBody& body, const g
     samples.normals.push_back(spread.normals[i]);
   }
   std::array<std::unique_ptr<const geometry::PointTree>, 2> trees;
-  geometry::in_halves(2, [&](std::size_t, std::size_t, int half) {
+  geometry::parallel_for(2, [&](std::size_t, std::size_t, int half) {
     trees[half] = std::make_unique<const geometry::PointTree>(half == 0 ? samples.points : seen.points);
   });
   const geometry::PointTree &own = *trees[0], &tree = *trees[1];
   std::vector<char> is_unseen(samples.points.size(), 0);
-  geometry::in_halves(samples.points.size(), [&](std::size_t begin, std::size_t end, int) {
+  geometry::parallel_for(samples.points.size(), [&](std::size_t begin, std::size_t end, int) {
     std::vector<int> near;
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3d &p = samples.points[i], &n = samples.normals[i];

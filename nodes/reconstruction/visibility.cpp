@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -54,7 +54,7 @@ void look(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& eye
 std::vector<Eigen::Vector3d> seen_from(const std::vector<Eigen::Vector3d>& points) {
   std::array<std::vector<Eigen::Vector3d>, 2> seen;
   const std::vector<Eigen::Vector3d> all = eyes();
-  geometry::in_halves(all.size(), [&](std::size_t begin, std::size_t end, int half) {
+  geometry::parallel_for(all.size(), [&](std::size_t begin, std::size_t end, int half) {
     seen[half].assign(points.size(), Eigen::Vector3d::Zero());
     for (std::size_t e = begin; e < end; ++e) look(points, all[e], seen[half]);
   });

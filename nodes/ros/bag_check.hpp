@@ -10,7 +10,7 @@ namespace tensegric_fit::node {
 /// Something that whoever recorded the bag should know.
 struct BagFinding {
   bool hinders;        ///< the bag cannot be replayed because of it
-  std::string name;    ///< one a cause: empty_bag, stamps_backwards, ...
+  std::string name;    ///< one per cause: empty_bag, stamps_backwards, ...
   std::string what;    ///< a sentence that names topic and message
   std::string advice;  ///< what to do about it
 };

@@ -15,14 +15,14 @@
 
 namespace tensegric_fit::node {
 
-/// `filled` is empty or has one flag a vertex. Coordinates are rounded to float32.
+/// `filled` is empty or has one flag per vertex. Coordinates are rounded to float32.
 TriangleMesh to_message(const ScanTag& tag, const geometry::TriangleMesh& mesh,
                         const std::vector<char>& filled);
 
 /// \throw Refusal bad_mesh, non_finite: arrays that do not fit each other, as check_mesh
 geometry::TriangleMesh mesh_in(const TriangleMesh& message);
 
-/// One flag a vertex, or empty. \throw Refusal bad_mesh: another number of flags
+/// One flag per vertex, or empty. \throw Refusal bad_mesh: another number of flags
 std::vector<char> filled_in(const TriangleMesh& message);
 
 Fracture to_message(const geometry::Fracture& fracture);

@@ -39,7 +39,7 @@ struct FitFigures {
   std::vector<Eigen::Vector3d> deformed;  ///< one per vertex of `body`
   std::vector<double> distortion;         ///< one per vertex of `body`
   geometry::ControlMesh control;
-  std::vector<Eigen::Vector3d> control_deformed;  ///< one an outer node
+  std::vector<Eigen::Vector3d> control_deformed;  ///< one per outer node
   geometry::BodyMeasures measures;
   std::vector<geometry::ChangedMeasure> heights, girths;
   std::vector<inspect::BraSize> sizes;         ///< bra_sizes of the body before

@@ -221,7 +221,7 @@ class LoadPath {
   }
 
   Outcome outcome(const Balance& at, const Load& load, double share, bool true_lengths) {
-    const Defect defect = newton_.kkt().defect(at, load);
+    const KktResidual defect = newton_.kkt().defect(at, load);
     settled_ = share == 1 && true_lengths && within(defect, kWanted);
     Outcome result;
     result.state.x = at.x;

@@ -17,7 +17,7 @@ class Extrapolation {
   void restart() { seen_ = 0; }
 
  private:
-  Eigen::MatrixXd moves_, afters_;  // differences of successive moves and results, one a column
+  Eigen::MatrixXd moves_, afters_;  // differences of successive moves and results, one per column
   Eigen::VectorXd last_move_, last_after_;
   int seen_ = 0;
 };

@@ -120,7 +120,7 @@ bool has_line(const Garment& garment, const std::string& name) {
 }  // namespace
 
 std::array<bool, 2> held_in(const std::vector<std::string>& words, const std::string& where) {
-  if (words.size() != 2) throw Refusal(kBadGarment, where + ": 'ends' must be two words, one an end");
+  if (words.size() != 2) throw Refusal(kBadGarment, where + ": 'ends' must be two words, one per end");
   for (const std::string& word : words)
     if (word != kHeldByBone && word != kCarriedBySkin)
       throw Refusal(kBadGarment,

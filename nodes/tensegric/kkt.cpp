@@ -68,8 +68,8 @@ Kkt::Kkt(const Problem& problem)
       hessian_(problem.free_nodes, coupled_nodes(problem, curvatures_)),
       factor_(hessian_) {}
 
-Defect Kkt::defect(const Balance& at, const Load& load) const {
-  Defect result;
+KktResidual Kkt::defect(const Balance& at, const Load& load) const {
+  KktResidual result;
   result.jacobian.setZero(3 * problem_.free_nodes, regions_ + bands_);
   result.conditions.resize(regions_ + bands_);
   Eigen::VectorXd multipliers(regions_ + bands_);
@@ -132,7 +132,7 @@ void Kkt::assemble(const Balance& at, const std::vector<StraightPush>& lines, do
 
 // Factorises and forms the Schur complement; true where the balance is a minimum under its conditions: by the
 // law of inertia, where the matrix has as many negative pivots as the complement has negative eigenvalues.
-bool Kkt::factorise(const Balance& at, const Load& load, const Defect& defect) {
+bool Kkt::factorise(const Balance& at, const Load& load, const KktResidual& defect) {
   usable_ = factor_.factorise(hessian_);
   ++factorisations_;
   if (!usable_) return false;
@@ -171,7 +171,8 @@ bool Kkt::factorise(const Balance& at, const Load& load, const Defect& defect) {
   return (eigen.eigenvalues().array() < 0).count() == negative;
 }
 
-Step Kkt::step(const Balance& at, const Load& load, const Defect& defect, bool to_saddle, bool foreseen) {
+Step Kkt::step(const Balance& at, const Load& load, const KktResidual& defect, bool to_saddle,
+               bool foreseen) {
   Step result;
   result.lines = straight_pushes(problem_.units, at.x, foreseen ? at.pushes : Eigen::VectorXd());
   Eigen::VectorXd gradient = defect.gradient;
@@ -209,7 +210,7 @@ Eigen::VectorXd Kkt::correction(const Eigen::VectorXd& conditions) const {
   return -(solved_ * schur_factor_.solve(conditions));
 }
 
-Eigen::VectorXd Kkt::shortest_move(const Defect& defect, const Eigen::VectorXd& conditions) {
+Eigen::VectorXd Kkt::shortest_move(const KktResidual& defect, const Eigen::VectorXd& conditions) {
   const Eigen::MatrixXd product = defect.jacobian.transpose() * defect.jacobian;
   return -(defect.jacobian * product.completeOrthogonalDecomposition().solve(conditions));
 }
@@ -218,7 +219,7 @@ void Kkt::guess_multipliers(Balance& at, const Load& load) const {
   at.pressures.setZero(regions_);
   for (int b = 0; b < bands_; ++b)
     if (at.holds[b] == Hold::length) at.tensions[b] = 0;
-  const Defect rest = defect(at, load);
+  const KktResidual rest = defect(at, load);
   std::vector<int> open;
   for (int i = 0; i < regions_ + bands_; ++i)
     if (i < regions_ || at.holds[i - regions_] == Hold::length) open.push_back(i);

@@ -40,8 +40,8 @@ struct Load {
 };
 
 /// Net forces and broken conditions at a balance.
-struct Defect {
-  Eigen::MatrixXd jacobian;    ///< gradients of the conditions by the free nodes, one a column
+struct KktResidual {
+  Eigen::MatrixXd jacobian;    ///< gradients of the conditions by the free nodes, one per column
   Eigen::VectorXd gradient;    ///< of the Lagrangian by the free nodes
   Eigen::VectorXd conditions;  ///< regions (m: loss of volume / area), then bands (m, or a pseudo force)
   double residual = 0;         ///< largest net force / mean tensile force at rest
@@ -63,12 +63,12 @@ class Kkt {
  public:
   explicit Kkt(const Problem& problem);
 
-  Defect defect(const Balance& at, const Load& load) const;
+  KktResidual defect(const Balance& at, const Load& load) const;
 
   /// Newton's step. Where the second derivative is no minimum's, its negative parts are taken back until it
   /// is one's, so that the step leads downhill; with `to_saddle` it is left as it is. Not finite where there
   /// is no step. With `foreseen` units about to fold push as `at` foresees it.
-  Step step(const Balance& at, const Load& load, const Defect& defect, bool to_saddle, bool foreseen);
+  Step step(const Balance& at, const Load& load, const KktResidual& defect, bool to_saddle, bool foreseen);
 
   /// A move of least effort that takes `conditions` to zero, by the matrix of the last step.
   Eigen::VectorXd correction(const Eigen::VectorXd& conditions) const;
@@ -83,11 +83,11 @@ class Kkt {
   void guess_multipliers(Balance& at, const Load& load) const;
 
   /// The shortest move of the free nodes that takes `conditions` to zero at `defect`'s state.
-  static Eigen::VectorXd shortest_move(const Defect& defect, const Eigen::VectorXd& conditions);
+  static Eigen::VectorXd shortest_move(const KktResidual& defect, const Eigen::VectorXd& conditions);
 
  private:
   void assemble(const Balance& at, const std::vector<StraightPush>& lines, double whole);
-  bool factorise(const Balance& at, const Load& load, const Defect& defect);
+  bool factorise(const Balance& at, const Load& load, const KktResidual& defect);
 
   const Problem& problem_;
   int regions_, bands_;

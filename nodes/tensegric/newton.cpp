@@ -24,7 +24,7 @@ constexpr int kLeastCap = 400;        // of factorisations: 20 to 60 are usual; 
 
 }  // namespace
 
-bool within(const Defect& d, const Tolerance& t) {
+bool within(const KktResidual& d, const Tolerance& t) {
   return d.residual <= t.residual && d.volume_error <= t.volume && d.length_error <= t.length &&
          d.tension_error <= t.residual;
 }
@@ -53,7 +53,7 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
   penalties_ =
       Eigen::VectorXd::Zero(problem_.volumes.size() + static_cast<Eigen::Index>(problem_.bands.size()));
   int changes = 0;
-  Defect defect = kkt_.defect(at, load);
+  KktResidual defect = kkt_.defect(at, load);
   for (int i = 0; i <= most; ++i) {
     while ((within(defect, tolerance) && change_holds(at, load)) ||
            (i >= kStepsBeyondLimit && stop_at_limits(at, load))) {
@@ -92,13 +92,13 @@ bool Newton::is_rounding(const Step& step) const {
 }
 
 // Good enough, though not as good as aimed at.
-bool Newton::is_balance(Balance at, const Load& load, const Defect& defect) const {
+bool Newton::is_balance(Balance at, const Load& load, const KktResidual& defect) const {
   return within(defect, kWanted) && !change_holds(at, load);
 }
 
 void Newton::mend(Balance& at, const Load& load) const {
   for (int i = 0; i < kMostMends; ++i) {
-    const Defect defect = kkt_.defect(at, load);
+    const KktResidual defect = kkt_.defect(at, load);
     if (defect.volume_error <= kMended && defect.length_error <= kMended) return;
     Eigen::VectorXd broken = defect.conditions;
     for (Eigen::Index b = at.pressures.size(); b < broken.size(); ++b)
@@ -112,7 +112,7 @@ void Newton::mend(Balance& at, const Load& load) const {
 
 // Line search on energy plus penalties for broken conditions, with a second-order correction of the full
 // step. `at` and its defect go where it ends.
-bool Newton::advance(Balance& at, const Load& load, Defect& defect, const Step& step) {
+bool Newton::advance(Balance& at, const Load& load, KktResidual& defect, const Step& step) {
   const Eigen::Index regions = at.pressures.size();
   const auto kept = [&](Eigen::Index i) { return i < regions || at.holds[i - regions] == Hold::length; };
   double slope = defect.gradient.dot(step.move);
@@ -125,7 +125,7 @@ bool Newton::advance(Balance& at, const Load& load, Defect& defect, const Step& 
       slope += defect.conditions[i] * defect.jacobian.col(i).dot(step.move);
     }
   }
-  const auto merit = [&](const Balance& b, const Defect& d) {
+  const auto merit = [&](const Balance& b, const KktResidual& d) {
     double value = kkt_.energy(b, load);
     for (Eigen::Index i = 0; i < penalties_.size(); ++i)
       if (kept(i)) value += penalties_[i] * std::abs(d.conditions[i]);
@@ -145,7 +145,7 @@ bool Newton::advance(Balance& at, const Load& load, Defect& defect, const Step& 
     for (std::size_t k = 0; k < step.lines.size(); ++k)
       trial.pushes[step.lines[k].unit] =
           std::max(0.0, step.lines[k].push + length * step.push_change[static_cast<Eigen::Index>(k)]);
-    Defect there = kkt_.defect(trial, load);
+    KktResidual there = kkt_.defect(trial, load);
     if (length == 1) {
       Eigen::VectorXd broken = there.conditions;
       for (Eigen::Index i = 0; i < broken.size(); ++i)

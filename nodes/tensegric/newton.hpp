@@ -5,14 +5,14 @@
 
 namespace tensegric_fit::tensegric {
 
-/// How near to balance is near enough; see Defect. Tensions are held to the residual's.
+/// How near to balance is near enough; see KktResidual. Tensions are held to the residual's.
 struct Tolerance {
   double residual, volume, length;
 };
 inline constexpr Tolerance kWanted{1e-8, 1e-9,
                                    1e-8};  ///< what counts as balanced (README.md, Exactness: 1e-6 in length)
 
-bool within(const Defect& defect, const Tolerance& tolerance);
+bool within(const KktResidual& defect, const Tolerance& tolerance);
 
 /// What ended the whole solve before its time.
 enum class Stop { none, iterations, time, caller };
@@ -36,12 +36,12 @@ class Newton {
 
  private:
   Stop spent() const;
-  bool advance(Balance& at, const Load& load, Defect& defect, const Step& step);
+  bool advance(Balance& at, const Load& load, KktResidual& defect, const Step& step);
   bool stop_at_limits(Balance& at, const Load& load) const;
   bool release_contradicted(Balance& at, const Load& load, const Step& step) const;
   bool change_holds(Balance& at, const Load& load) const;
   bool is_rounding(const Step& step) const;
-  bool is_balance(Balance at, const Load& load, const Defect& defect) const;
+  bool is_balance(Balance at, const Load& load, const KktResidual& defect) const;
   void move(Positions& x, const Eigen::VectorXd& by) const;
 
   const Problem& problem_;
@@ -53,7 +53,7 @@ class Newton {
   Stop stop_ = Stop::none;
   bool branch_near_ = false;
   double merit_change_ = 0;    // of the last step, relative
-  Eigen::VectorXd penalties_;  // of the merit function, one a condition
+  Eigen::VectorXd penalties_;  // of the merit function, one per condition
 };
 
 }  // namespace tensegric_fit::tensegric

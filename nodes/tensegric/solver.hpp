@@ -83,7 +83,7 @@ struct SolverOptions {
 };
 
 struct Solution {
-  std::vector<Eigen::Vector3d> outer, inner;  ///< deformed, scan frame, one an outer node
+  std::vector<Eigen::Vector3d> outer, inner;  ///< deformed, scan frame, one per outer node
   std::vector<Eigen::Vector3d> between;       ///< the nodes between them, level by level from outside
   std::vector<LineResult> lines;
   std::vector<RegionResult> regions;

@@ -34,7 +34,7 @@ void check_input(const geometry::TriangleMesh& body, const geometry::ControlMesh
   if (control.triangles.empty()) throw Refusal(refusal::kBadMesh, "t-FFD: the control mesh has no triangles");
   if (control.outer_fixed.size() != control.outer.size() ||
       control.inner_fixed.size() != control.outer.size())
-    throw Refusal(refusal::kBadMesh, "t-FFD: the control mesh needs one fixed flag a node");
+    throw Refusal(refusal::kBadMesh, "t-FFD: the control mesh needs one fixed flag per node");
 }
 
 double largest_row_sum(const SparseRows& matrix) {

@@ -48,7 +48,7 @@ double from_course(const Eigen::Vector3d& point, const std::vector<Eigen::Vector
 
 /// Connected places (by corners of triangles), the largest of a kind first:
 /// `shelf`: skin turned by more than kTurned, where in all kLeastPatch or more is turned by more than kShelf;
-///   one a place that has a tenth of that;
+///   one per place that has a tenth of that;
 /// `turned_over`: kGrain and more turned by more than kTurnedOver, where there is a shelf;
 /// `skin_turns`: where there is none, kLeastPatch turned by more than kTurned, or kGrain turned over;
 /// `over_stretched`, `pressed_together`: kLeastPatch beyond kMostStretch, kLeastStretch.

@@ -23,7 +23,7 @@ class CatmullClark {
   std::size_t vertices() const { return valence_.size() + edges_.size() + coarse_.size(); }
   const std::vector<Quad>& quads() const { return quads_; }
 
-  /// One value a new vertex from one an old vertex: positions, or anything else that can be averaged.
+  /// One value per new vertex from one per old vertex: positions, or anything else that can be averaged.
   template <typename T>
   std::vector<T> refined(const std::vector<T>& values) const;
 

@@ -11,7 +11,7 @@
 #include <map>
 #include <memory>
 
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::calibration {
@@ -226,7 +226,7 @@ class TissueCost : public ceres::CostFunction {
   std::vector<Eigen::VectorXd> evaluate(const Eigen::VectorXd& at) const {
     const Settings settings = settings_at(at);
     std::vector<Eigen::VectorXd> residuals(bodies_.size());
-    geometry::in_halves(bodies_.size(), [&](std::size_t from, std::size_t to, int) {
+    geometry::parallel_for(bodies_.size(), [&](std::size_t from, std::size_t to, int) {
       for (std::size_t b = from; b < to; ++b) {
         const std::vector<CaseOutcome> outcomes = wardrobe_.settled(bodies_[b], settings);
         if (!outcomes.empty()) residuals[b] = residuals_of(bodies_[b], outcomes);

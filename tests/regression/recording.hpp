@@ -26,9 +26,9 @@ struct Recording {
   Landmarks::ConstPtr landmarks;
   tf2_msgs::TFMessage::ConstPtr body_frame;
   ControlMesh::ConstPtr control;
-  std::vector<FitState::ConstPtr> fits;  ///< one a garment
+  std::vector<FitState::ConstPtr> fits;  ///< one per garment
   std::vector<DeformedMesh::ConstPtr> deformed;
-  std::vector<std::vector<tensegric::Iterate>> histories;  ///< one a garment; none of a replay
+  std::vector<std::vector<tensegric::Iterate>> histories;  ///< one per garment; none of a replay
   std::string refused_by, refusal;                         ///< stage and code; empty: not refused
   /// By stage, of its last work on this scan.
   std::map<std::string, double> milliseconds, peak_mebibytes;

@@ -10,7 +10,7 @@ namespace tensegric_fit::geometry {
 /// this one: the same two halves on every machine. What either throws is thrown here. \pre the halves write
 /// to different places
 template <typename Work>
-void in_halves(std::size_t count, const Work& work) {
+void parallel_for(std::size_t count, const Work& work) {
   const std::size_t middle = count / 2;
   auto first = std::async(std::launch::async, [&work, middle] { work(std::size_t{0}, middle, 0); });
   work(middle, count, 1);

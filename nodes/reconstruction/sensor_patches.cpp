@@ -1,4 +1,4 @@
-#include "reconstruction/sheets.hpp"
+#include "reconstruction/sensor_patches.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/halves.hpp"
+#include "geometry/parallel_for.hpp"
 #include "reconstruction/voxel_grid.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -32,13 +32,13 @@ class Patches {
         step_(step),
         grid_(points, radius) {}
 
-  Sheets all() const {
-    std::array<Sheets, 2> of_half;
-    geometry::in_halves(grid_.cell_count(), [&](std::size_t begin, std::size_t end, int half) {
+  SensorPatches all() const {
+    std::array<SensorPatches, 2> of_half;
+    geometry::parallel_for(grid_.cell_count(), [&](std::size_t begin, std::size_t end, int half) {
       std::vector<int> near;
       for (std::size_t c = begin; c < end; c += step_) add_patch(static_cast<int>(c), near, of_half[half]);
     });
-    Sheets& result = of_half[0];
+    SensorPatches& result = of_half[0];
     for (Patch patch : of_half[1].patches) {
       patch.begin += result.sheets.size();
       patch.end += result.sheets.size();
@@ -49,7 +49,7 @@ class Patches {
   }
 
  private:
-  void add_patch(int cell, std::vector<int>& near, Sheets& result) const {
+  void add_patch(int cell, std::vector<int>& near, SensorPatches& result) const {
     Patch patch;
     patch.centre = Vector3d::Zero();
     for (int i = grid_.begin(cell); i < grid_.end(cell); ++i) patch.centre += points_[grid_.order()[i]];
@@ -114,7 +114,7 @@ class Patches {
   }
 
   void add_sheets(const std::vector<int>& near, const std::vector<int>& count, Patch& patch,
-                  Sheets& result) const {
+                  SensorPatches& result) const {
     std::vector<int> sheet_of(sensors_, -1);
     patch.begin = result.sheets.size();
     for (int s = 0; s < sensors_; ++s) {
@@ -130,7 +130,7 @@ class Patches {
       const double u = patch.x.dot(d) / radius_, v = patch.y.dot(d) / radius_;
       Surface terms;
       terms << 1, u, v, u * u, u * v, v * v;
-      Sheet& sheet = result.sheets[sheet_of[sensor_of_[i]]];
+      SensorPatch& sheet = result.sheets[sheet_of[sensor_of_[i]]];
       sheet.gram += terms * terms.transpose();
       const double height = patch.normal.dot(d);
       sheet.heights += height * terms;
@@ -149,18 +149,18 @@ class Patches {
 
 }  // namespace
 
-Sheets sheets_of(const std::vector<Vector3d>& points, const std::vector<Vector3d>& normals,
-                 const std::vector<int>& sensor_of, int sensors, double radius, int step) {
+SensorPatches sensor_patches_of(const std::vector<Vector3d>& points, const std::vector<Vector3d>& normals,
+                                const std::vector<int>& sensor_of, int sensors, double radius, int step) {
   return Patches(points, normals, sensor_of, sensors, radius, step).all();
 }
 
-void PatchEquations::set(const Sheets& all, const Patch& patch) {
+void PatchEquations::set(const SensorPatches& all, const Patch& patch) {
   std::vector<Surface> heights;
   for (std::size_t i = patch.begin; i < patch.end; ++i) heights.push_back(all.sheets[i].heights);
   set(all, patch, heights, std::vector<double>(heights.size(), 1).data());
 }
 
-void PatchEquations::set(const Sheets& all, const Patch& patch, const std::vector<Surface>& heights,
+void PatchEquations::set(const SensorPatches& all, const Patch& patch, const std::vector<Surface>& heights,
                          const double* weights) {
   sheets_ = &all.sheets[patch.begin];
   const std::size_t count = patch.end - patch.begin;
@@ -190,7 +190,7 @@ Eigen::Matrix3d PatchEquations::squares(std::size_t i, std::size_t j) const {
 }
 
 double PatchEquations::thickness(std::size_t i) const {
-  const Sheet& sheet = sheets_[i];
+  const SensorPatch& sheet = sheets_[i];
   const double sum =
       sheet.squares - surface_.dot(heights_[i] + left_[i]) - left_[i][0] * left_[i][0] / sheet.count;
   return std::sqrt(std::max(0.0, sum) / sheet.count);

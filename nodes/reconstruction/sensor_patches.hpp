@@ -17,7 +17,7 @@ struct Patch {
 };
 
 /// What one sensor sees of a patch: sums over its points.
-struct Sheet {
+struct SensorPatch {
   int sensor;
   double count;
   Eigen::Matrix<double, 6, 6> gram;  ///< of the surface's terms
@@ -25,25 +25,27 @@ struct Sheet {
   double squares;                    ///< of the heights, m^2
 };
 
-struct Sheets {
+struct SensorPatches {
   std::vector<Patch> patches;
-  std::vector<Sheet> sheets;  ///< patch by patch
+  std::vector<SensorPatch> sheets;  ///< patch by patch
 };
 
 /// Patches all over the points that at least two of the sensors, numbered from 0, see. With `normals` (one a
 /// point) a patch has those points only that face its way; without, it is left out unless it is flat. One in
 /// `step` cubes as wide as a patch's radius has a patch.
-Sheets sheets_of(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3d>& normals,
-                 const std::vector<int>& sensor_of, int sensors, double radius, int step);
+SensorPatches sensor_patches_of(const std::vector<Eigen::Vector3d>& points,
+                                const std::vector<Eigen::Vector3d>& normals,
+                                const std::vector<int>& sensor_of, int sensors, double radius, int step);
 
 /// Least squares of a patch's sheets, each counted by its weight, about the surface that fits them best, in
 /// the first three terms that may be added to each sheet's heights.
 class PatchEquations {
  public:
   /// All count alike.
-  void set(const Sheets& all, const Patch& patch);
-  /// `heights` and `weights`: one a sheet of the patch, in place of its own heights.
-  void set(const Sheets& all, const Patch& patch, const std::vector<Surface>& heights, const double* weights);
+  void set(const SensorPatches& all, const Patch& patch);
+  /// `heights` and `weights`: one per sheet of the patch, in place of its own heights.
+  void set(const SensorPatches& all, const Patch& patch, const std::vector<Surface>& heights,
+           const double* weights);
 
   /// What sheet j's terms add to the equations of sheet i's.
   Eigen::Matrix3d squares(std::size_t i, std::size_t j) const;
@@ -55,7 +57,7 @@ class PatchEquations {
   double thickness(std::size_t i) const;
 
  private:
-  const Sheet* sheets_ = nullptr;
+  const SensorPatch* sheets_ = nullptr;
   std::vector<double> weights_;
   std::vector<Surface> heights_;
   Surface surface_;
