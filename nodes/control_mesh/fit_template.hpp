@@ -22,7 +22,7 @@ struct Options {
 /// much as the body below it, within 2 %.
 ///
 /// \param model registered to this body, in its frame; null: none, then no node may lie on it
-/// \throw Refusal missing_part:<landmark>, missing_part:body_model, not_a_body, non_finite, bad_mesh,
+/// \throw Refusal missing_part:LANDMARK, missing_part:body_model, not_a_body, non_finite, bad_mesh,
 /// bad_option, bad_template: a point that the model does not have
 geometry::ControlMesh fit_template(const Template& pattern, const geometry::TriangleMesh& body,
                                    const geometry::BodyMeasures& measures, const Options& options,

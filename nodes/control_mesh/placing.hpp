@@ -12,7 +12,7 @@
 namespace tensegric_fit::control_mesh {
 
 /// A vertical line inside the trunk, in the body frame: angles and levels are seen from it.
-/// \throw Refusal missing_part:<landmark>
+/// \throw Refusal missing_part:LANDMARK
 Eigen::Vector3d trunk_axis(const Template& pattern, const geometry::BodyMeasures& measures);
 
 /// Which of a template's places count.
@@ -24,7 +24,7 @@ enum class Layout {
 };
 
 /// Positions of all nodes on the skin, body frame. `model` is not null where the template needs one or the
-/// layout is on_model. \throw Refusal missing_part:<landmark>, not_a_body, bad_template: a point that the
+/// layout is on_model. \throw Refusal missing_part:LANDMARK, not_a_body, bad_template: a point that the
 /// model does not have
 std::vector<Eigen::Vector3d> place_nodes(const Template& pattern, const geometry::BodyMeasures& measures,
                                          const Skin& skin, Layout layout = Layout::as_drawn,

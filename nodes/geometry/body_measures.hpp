@@ -53,9 +53,9 @@ struct BodyMeasures {
 
   /// Null where the landmark was not found.
   const Landmark* find_landmark(const std::string& name) const;
-  /// Position in the scan's frame. \throw Refusal missing_part:<name>
+  /// Position in the scan's frame. \throw Refusal missing_part:NAME
   const Eigen::Vector3d& landmark(const std::string& name) const;
-  /// Height above the soles. \throw Refusal missing_part:<name>
+  /// Height above the soles. \throw Refusal missing_part:NAME
   double height(const std::string& name) const;
 };
 
