@@ -26,7 +26,7 @@ ALLOWED = {
     ("landmarks", "body_model"): "landmarks are carried by the registered model",
     ("control_mesh", "geometry"): "core",
     ("control_mesh", "ros"): "handler",
-    ("control_mesh", "body_model"): "inner nodes are placed by the registered model's bones",
+    ("control_mesh", "body_model"): "a template may place nodes on the registered model, and arms are left out by its parts",
     ("tensegric", "geometry"): "core",
     ("tensegric", "ros"): "handler",
     ("tffd", "geometry"): "core",

@@ -70,7 +70,7 @@ Colour distortion_colour(double distortion) {
 Colour tension_colour(double tension) {
   if (!std::isfinite(tension)) return kForceless;
   constexpr Colour kLoosePull{250, 224, 110}, kHardPull{150, 62, 8};  // neither is a colour of skin
-  constexpr double kHalfWay = 5;  // a chest's band shortened by 7 to 8 % pulls like that
+  constexpr double kHalfWay = 5;  // a band shortened by 7 % (B1 on F0 to F2: 5.0 to 5.8)
   const double pull = std::max(0.0, tension);
   return mixed(kLoosePull, kHardPull, pull / (kHalfWay + pull));
 }

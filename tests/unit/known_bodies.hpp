@@ -2,6 +2,8 @@
 /// bodies F0 to F2 where they lie beside the repository.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
