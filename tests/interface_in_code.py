@@ -299,12 +299,10 @@ def topics():
                 topic = topic_in(arguments[0])
                 if topic:
                     found.add((topic, "from" if match[0].startswith("advertise") else "to", who))
-            for _, arguments in calls(source(file), r"\b(?:markers|polygon_mesh|image|members_)"):
-                if len(arguments) == 2 and arguments[0] == "private_node" and text_in(arguments[1]):
-                    found.add(("~" + text_in(arguments[1]), "from", who))
-            for _, arguments in calls(source(file), r"\bbands_"):
-                if len(arguments) == 2 and arguments[0] == "node" and text_in(arguments[1]):
-                    found.add((text_in(arguments[1]), "from", who))
+            kept = "|".join(re.findall(r"\bKeptPublisher<[\w:]+> (\w+)", source(file)) + ["markers", "polygon_mesh", "image"])
+            for _, arguments in calls(source(file), rf"\b(?:{kept})"):
+                if len(arguments) == 2 and arguments[0] in ("node", "private_node") and text_in(arguments[1]):
+                    found.add((("~" if arguments[0] == "private_node" else "") + text_in(arguments[1]), "from", who))
     return found
 
 
