@@ -32,20 +32,25 @@ struct PointTree::Tree {
 
 namespace {
 
-/// nanoflann's result set of one point at most: the first within the radius for which the test holds.
-struct First {
+double squared_up(double radius) {
+  return std::nextafter(radius * radius, HUGE_VAL);
+}  // `radius` is within
+
+/// nanoflann's result set of points that are visited, none kept.
+struct Visits {
   double squared;  // of the radius
   const std::vector<int>& order;
-  const void* test;
-  bool (*holds)(const void* test, int index);
-  bool found = false;
+  const void* visit;
+  double (*call)(const void* visit, int index);
 
-  std::size_t size() const { return found ? 1 : 0; }
-  bool full() const { return found; }
+  std::size_t size() const { return 0; }
+  bool full() const { return false; }
   double worstDist() const { return squared; }
-  bool addPoint(double, int place) {
-    found = holds(test, order[place]);
-    return !found;
+  bool addPoint(double distance, int place) {
+    if (distance >= squared) return true;  // the radius has shrunk within a leaf
+    const double radius = call(visit, order[place]);
+    squared = radius < 0 ? 0 : squared_up(radius);
+    return radius >= 0;
   }
 };
 
@@ -53,6 +58,8 @@ struct First {
 
 PointTree::PointTree(const std::vector<Eigen::Vector3d>& points) : tree_(std::make_unique<Tree>(points)) {}
 
+PointTree::PointTree(PointTree&&) noexcept = default;
+PointTree& PointTree::operator=(PointTree&&) noexcept = default;
 PointTree::~PointTree() = default;
 
 double PointTree::distance(const Eigen::Vector3d& query) const {
@@ -77,10 +84,10 @@ void PointTree::nearest(const Eigen::Vector3d& query, int count, std::vector<int
   for (int& i : indices) i = tree_->order[i];
 }
 
-bool PointTree::any_within(const Eigen::Vector3d& query, double radius, const void* test,
-                           bool (*holds)(const void* test, int index)) const {
-  First first{std::nextafter(radius * radius, HUGE_VAL), tree_->order, test, holds};  // `radius` is within
-  return tree_->index.radiusSearchCustomCallback(query.data(), first) > 0;
+void PointTree::visit_within(const Eigen::Vector3d& query, double radius, const void* visit,
+                             double (*call)(const void* visit, int index)) const {
+  Visits visits{squared_up(radius), tree_->order, visit, call};
+  tree_->index.radiusSearchCustomCallback(query.data(), visits);
 }
 
 const std::vector<int>& PointTree::order() const {

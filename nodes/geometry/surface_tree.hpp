@@ -16,18 +16,26 @@ struct SurfacePoint {
   Eigen::Vector3d position;     ///< m
 };
 
-/// Answers are exact where triangles are of like size: only those with the nearest centroids are looked at.
+/// Exact for triangles of any size: they are kept by size, and a triangle is left out only where its centroid
+/// is too far away for one of its size.
 class SurfaceTree {
  public:
   /// `mesh` must outlive it. \pre it has triangles and has passed check_mesh
   explicit SurfaceTree(const TriangleMesh& mesh);
 
+  /// Of points that are equally near the one whose triangle's centroid is nearer.
   SurfacePoint nearest(const Eigen::Vector3d& query) const;
 
  private:
+  /// Triangles of like size.
+  struct Size {
+    double reach;  ///< m, from a centroid to the farthest corner, at most
+    std::vector<int> triangles;
+    PointTree centroids;
+  };
+
   const TriangleMesh& mesh_;
-  std::vector<Eigen::Vector3d> centroids_;
-  PointTree tree_;
+  std::vector<Size> sizes_;
 };
 
 }  // namespace tensegric_fit::geometry
