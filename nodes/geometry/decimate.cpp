@@ -2,7 +2,6 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModAspectRatioT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <limits>
@@ -14,7 +13,6 @@
 namespace tensegric_fit::geometry {
 namespace {
 
-constexpr double kWorstAspect = 8;  // longest edge / its height
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Traits : OpenMesh::DefaultTraits {
@@ -47,55 +45,16 @@ TriangleMesh from_open_mesh(const Mesh& mesh) {
   return result;
 }
 
-// Where the surface is flat or curved in one direction only, the quadric error is the same for many edges and
-// slivers would be left: the shortest edge is collapsed first. Along a border the deviation from the border
-// is added.
-class EvenQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
- public:
-  using Base = OpenMesh::Decimater::ModQuadricT<Mesh>;
-  using Handle = OpenMesh::Decimater::ModHandleT<EvenQuadric>;
-  using Base::Base;
-
-  float collapse_priority(const CollapseInfo& collapse) override {
-    const float error = Base::collapse_priority(collapse);
-    if (error < 0) return error;
-    const double squared = (collapse.p1 - collapse.p0).sqrnorm();
-    return static_cast<float>(error + kEven * squared * squared + off_border(collapse) * squared);
-  }
-
- private:
-  static constexpr double kEven = 0.01;
-
-  // Squared distance of the removed border vertex from the remaining border; 0 inside.
-  double off_border(const CollapseInfo& collapse) {
-    if (!mesh().is_boundary(collapse.v0)) return 0;
-    double largest = 0;
-    for (const auto v : mesh().vv_range(collapse.v0)) {
-      if (!mesh().is_boundary(mesh().edge_handle(mesh().find_halfedge(collapse.v0, v)))) continue;
-      const OpenMesh::Vec3d chord = mesh().point(v) - collapse.p1, aside = collapse.p0 - collapse.p1;
-      const double length = chord.sqrnorm();
-      if (length > 0) largest = std::max(largest, (aside % chord).sqrnorm() / length);
-    }
-    return largest;
-  }
-};
-
-template <typename Priority>
-void collapse_to(Mesh& mesh, std::size_t triangles, double worst_aspect) {
+void collapse_to(Mesh& mesh, std::size_t triangles) {
   mesh.request_face_normals();
   mesh.update_face_normals();
   OpenMesh::Decimater::DecimaterT<Mesh> decimater(mesh);
-  typename Priority::Handle quadric;
+  OpenMesh::Decimater::ModQuadricT<Mesh>::Handle quadric;
   OpenMesh::Decimater::ModNormalFlippingT<Mesh>::Handle flipping;
   decimater.add(quadric);
   decimater.module(quadric).unset_max_err();
   decimater.add(flipping);
   decimater.module(flipping).set_max_normal_deviation(60);
-  OpenMesh::Decimater::ModAspectRatioT<Mesh>::Handle aspect;
-  if (worst_aspect > 0) {
-    decimater.add(aspect);
-    decimater.module(aspect).set_aspect_ratio(static_cast<float>(worst_aspect));
-  }
   decimater.initialize();
   decimater.decimate_to_faces(0, triangles);
   mesh.garbage_collection();
@@ -142,15 +101,7 @@ bool keeps_facing(const Mesh& mesh, Mesh::HalfedgeHandle collapse) {
 TriangleMesh with_triangles(const TriangleMesh& mesh, int triangles) {
   Mesh work = to_open_mesh(mesh);
   const auto wanted = static_cast<std::size_t>(triangles);
-  if (work.n_faces() > wanted) collapse_to<OpenMesh::Decimater::ModQuadricT<Mesh>>(work, wanted, 0);
-  split_to(work, wanted, -kInfinity, kInfinity);
-  return from_open_mesh(work);
-}
-
-TriangleMesh with_even_triangles(const TriangleMesh& mesh, int triangles) {
-  Mesh work = to_open_mesh(mesh);
-  const auto wanted = static_cast<std::size_t>(triangles);
-  if (work.n_faces() > wanted) collapse_to<EvenQuadric>(work, wanted, kWorstAspect);
+  if (work.n_faces() > wanted) collapse_to(work, wanted);
   split_to(work, wanted, -kInfinity, kInfinity);
   return from_open_mesh(work);
 }

@@ -12,10 +12,6 @@ namespace tensegric_fit::geometry {
 /// vertex
 TriangleMesh with_triangles(const TriangleMesh& mesh, int triangles);
 
-/// The same with triangles of more even size and shape, a little farther from the surface: for control
-/// meshes.
-TriangleMesh with_even_triangles(const TriangleMesh& mesh, int triangles);
-
 /// The same surface with at most `triangles` triangles: the longest edges between two heights (z, m) are
 /// split. \pre and \throw as above
 TriangleMesh with_finer_belt(const TriangleMesh& mesh, int triangles, double lowest, double highest);
