@@ -19,10 +19,10 @@ struct AssemblerOptions {
 
 struct Assembly {
   geometry::PointCloud cloud;                ///< in the booth's frame, each normal towards its own sensor
-  std::optional<Registration> registration;  ///< one correction a column; none where not asked for
+  std::optional<Registration> registration;  ///< one correction per column; none where not asked for
 };
 
-/// Brings the clouds of a capture into the booth's frame. `booth_from_sensor` has one transform a sensor;
+/// Brings the clouds of a capture into the booth's frame. `booth_from_sensor` has one transform per sensor;
 /// those of missing sensors are not looked at. Points that are not finite are left out. \throw Refusal
 /// bad_option: the sensors are not whole columns, or an option of register_columns
 Assembly assemble(const Capture& capture, const std::vector<Eigen::Isometry3d>& booth_from_sensor,

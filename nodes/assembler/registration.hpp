@@ -29,8 +29,8 @@ enum class RegistrationStatus {
 std::string to_string(RegistrationStatus status);
 
 struct Registration {
-  /// One a column, to be applied to its points; all identity unless `refined`. Their mean is no motion: what
-  /// all columns have in common cannot be seen.
+  /// One per column, to be applied to its points; all identity unless `refined`. Their mean is no motion:
+  /// what all columns have in common cannot be seen.
   std::vector<Eigen::Isometry3d> corrections;
   RegistrationStatus status = RegistrationStatus::no_overlap;
   /// Trimmed mean distance between columns along the normal, before and with the corrections; metres, over

@@ -47,7 +47,7 @@ class ArrayFile {
   std::map<std::string, Array> arrays_;
 };
 
-/// Three numbers a point.
+/// Three numbers per point.
 std::vector<Eigen::Vector3d> points(const std::vector<double>& xyz);
 
 }  // namespace tensegric_fit::body_model

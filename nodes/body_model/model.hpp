@@ -50,7 +50,7 @@ struct Model {
   std::vector<unsigned char> part;                            ///< of each vertex, index into parts
   std::vector<double> arm;                  ///< of each vertex: how much of it arm bones carry, 0 to 1
   std::vector<std::array<int, 4>> quads;    ///< counter-clockwise from outside
-  std::vector<Eigen::Vector3i> triangles;   ///< two a quad
+  std::vector<Eigen::Vector3i> triangles;   ///< two per quad
   std::vector<Eigen::Vector3d> inner_mean;  ///< joints (one per bone), then bone points, m
   Eigen::MatrixXd inner_basis;              ///< components x 3 inner points
   std::vector<BonePoint> bone_points;

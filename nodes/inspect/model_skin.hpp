@@ -30,7 +30,7 @@ std::vector<Colour> part_colours(const std::vector<std::string>& parts);
 std::vector<Colour> tinted_skin(const std::vector<unsigned char>& parts_of_skin,
                                 const std::vector<std::string>& parts);
 
-/// Triangles of the skin, two a quad.
+/// Triangles of the skin, two per quad.
 std::vector<Eigen::Vector3i> triangles_of(const ModelSkin& skin);
 
 /// The edges of its quads over the vertices at `vertices`, a line each, in the colours of the parts.

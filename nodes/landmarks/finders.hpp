@@ -17,10 +17,10 @@ using Eigen::Vector3d;
 std::optional<Vector3d> find_nipple(const Surface& surface, const Vector3d& expected, double deviation,
                                     const Vector3d& outward);
 
-/// The inframammary fold from below the bust point 55 mm inwards: most hollow places of sagittal profiles 5
+/// The inframammary fold from below the bust point 55 mm inwards: most concave places of sagittal profiles 5
 /// mm apart.
 struct Fold {
-  std::vector<Vector3d> places;  ///< the first below the bust point; empty where nothing is hollow
+  std::vector<Vector3d> places;  ///< the first below the bust point; empty where nothing is concave
   double curvature = 0;          ///< 1/m, of the first
   Vector3d lowest = Vector3d::Zero();
 };

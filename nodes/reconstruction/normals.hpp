@@ -6,7 +6,7 @@
 
 namespace tensegric_fit::reconstruction {
 
-/// One unit normal a point, outward. The line of each is that of the plane through its neighbours; its sign
+/// One unit normal per point, outward. The line of each is that of the plane through its neighbours; its sign
 /// follows its neighbours and, for the patch as a whole, `hints`: normals from the scanner (zero where
 /// unknown), or, where that is empty, the side from which the point can be seen from afar. \pre upright body,
 /// z up

@@ -30,9 +30,9 @@ struct SensorPatches {
   std::vector<SensorPatch> sheets;  ///< patch by patch
 };
 
-/// Patches all over the points that at least two of the sensors, numbered from 0, see. With `normals` (one a
-/// point) a patch has those points only that face its way; without, it is left out unless it is flat. One in
-/// `step` cubes as wide as a patch's radius has a patch.
+/// Patches all over the points that at least two of the sensors, numbered from 0, see. With `normals` (one
+/// per point) a patch has those points only that face its way; without, it is left out unless it is flat. One
+/// in `step` cubes as wide as a patch's radius has a patch.
 SensorPatches sensor_patches_of(const std::vector<Eigen::Vector3d>& points,
                                 const std::vector<Eigen::Vector3d>& normals,
                                 const std::vector<int>& sensor_of, int sensors, double radius, int step);
