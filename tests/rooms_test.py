@@ -11,6 +11,7 @@ NODES = pathlib.Path(__file__).resolve().parent.parent / "nodes"
 # Room -> room that it includes: why. Mains (*_node.cpp) are left out: they wire stages to each other.
 ALLOWED = {
     ("inspect", "geometry"): "pictures are of shapes",
+    ("mesh_files", "geometry"): "files of shapes",
     ("ros", "geometry"): "messages of shapes",
     ("ros", "inspect"): "markers, images and exports are pictures",
     ("rviz", "geometry"): "shows shapes",
