@@ -11,6 +11,7 @@ NODES = pathlib.Path(__file__).resolve().parent.parent / "nodes"
 # Room -> room that it includes: why. Mains (*_node.cpp) are left out: they wire stages to each other.
 ALLOWED = {
     ("inspect", "geometry"): "pictures are of shapes",
+    ("inspect", "mesh_files"): "a fit as a 3D model",
     ("mesh_files", "geometry"): "files of shapes",
     ("ros", "geometry"): "messages of shapes",
     ("ros", "inspect"): "markers, images and exports are pictures",
@@ -35,6 +36,7 @@ ALLOWED = {
     ("correlation", "geometry"): "core",
     ("correlation", "ros"): "handler",
     ("files", "geometry"): "refusals by name",
+    ("ros", "mesh_files"): "the customer's page marks places of the model",
     ("ros", "files"): "exports are folders, pages and tables",
     ("scan_files", "geometry"): "clouds",
     ("assembler", "geometry"): "clouds",

@@ -13,6 +13,7 @@
 #include "files/whole_folder.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/status.hpp"
+#include "inspect/fit_model.hpp"
 #include "inspect/fit_pictures.hpp"
 #include "ros/fit_document.hpp"
 #include "ros/fit_sheet.hpp"
@@ -25,9 +26,9 @@ namespace fs = std::filesystem;
 using files::FileContent;
 using geometry::Refusal;
 
-constexpr std::array<const char*, 10> kFiles = {
-    kFitDocument,           "measurements.csv", "body.ply", "deformed.ply",   "control.ply",
-    "control_deformed.ply", "front.png",        "side.png", "distortion.png", "fit.html"};
+constexpr std::array<const char*, 11> kFiles = {
+    kFitDocument, "measurements.csv", "body.ply",       "deformed.ply", "control.ply", "control_deformed.ply",
+    "front.png",  "side.png",         "distortion.png", "fit.glb",      "fit.html"};
 
 FileContent png(const std::string& name, const cv::Mat& picture) {
   std::vector<unsigned char> bytes;
@@ -73,7 +74,8 @@ std::vector<FileContent> contents_of(const FitFigures& figures) {
   const inspect::FitScene scene = scene_of(figures);
   const FileContent front = png("front.png", inspect::front_picture(scene)),
                     side = png("side.png", inspect::side_picture(scene)),
-                    distortion = png("distortion.png", inspect::distortion_picture(scene));
+                    distortion = png("distortion.png", inspect::distortion_picture(scene)),
+                    model{"fit.glb", inspect::fit_glb(scene)};
   return {{kFitDocument, fit_json(figures, {kFiles.begin(), kFiles.end()})},
           {"measurements.csv", measurements_csv(figures)},
           {"body.ply", geometry::ply_bytes(figures.body)},
@@ -83,11 +85,14 @@ std::vector<FileContent> contents_of(const FitFigures& figures) {
           front,
           side,
           distortion,
-          {"fit.html", fit_sheet(figures, {{front, "From the front: before and after"},
-                                           {side, "From the side: before and after"},
-                                           {distortion,
-                                            "Where the skin is pressed together (tighter) and "
-                                            "where it is stretched (looser)"}})}};
+          model,
+          {"fit.html", fit_sheet(figures,
+                                 {{front, "From the front: before and after"},
+                                  {side, "From the side: before and after"},
+                                  {distortion,
+                                   "Where the skin is pressed together (tighter) and "
+                                   "where it is stretched (looser)"}},
+                                 model)}};
 }
 
 /// The folder's scan, where it is an export.

@@ -9,8 +9,8 @@
 namespace tensegric_fit::node {
 
 /// Writes fit.json, measurements.csv, body.ply, deformed.ply (coloured by distortion), control.ply,
-/// control_deformed.ply, front.png, side.png, distortion.png and fit.html, as a whole folder: none is ever
-/// overwritten. Returns the files' paths. \throw Refusal as write_whole_folder and figures_of
+/// control_deformed.ply, front.png, side.png, distortion.png, fit.glb and fit.html, as a whole folder: none
+/// is ever overwritten. Returns the files' paths. \throw Refusal as write_whole_folder and figures_of
 std::vector<std::string> export_fit(const FittedScan& scan, const std::string& directory);
 
 /// Deletes the exports of that scan: `directory` itself, or the folders in it. What is no export, or holds

@@ -4,9 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "files/html.hpp"
+#include "files/page_template.hpp"
+#include "geometry/shipped_files.hpp"
+#include "inspect/carried_points.hpp"
+#include "inspect/colours.hpp"
+#include "mesh_files/frame.hpp"
+#include "ros/line_force.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -14,42 +22,8 @@ namespace {
 using files::html_escaped;
 using geometry::ChangedMeasure;
 
-constexpr double kUnsure = 0.5;  // confidences below come with a reason
-
-constexpr char kPage[] = R"(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width">
-<title>{title}</title>
-<style>
-@page {{ size: A4; margin: 12mm }}
-body {{ font: 10pt sans-serif; color: #333; max-width: 186mm; margin: 0 auto }}
-h1 {{ font-size: 15pt; margin: 0 0 2mm }}
-p {{ margin: 1mm 0 }}
-main {{ display: flex; gap: 6mm; align-items: flex-start }}
-table {{ border-collapse: collapse; flex: none }}
-th, td {{ padding: .6mm 2mm; text-align: right; border-bottom: .2mm solid #ddd }}
-th:first-child, td:first-child {{ text-align: left }}
-figure {{ margin: 0 0 2mm; break-inside: avoid }}
-img {{ width: 100% }}
-figcaption, footer {{ font-size: 8pt; color: #666 }}
-</style>
-</head>
-<body>
-<h1>{title}</h1>
-{summary}
-<main>
-<table>
-<tr><th>cm</th><th>you</th><th>with it</th><th>change</th></tr>
-{rows}</table>
-<div>
-{pictures}</div>
-</main>
-{notes}<footer>Scan {scan}. Made by tensegric_fit {version}. Measurements after ISO 8559-1; they are those of a scan, not of a medical device.</footer>
-</body>
-</html>
-)";
+constexpr double kUnsure = 0.5;                // confidences below come with a reason
+constexpr std::size_t kMostModel = 5'000'000;  // bytes of fit.glb in the page: with all else below 8 MB
 
 /// "upper_arm_L" and "girth": left upper arm girth.
 std::string words_of(std::string name, const std::string& kind) {
@@ -74,15 +48,71 @@ std::string change(double metres) {
   return millimetres == 0 ? "0" : fmt::format("{:+.1f}", millimetres / 10);
 }
 
-std::string rows_of(const std::string& kind, const std::vector<ChangedMeasure>& measures) {
+std::string row(const std::vector<std::string>& cells) {
+  std::string html = "<tr>";
+  for (const std::string& cell : cells) html += "<td>" + cell + "</td>";
+  return html + "</tr>\n";
+}
+
+/// `name` is a button that shows where a girth's tape runs, where its tape is known.
+std::string row_of(const FitFigures& figures, const std::string& kind, const ChangedMeasure& measure) {
+  std::string name = html_escaped(words_of(measure.before.name, kind));
+  const auto& loops = figures.measures.loops;
+  if (kind == "girth" && std::any_of(loops.begin(), loops.end(), [&](const geometry::GirthLoop& loop) {
+        return loop.name == measure.before.name;
+      }))
+    name = fmt::format("<button data-loop=\"{}\" aria-pressed=\"false\">{}</button>",
+                       html_escaped(measure.before.name), name);
+  return row({name + (measure.before.confidence < kUnsure ? "*" : ""), centimetres(measure.before.metres),
+              measure.after ? centimetres(*measure.after) : "",
+              measure.after ? change(measure.change()) : ""});
+}
+
+std::string rows_of(const FitFigures& figures, const std::string& kind,
+                    const std::vector<ChangedMeasure>& measures) {
   std::string rows;
-  for (const ChangedMeasure& measure : measures) {
-    const double before = measure.before.metres;
-    rows += fmt::format("<tr><td>{}{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        html_escaped(words_of(measure.before.name, kind)),
-                        measure.before.confidence < kUnsure ? "*" : "", centimetres(before),
-                        measure.after ? centimetres(*measure.after) : "",
-                        measure.after ? change(measure.change()) : "");
+  for (const ChangedMeasure& measure : measures) rows += row_of(figures, kind, measure);
+  return rows;
+}
+
+/// Before and after, m; nothing where one of the two was not found.
+std::optional<std::pair<double, double>> distance_of_bust_points(const FitFigures& figures) {
+  const geometry::Landmark *left = figures.measures.find_landmark("bust_point_L"),
+                           *right = figures.measures.find_landmark("bust_point_R");
+  if (!left || !right) return std::nullopt;
+  const geometry::MovedSkin skin{figures.body, figures.deformed};
+  return std::pair{
+      (left->position - right->position).norm(),
+      (geometry::carried(left->position, skin) - geometry::carried(right->position, skin)).norm()};
+}
+
+/// What a bra is bought for.
+std::string first_rows(const FitFigures& figures) {
+  std::string rows;
+  for (const char* name : {"bust", "underbust"})
+    for (const ChangedMeasure& measure : figures.girths)
+      if (measure.before.name == name)
+        rows += row({html_escaped(words_of(name, "girth")) + ", cm", centimetres(measure.before.metres),
+                     measure.after ? centimetres(*measure.after) : "",
+                     measure.after ? change(measure.change()) : ""});
+  for (const ChangedMeasure& measure : figures.heights)
+    if (measure.before.name == "bust" && measure.after)
+      rows += row({"lift of the bust, mm", "", "", fmt::format("{:+.0f}", 1e3 * measure.change() + 0.0)});
+  if (const auto apart = distance_of_bust_points(figures))
+    rows += row({"bust points apart, cm", centimetres(apart->first), centimetres(apart->second),
+                 change(apart->second - apart->first)});
+  return rows;
+}
+
+std::string settings_of(const FitFigures& figures) {
+  const FitState& fit = *figures.scan.fit;
+  std::string rows;
+  for (std::size_t i = 0; i < fit.lines.size(); ++i) {
+    const LineResult& line = fit.lines[i];
+    const auto force = figures.scan.forces ? force_of(*figures.scan.forces, fit, i) : std::nullopt;
+    rows += row({html_escaped(line.name), centimetres(line.initial), centimetres(line.final),
+                 fmt::format("{:.1f} %", 100 * (1 - line.ratio)),
+                 force ? fmt::format("{:.1f}", force->newtons) : ""});
   }
   return rows;
 }
@@ -114,20 +144,98 @@ std::string notes_of(const FitFigures& figures) {
   return notes;
 }
 
+/// The day of the scan by its stamp; of one whose clock started at zero, none.
+std::string day_of(const std_msgs::Header& header) {
+  constexpr std::uint32_t kClocksAreSet = 946684800;  // s, 2000-01-01
+  if (header.stamp.sec < kClocksAreSet) return "";
+  const std::time_t seconds = header.stamp.sec;
+  std::tm day{};
+  gmtime_r(&seconds, &day);
+  return fmt::format(", {:04}-{:02}-{:02}", day.tm_year + 1900, day.tm_mon + 1, day.tm_mday);
+}
+
+/// In fit.glb's frame, m to the tenth of a millimetre.
+nlohmann::json points_of(const std::vector<Eigen::Vector3d>& points,
+                         const Eigen::Isometry3d& body_from_scan) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d p = mesh_files::y_up(body_from_scan * point);
+    nlohmann::json rounded = nlohmann::json::array();
+    for (const double value : {p.x(), p.y(), p.z()}) rounded.push_back(std::round(1e4 * value) / 1e4);
+    list.push_back(std::move(rounded));
+  }
+  return list;
+}
+
+/// What view.js shows beside the model: the tapes.
+std::string facts_of(const FitFigures& figures) {
+  const geometry::SurfaceTree skin(figures.body);
+  nlohmann::json loops = nlohmann::json::object();
+  for (const geometry::GirthLoop& loop : figures.measures.loops) {
+    const auto& frame = figures.measures.body_from_scan;
+    const inspect::CarriedPoints carried(figures.body, skin, loop.points);
+    loops[loop.name] = {{"before", points_of(loop.points, frame)},
+                        {"after", points_of(carried.at(figures.deformed), frame)}};
+  }
+  std::string text =
+      nlohmann::json{{"loops", loops}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
+    text.replace(at, 1, "\\u003c");  // a name must not end the script that holds it
+  return text;
+}
+
+std::string script(const std::string& code) {
+  return "<script>\n" + code + "</script>\n";
+}
+
+std::string view_of(const FitFigures& figures, const files::FileContent& model) {
+  if (model.bytes.size() > kMostModel) return "";
+  const std::string three = TENSEGRIC_FIT_THREE_JS;
+  return "<script type=\"application/json\" id=\"facts\">" + facts_of(figures) +
+         "</script>\n<script type=\"model/gltf-binary\" id=\"glb\">" + files::base64(model.bytes) +
+         "</script>\n" + script(files::bytes_of(three + "/three.min.js")) +
+         script(files::bytes_of(three + "/examples/js/loaders/GLTFLoader.js")) +
+         script(files::bytes_of(three + "/examples/js/controls/OrbitControls.js")) +
+         script(files::bytes_of(geometry::shipped_folder("page") + "/view.js"));
+}
+
+/// The distortion's colours as stops of a CSS gradient.
+std::string scale_stops() {
+  constexpr int kSteps = 10;
+  std::string stops;
+  for (int i = 0; i <= kSteps; ++i) {
+    const inspect::Colour c = inspect::two_sided_colour(2.0 * i / kSteps - 1);
+    stops += fmt::format("{}rgb({},{},{})", i ? "," : "", c[0], c[1], c[2]);
+  }
+  return stops;
+}
+
 }  // namespace
 
-std::string fit_sheet(const FitFigures& figures, const std::vector<SheetPicture>& pictures) {
+std::string fit_sheet(const FitFigures& figures, const std::vector<SheetPicture>& pictures,
+                      const files::FileContent& model) {
   std::string drawn;
   for (const SheetPicture& picture : pictures)
     drawn += fmt::format(
         "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
         html_escaped(picture.caption), files::base64(picture.png.bytes));
-  return fmt::format(kPage, fmt::arg("title", "Garment " + html_escaped(figures.scan.fit->garment)),
-                     fmt::arg("summary", summary_of(figures)),
-                     fmt::arg("rows", rows_of("girth", figures.girths) + rows_of("height", figures.heights)),
-                     fmt::arg("pictures", drawn), fmt::arg("notes", notes_of(figures)),
-                     fmt::arg("scan", html_escaped(figures.scan.body->scan_id)),
-                     fmt::arg("version", TENSEGRIC_FIT_VERSION));
+  const std::string footer = fmt::format(
+      "Scan {}{}. Made by tensegric_fit {}. Measurements after ISO 8559-1; they are those of a scan, not of "
+      "a "
+      "medical device.",
+      html_escaped(figures.scan.body->scan_id), day_of(figures.scan.body->header), TENSEGRIC_FIT_VERSION);
+  return files::filled_in(
+      files::bytes_of(geometry::shipped_folder("page") + "/fit.html"),
+      {{"title", "Garment " + html_escaped(figures.scan.fit->garment)},
+       {"summary", summary_of(figures)},
+       {"first", first_rows(figures)},
+       {"scale", scale_stops()},
+       {"rows", rows_of(figures, "girth", figures.girths) + rows_of(figures, "height", figures.heights)},
+       {"notes", notes_of(figures)},
+       {"pictures", drawn},
+       {"settings", settings_of(figures)},
+       {"footer", footer},
+       {"view", view_of(figures, model)}});
 }
 
 }  // namespace tensegric_fit::node
