@@ -31,6 +31,17 @@
   var lines = [];   // the same two
   var loop = null, picked = null, share = 1;
 
+  // Linear light as the screen wants it (glTF's colours are linear).
+  function displayed(colours) {
+    if (!colours) return null;
+    var full = colours.normalized ? Math.pow(2, 8 * colours.array.BYTES_PER_ELEMENT) - 1 : 1;
+    var shown = new THREE.BufferAttribute(new Float32Array(3 * colours.count), 3);
+    for (var i = 0; i < colours.count; ++i)
+      shown.setXYZ(i, Math.pow(colours.getX(i) / full, 1 / 2.2), Math.pow(colours.getY(i) / full, 1 / 2.2),
+                   Math.pow(colours.getZ(i) / full, 1 / 2.2));
+    return shown;
+  }
+
   // Where each vertex is at a share of the way from before to under the garment.
   function blended(mesh) {
     var from = mesh.geometry.attributes.position.array, to = from;
@@ -44,7 +55,7 @@
     shape.setAttribute("position", new THREE.BufferAttribute(new Float32Array(from), 3));
     return {
       shape: shape,
-      colours: mesh.geometry.attributes.color,
+      colours: displayed(mesh.geometry.attributes.color),
       distortion: mesh.geometry.attributes._distortion,
       show: function (t) {
         var now = shape.attributes.position;

@@ -145,7 +145,7 @@ class ExportFitTest : public testing::Test {
 
 TEST_F(ExportFitTest, WritesMeshesMeasuresPicturesAndParameters) {
   const fs::path folder = root_ / "one";
-  EXPECT_EQ(export_fit(scan_, folder).size(), 10u);
+  EXPECT_EQ(export_fit(scan_, folder).size(), 11u);
   const geometry::TriangleMesh deformed = geometry::read_ply_mesh(folder / "deformed.ply");
   EXPECT_EQ(deformed.triangles, geometry::read_ply_mesh(folder / "body.ply").triangles);
   EXPECT_NEAR(deformed.vertices.at(0).x(), 0.135, 1e-7);  // float32
@@ -166,7 +166,7 @@ TEST_F(ExportFitTest, WritesMeshesMeasuresPicturesAndParameters) {
   EXPECT_EQ(fit["body"]["bra_size"]["before"], "75D");
   EXPECT_TRUE(fit["body"]["bra_size"]["after"].is_null());
   EXPECT_NEAR(fit["body"]["landmarks"][0]["after_mm"][0], 135, 1e-3);
-  EXPECT_EQ(fit["files"].size(), 10u);
+  EXPECT_EQ(fit["files"].size(), 11u);
   for (const std::string name : fit["files"]) EXPECT_GT(fs::file_size(folder / name), 0u) << name;
 }
 
@@ -233,7 +233,11 @@ TEST_F(ExportFitTest, ForcesAreWrittenWhereTheyAreOfThisFit) {
 TEST_F(ExportFitTest, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
   export_fit(scan_, root_ / "one");
   const std::string page = text_of(root_ / "one" / "fit.html");
-  EXPECT_NE(page.find("<td>bust girth</td><td>94.2</td><td>84.8</td><td>-9.4</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>bust girth, cm</td><td>94.2</td><td>84.8</td><td>-9.4</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>lift of the bust, mm</td><td></td><td></td><td>+0</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>chest</td><td>40.0</td><td>36.0</td><td>10.0 %</td>"), std::string::npos);
+  EXPECT_NE(page.find("<button data-loop=\"bust\""), std::string::npos);
+  EXPECT_EQ(page.find("data-loop=\"underbust\""), std::string::npos) << "its tape is not known";
   EXPECT_NE(page.find("<b>75D</b>"), std::string::npos);
   EXPECT_NE(page.find("hair, &lt;b&gt;long&lt;/b&gt;"), std::string::npos);
   std::size_t pictures = 0;
@@ -242,6 +246,7 @@ TEST_F(ExportFitTest, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
     EXPECT_EQ(page.compare(at, 27, "src=\"data:image/png;base64,"), 0);
   EXPECT_EQ(pictures, 3u);
   EXPECT_EQ(page.find("href="), std::string::npos);
+  EXPECT_LT(page.size(), 8'000'000u);
   EXPECT_EQ(text_of(root_ / "one" / "measurements.csv"),
             "kind,name,before_mm,after_mm,confidence,half_width_mm,reason\r\n"
             "height,bust,1200.0,1200.0,0.90,,\r\n"
@@ -293,7 +298,7 @@ TEST_F(ExportFitTest, ExportsAreDeletedByScanAndNothingElseIs) {
 
   std::ofstream(root_ / "other" / "precious") << "mine";
   EXPECT_EQ(not_deleted(root_, "3.000000000-00000003"), "bad_option");
-  EXPECT_EQ(std::distance(fs::directory_iterator(root_ / "other"), {}), 11);
+  EXPECT_EQ(std::distance(fs::directory_iterator(root_ / "other"), {}), 12);
   fs::remove(root_ / "other" / "precious");
   EXPECT_EQ(not_deleted(root_ / "other", "3.000000000-00000003"), "");  // the export itself
   EXPECT_FALSE(fs::exists(root_ / "other"));
