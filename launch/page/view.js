@@ -29,7 +29,7 @@
   var kSkin = new THREE.Color(0.86, 0.74, 0.67);
   var bodies = [];  // before; with the garment as far as the slider says
   var lines = [];   // the same two
-  var loop = null, picked = null, share = 1;
+  var loop = null, picked = null, share = 1, from = "front", close = true;
 
   // Linear light as the screen wants it (glTF's colours are linear).
   function displayed(colours) {
@@ -138,12 +138,19 @@
     render();
   }
 
-  // From where: "front", "left", "back", "right".
-  function look(from) {
-    var box = new THREE.Box3().setFromObject(bodies[0].mesh), centre = box.getCenter(new THREE.Vector3());
-    var size = box.getSize(new THREE.Vector3()), aspect = camera.aspect;
-    var high = size.y / 2, wide = Math.max(size.x, size.z) / 2 / Math.min(aspect, 1);
-    var away = 1.06 * Math.max(high, aspect < 1 ? wide * 0.9 : 0) / Math.tan(camera.fov * Math.PI / 360) + size.z / 2;
+  // Her whole body, or the part of it that the garment's lines are on.
+  function frame() {
+    var box = new THREE.Box3();
+    if (close) lines.forEach(function (line) { box.expandByObject(line.mesh); });
+    if (!box.isEmpty()) return box.expandByScalar(0.12);
+    return box.setFromObject(bodies[0].mesh);
+  }
+
+  function look() {
+    var box = frame(), centre = box.getCenter(new THREE.Vector3()), size = box.getSize(new THREE.Vector3());
+    var wide = (from === "front" || from === "back" ? size.x : size.z) / Math.max(camera.aspect, 0.01);
+    var deep = from === "front" || from === "back" ? size.z : size.x;
+    var away = 0.53 * Math.max(size.y, wide) / Math.tan(camera.fov * Math.PI / 360) + deep / 2;
     var angle = {front: 0, left: 90, back: 180, right: 270}[from] * Math.PI / 180;
     controls.target.copy(centre);
     camera.position.set(centre.x + away * Math.sin(angle), centre.y, centre.z + away * Math.cos(angle));
@@ -198,8 +205,9 @@
     ["share", "colours"].forEach(function (id) { element(id).addEventListener("input", change); });
     ["lines", "beside"].forEach(function (id) { element(id).addEventListener("input", render); });
     document.querySelectorAll("[data-look]").forEach(function (button) {
-      button.addEventListener("click", function () { look(button.dataset.look); });
+      button.addEventListener("click", function () { from = button.dataset.look; look(); });
     });
+    element("close").addEventListener("input", function () { close = element("close").checked; look(); });
     document.querySelectorAll("[data-loop]").forEach(function (row) {
       row.addEventListener("click", function () { pick(row); });
     });
@@ -214,8 +222,20 @@
       event.preventDefault();
     });
     window.addEventListener("resize", render);
-    render();
-    look("front");
+    take_from_address();
+    change();
+    look();
+  }
+
+  // fit.html#share=50&look=left&beside=1&colours=0&lines=0&close=0&loop=bust opens that view.
+  function take_from_address() {
+    new URLSearchParams(window.location.hash.slice(1)).forEach(function (value, name) {
+      if (name === "share") element("share").value = value;
+      else if (name === "look" && document.querySelector("[data-look=" + CSS.escape(value) + "]")) from = value;
+      else if (name === "loop" && facts.loops[value]) pick(document.querySelector("[data-loop=" + CSS.escape(value) + "]"));
+      else if (["colours", "lines", "beside", "close"].indexOf(name) >= 0) element(name).checked = value === "1";
+    });
+    close = element("close").checked;
   }
 
   var packed = atob(element("glb").textContent.trim()), bytes = new Uint8Array(packed.length);

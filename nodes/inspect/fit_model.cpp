@@ -9,7 +9,7 @@ namespace {
 using Points = std::vector<Eigen::Vector3d>;
 
 constexpr char kMorph[] = "under_garment";
-constexpr double kTube = 0.0025;  // m, half of a line's width in the pictures
+constexpr double kTube = 0.004;  // m: a line lies on the skin, and half of the tube in it
 constexpr Colour kLine{59, 47, 42};
 
 Points in_body_frame(const Eigen::Isometry3d& body_from_scan, Points points) {
