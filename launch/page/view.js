@@ -26,7 +26,7 @@
   lamp.position.set(0.6, 0.8, 1);
   scene.add(camera);
 
-  var kSkin = new THREE.Color(0.86, 0.74, 0.67);
+  var kSkin = new THREE.Color(0.86, 0.74, 0.67), neutral = new THREE.Color().fromArray(facts.neutral);
   var bodies = [];  // before; with the garment as far as the slider says
   var lines = [];   // the same two
   var loop = null, picked = null, share = 1, from = "front", close = true;
@@ -68,7 +68,8 @@
   }
 
   function paint(body, t) {
-    var shown = element("colours").checked ? t : 0, source = body.colours;
+    var coloured = element("colours").checked, shown = coloured ? t : 0, source = body.colours;
+    var plain = coloured ? neutral : kSkin;
     if (!source) return;
     var to = body.shape.attributes.color;
     if (!to) {
@@ -76,8 +77,8 @@
       body.shape.setAttribute("color", to);
     }
     for (var i = 0; i < source.count; ++i)
-      to.setXYZ(i, kSkin.r + shown * (source.getX(i) - kSkin.r), kSkin.g + shown * (source.getY(i) - kSkin.g),
-                kSkin.b + shown * (source.getZ(i) - kSkin.b));
+      to.setXYZ(i, plain.r + shown * (source.getX(i) - plain.r), plain.g + shown * (source.getY(i) - plain.g),
+                plain.b + shown * (source.getZ(i) - plain.b));
     to.needsUpdate = true;
   }
 
