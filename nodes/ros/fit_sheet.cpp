@@ -167,7 +167,7 @@ nlohmann::json points_of(const std::vector<Eigen::Vector3d>& points,
   return list;
 }
 
-/// What view.js shows beside the model: the tapes.
+/// What view.js shows beside the model: the tapes; the colour of skin that is as it was.
 std::string facts_of(const FitFigures& figures) {
   const geometry::SurfaceTree skin(figures.body);
   nlohmann::json loops = nlohmann::json::object();
@@ -177,8 +177,10 @@ std::string facts_of(const FitFigures& figures) {
     loops[loop.name] = {{"before", points_of(loop.points, frame)},
                         {"after", points_of(carried.at(figures.deformed), frame)}};
   }
-  std::string text =
-      nlohmann::json{{"loops", loops}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  const inspect::Colour neutral = inspect::two_sided_colour(0);
+  const nlohmann::json facts{{"loops", loops},
+                             {"neutral", {neutral[0] / 255.0, neutral[1] / 255.0, neutral[2] / 255.0}}};
+  std::string text = facts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
     text.replace(at, 1, "\\u003c");  // a name must not end the script that holds it
   return text;

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "geometry/ply.hpp"
@@ -256,6 +257,45 @@ TEST_F(ExportFitTest, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
             "height,stature,1700.0,1700.0,1.00,,\r\n"
             "girth,bust,942.0,847.8,0.90,4.0,\r\n"
             "girth,underbust,750.0,,0.40,,\"hair, <b>long</b>\"\r\n");
+}
+
+/// A picture of the page as headless Chromium shows it, opened at that address.
+cv::Mat shown(const fs::path& page, const std::string& address) {
+  const fs::path picture = page.parent_path() / "shown.png", profile = page.parent_path() / "profile";
+  fs::remove(picture);
+  const std::string command =
+      "timeout 60 chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader "
+      "--enable-unsafe-swiftshader --window-size=390,900 --virtual-time-budget=8000 --user-data-dir='" +
+      profile.string() + "' --screenshot='" + picture.string() + "' 'file://" + page.string() + "#" +
+      address + "' > /dev/null 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;
+  return cv::imread(picture.string());
+}
+
+/// Share of the pixels that differ clearly.
+double difference(const cv::Mat& a, const cv::Mat& b) {
+  if (a.empty() || a.size() != b.size()) return -1;
+  cv::Mat apart;
+  cv::absdiff(a, b, apart);
+  int clear = 0;
+  for (int y = 0; y < apart.rows; ++y)
+    for (int x = 0; x < apart.cols; ++x) {
+      const auto& p = apart.at<cv::Vec3b>(y, x);
+      clear += std::max({p[0], p[1], p[2]}) > 20;
+    }
+  return static_cast<double>(clear) / (a.rows * a.cols);
+}
+
+TEST_F(ExportFitTest, TheBodyInThePageTurnsAndChanges) {
+  if (std::system("command -v chromium > /dev/null") != 0) GTEST_SKIP() << "chromium is not installed";
+  export_fit(scan_, root_ / "one");
+  const fs::path page = root_ / "one" / "fit.html";
+  const cv::Mat worn = shown(page, "share=100");
+  ASSERT_FALSE(worn.empty());
+  EXPECT_EQ(difference(worn, shown(page, "share=100")), 0) << "the same picture twice";
+  EXPECT_GT(difference(worn, shown(page, "share=0")), 0.02) << "the trunk is wider, its colour another";
+  EXPECT_GT(difference(worn, shown(page, "share=100&loop=bust")), 0.001) << "the tape";
+  EXPECT_GT(difference(worn, shown(page, "share=100&beside=1")), 0.02);
 }
 
 TEST_F(ExportFitTest, WhatDoesNotFitTogetherOrIsNoNumberIsNotExported) {
