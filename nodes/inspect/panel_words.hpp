@@ -13,6 +13,10 @@ inline constexpr char kGarment[] = "&Garment", kPutOn[] = "&Put on", kUndo[] = "
                       kLinked[] = "&Both sides alike", kReset[] = "&Reset",
                       kCompare[] = "&Compare with the scan", kExport[] = "E&xport", kFolder[] = "&Folder",
                       kBlendLabel[] = "&Scan to garment", kRegions[] = "Regions";
+inline constexpr char kViewFront[] = "Front", kViewLeft[] = "Left", kViewBack[] = "Back",
+                      kViewRight[] = "Right", kViewAll[] = "All", kViewFollows[] = "follows",
+                      kViewHelp[] = "The view from there; All: her whole body, or where the garment is",
+                      kViewFollowsHelp[] = "Another garment turns the view to where it acts";
 inline constexpr char kLine[] = "Line", kNeutral[] = "neutral length", kNow[] = "now", kPull[] = "pull";
 inline constexpr char kGirth[] = "Girth", kScanned[] = "scan", kWornGirth[] = "worn", kChange[] = "change",
                       kBraSize[] = "Bra size", kNoSize[] = "-", kVolume[] = "Volume";

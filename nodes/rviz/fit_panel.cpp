@@ -54,6 +54,7 @@ void show_words(QLabel* label, const std::string& words) {
 FitPanel::~FitPanel() = default;
 
 void FitPanel::onInitialize() {
+  view_->set_manager(vis_manager_);
   client_ = std::make_unique<FitClient>();
   client_->on_garment = [this](const Garment& garment) { take_garment(garment); };
   client_->on_fit = [this](const FitState& fit) { take_fit(fit); };
@@ -189,6 +190,7 @@ void FitPanel::take_fit(const FitState& fit) {
   }
   fitted_ = std::make_shared<const FitState>(fit);
   show_outcome();
+  new_girths_ = true;  // and the view, once the body is there
 }
 
 void FitPanel::show_outcome() {
@@ -196,7 +198,7 @@ void FitPanel::show_outcome() {
   const FitState& fit = *fitted_;
   show_words(fit_, words::fit_ended(fit.garment, fit.status, fit.note, fit.milliseconds));
   std::map<std::string, std::string> regions;
-  line_warnings_.clear();
+  std::vector<std::string> messages;
   for (std::size_t i = 0; i < fit.lines.size(); ++i) {
     const LineResult& line = fit.lines[i];
     if (fit.garment == session_.now().garment) session_.set_length(line.name, line.initial);
@@ -204,7 +206,7 @@ void FitPanel::show_outcome() {
     const words::LineOutcome outcome{line.request, line.ratio, line.tension, line.reachable,
                                      fit.status == FitState::INFEASIBLE};
     std::string warning = words::line_warning(outcome);
-    if (!warning.empty()) line_warnings_.push_back("'" + line.name + "': " + warning);
+    if (!warning.empty()) messages.push_back("'" + line.name + "': " + warning);
     if (warning.empty()) warning = lack_of(line);
     const auto force = node::force_of(forces_, fit, i);
     for (LineRow* row : rows_)
@@ -213,7 +215,7 @@ void FitPanel::show_outcome() {
                          force ? words::pull_help(force->newtons, force->kilopascals) : "", warning);
   }
   session_.place(regions);
-  show_warnings();
+  show_warnings(messages);
   QStringList volumes;
   for (const RegionResult& region : fit.regions)
     volumes << text(words::volume(region.name, region.volume_before, region.volume_after));
@@ -232,8 +234,7 @@ void FitPanel::take_warnings(const FitWarnings& warnings) {
   show_outcome();
 }
 
-void FitPanel::show_warnings() {
-  std::vector<std::string> messages = line_warnings_;
+void FitPanel::show_warnings(std::vector<std::string> messages) {
   for (const FitWarning& warning : warnings_.warnings) messages.push_back(warning.message);
   const std::string words = words::warnings(messages);
   if (!words.empty() && folds_->toolTip() != text(words)) ROS_WARN("fit panel: %s", words.c_str());
@@ -260,6 +261,7 @@ void FitPanel::take_landmarks(const Landmarks& landmarks) {
   try {
     measures_ = node::measures_in(landmarks);
     measured_scan_ = landmarks.scan_id;
+    measured_frame_ = landmarks.header.frame_id;
     new_girths_ = true;
   } catch (const geometry::Refusal& refusal) {
     answer(refusal.what());
@@ -308,6 +310,7 @@ void FitPanel::show_lines() {
 void FitPanel::show_girths() {
   if (!new_girths_ || body_.empty() || measured_scan_ != body_.scan_id()) return;
   new_girths_ = false;
+  follow_view();
   const std::vector<Eigen::Vector3d> worn = body_.vertices(1);
   table_->show_girths(geometry::girths_after(measures_, {body_.mesh(), worn}));
 
@@ -322,6 +325,17 @@ void FitPanel::show_girths() {
   const std::string words =
       words::over_constriction(*tightest, nearest == landmarks.end() ? "" : spoken(nearest->name));
   show_words(tightness_, words);
+}
+
+void FitPanel::follow_view() {
+  view_->set_body(measured_frame_, measures_.body_from_scan, body_.mesh().vertices);
+  if (!fitted_ || fitted_->scan_id != measured_scan_) return;
+  std::vector<Eigen::Vector3d> lines;
+  for (const LineResult& line : fitted_->lines) {
+    const std::vector<Eigen::Vector3d> course = node::points_in(line.course);
+    lines.insert(lines.end(), course.begin(), course.end());
+  }
+  view_->set_garment(fitted_->garment, std::move(lines));
 }
 
 void FitPanel::answer(const std::string& words, bool done) {

@@ -24,6 +24,7 @@
 #include "rviz/fit_client.hpp"
 #include "rviz/girth_table.hpp"
 #include "rviz/line_row.hpp"
+#include "rviz/view_row.hpp"
 #endif
 
 class QVBoxLayout;
@@ -78,10 +79,11 @@ class FitPanel : public rviz::Panel {
 
   void follow_pipeline();  // unless a request is on its way
   void show_outcome();
-  void show_warnings();
-  std::string lack_of(const LineResult& line) const;  // "" where the line holds
+  void show_warnings(std::vector<std::string> messages);  // those of lines, and of the skin
+  std::string lack_of(const LineResult& line) const;      // "" where the line holds
   void show_lines();
   void show_girths();
+  void follow_view();
   void show_state();
   void answer(const std::string& words, bool done = false);  // to the clerk, and to the log
 
@@ -93,11 +95,10 @@ class FitPanel : public rviz::Panel {
   std::shared_ptr<const Garment> worn_;
   std::shared_ptr<const FitState> fitted_;  // the last that has ended
   LineForces forces_;
-  std::vector<std::string> line_warnings_;
   FitWarnings warnings_;  // of the last that has ended, or the one before
   ControlMesh control_;
   BodyView body_;
-  std::string measured_scan_;
+  std::string measured_scan_, measured_frame_;
   geometry::BodyMeasures measures_;
   bool new_girths_ = false;
   Clock::time_point asked_at_{};
@@ -112,6 +113,7 @@ class FitPanel : public rviz::Panel {
   QPushButton *put_on_, *undo_, *redo_, *reset_, *export_;
   QCheckBox *linked_, *compare_;
   QSlider* blend_;
+  ViewRow* view_;
   GirthTable* table_;
   QLineEdit* folder_;
   std::unique_ptr<FitClient> client_;  // last: it calls all of the above

@@ -129,6 +129,7 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   blending->addWidget(label);
   blending->addWidget(blend_, 1);
   layout->addLayout(blending);
+  layout->addWidget(view_ = new ViewRow);
   connect(undo_, &QPushButton::clicked, this, &FitPanel::undo);
   connect(redo_, &QPushButton::clicked, this, &FitPanel::redo);
   connect(linked_, &QCheckBox::toggled, this, [this](bool on) { session_.link_sides(on); });
@@ -191,9 +192,10 @@ void FitPanel::order_tabs() {
     last = next;
   };
   for (QCheckBox* box : regions_box_->findChildren<QCheckBox*>()) follow(box);
-  for (QWidget* next : std::initializer_list<QWidget*>{undo_, redo_, reset_, linked_, compare_, blend_,
-                                                       table_, folder_, export_})
+  for (QWidget* next : std::initializer_list<QWidget*>{undo_, redo_, reset_, linked_, compare_, blend_})
     follow(next);
+  for (QWidget* next : view_->controls()) follow(next);
+  for (QWidget* next : std::initializer_list<QWidget*>{table_, folder_, export_}) follow(next);
 }
 
 void FitPanel::build_regions() {
