@@ -135,6 +135,15 @@ std::vector<ChangedMeasure> girths_after(const BodyMeasures& measures, const Mov
   return changed;
 }
 
+std::optional<ChangedMeasure> bust_points_apart(const BodyMeasures& measures, const MovedSkin& skin) {
+  const Landmark *left = measures.find_landmark("bust_point_L"),
+                 *right = measures.find_landmark("bust_point_R");
+  if (!left || !right) return std::nullopt;
+  return ChangedMeasure{{"bust_points", (left->position - right->position).norm(),
+                         std::min(left->confidence, right->confidence), ""},
+                        (carried(left->position, skin) - carried(right->position, skin)).norm()};
+}
+
 std::vector<ChangedMeasure> heights_after(const BodyMeasures& measures, const MovedSkin& skin) {
   static const std::map<std::string, std::vector<std::string>> kLandmarks = {
       {"bust", {"bust_point_L", "bust_point_R"}},

@@ -36,6 +36,9 @@ struct ChangedMeasure {
 /// Each girth in the plane in which it was measured; `after` is empty for girths without a recorded tape.
 std::vector<ChangedMeasure> girths_after(const BodyMeasures& measures, const MovedSkin& skin);
 
+/// Distance of the bust points, `before` named bust_points; nothing where one was not found.
+std::optional<ChangedMeasure> bust_points_apart(const BodyMeasures& measures, const MovedSkin& skin);
+
 /// Each height by the displacement of the landmarks that define it; stature by the highest vertex.
 std::vector<ChangedMeasure> heights_after(const BodyMeasures& measures, const MovedSkin& skin);
 

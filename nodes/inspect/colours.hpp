@@ -24,7 +24,7 @@ inline constexpr Colour kWarnedColour{240, 140, 20};
 /// The scale's ends: distortion below the first and above the second is shown as the end is.
 inline constexpr double kTightest = 0.7, kLoosest = 1.3;
 
-/// Fixed scale, even to the eye: distortion 1 is neutral, less (tighter) goes to red, more (looser) to blue.
+/// Fixed scale, even to the eye: distortion 1 is neutral, less (pressed together) goes to red, more to blue.
 Colour distortion_colour(double distortion);
 
 /// The same for many; a value that is not finite is neutral.

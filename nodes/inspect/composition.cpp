@@ -68,7 +68,8 @@ cv::Mat with_caption(const cv::Mat& picture, const std::string& text) {
 }
 
 cv::Mat with_distortion_scale(const cv::Mat& picture) {
-  return with_scale(picture, {"tighter", "looser", {per_cent(kTightest), per_cent(1), per_cent(kLoosest)}});
+  return with_scale(
+      picture, {"pressed together", "stretched", {per_cent(kTightest), per_cent(1), per_cent(kLoosest)}});
 }
 
 cv::Mat with_distance_scale(const cv::Mat& picture) {

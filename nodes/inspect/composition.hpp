@@ -12,8 +12,8 @@ cv::Mat side_by_side(const cv::Mat& left, const cv::Mat& right);
 /// The picture under a white strip with `text` (ASCII) in its middle.
 cv::Mat with_caption(const cv::Mat& picture, const std::string& text);
 
-/// The picture over a white strip with the fixed scale of distortion_colour: per cent, "tighter" and
-/// "looser".
+/// The picture over a white strip with the fixed scale of distortion_colour: per cent, "pressed
+/// together" and "stretched".
 cv::Mat with_distortion_scale(const cv::Mat& picture);
 
 /// The same with the fixed scale of distance_colour, millimetres.

@@ -114,6 +114,10 @@ std::string centimetres(double metres) {
   return fmt::format("{:.1f} cm", 100 * metres);
 }
 
+std::string rise(double metres) {
+  return fmt::format("{:+.0f} mm", shown(1e3 * metres, 0.5));
+}
+
 std::string change(double metres) {
   return fmt::format("{:+.1f} cm", shown(100 * metres, 0.05));
 }

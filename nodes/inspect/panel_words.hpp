@@ -19,7 +19,10 @@ inline constexpr char kViewFront[] = "Front", kViewLeft[] = "Left", kViewBack[] 
                       kViewFollowsHelp[] = "Another garment turns the view to where it acts";
 inline constexpr char kLine[] = "Line", kNeutral[] = "neutral length", kNow[] = "now", kPull[] = "pull";
 inline constexpr char kGirth[] = "Girth", kScanned[] = "scan", kWornGirth[] = "worn", kChange[] = "change",
-                      kBraSize[] = "Bra size", kNoSize[] = "-", kVolume[] = "Volume";
+                      kBraSize[] = "Bra size", kNoSize[] = "-", kLift[] = "lift of the bust",
+                      kApart[] = "bust points apart", kVolume[] = "Volume";
+inline constexpr char kOldBody[] = " Shown pale below: the body before.",
+                      kOldBodyGone[] = " The body before is no longer shown.";
 inline constexpr char kNoLines[] = "No garment is worn so far.";
 inline constexpr char kRegionHelp[] = "Without its lines nothing pulls there. One region stays on.";
 inline constexpr char kGarmentHelp[] = "A garment's name, several joined by + (B1+H4), or a garment file.";
@@ -69,6 +72,8 @@ std::string sizes(const std::vector<BraSize>& sizes);
 std::string volume(const std::string& region, double before, double after);
 std::string centimetres(double metres);
 std::string change(double metres);
+/// "+6 mm".
+std::string rise(double metres);
 std::string per_cent(double ratio);
 std::string pull(double newtons);
 /// What that figure means; pressure 0: unknown.

@@ -18,12 +18,13 @@ void PipelineWatch::hear(const StageReport& report, double now) {
 }
 
 PipelineWatch::State PipelineWatch::state(double now) const {
-  State state{"", false, false, 0, static_cast<int>(kStages.size())};
+  State state{"", false, false, 0, static_cast<int>(kStages.size()), ""};
   const bool lives = std::any_of(stages_.begin(), stages_.end(),
                                  [now](const auto& stage) { return now - stage.second.at <= kSilence; });
-  if (!lives) return {words::kPipelineNotRunning, true, false, 0, state.all};
+  if (!lives) return {words::kPipelineNotRunning, true, false, 0, state.all, ""};
   const auto first = stages_.find(kStages.front());
   const std::string scan_id = first == stages_.end() ? "" : first->second.report.scan_id;
+  state.newest_scan = scan_id;
   for (const char* stage : kStages) {
     const auto found = stages_.find(stage);
     if (found == stages_.end() || now - found->second.at > kSilence) {

@@ -27,7 +27,8 @@ class PipelineWatch {
     std::string words;
     bool trouble;  ///< something was refused, failed, or is silent
     bool working;
-    int done, all;  ///< stages that are through with the newest scan
+    int done, all;            ///< stages that are through with the newest scan
+    std::string newest_scan;  ///< id of the scan that came last, whatever became of it; empty: unknown
   };
   State state(double now) const;
 

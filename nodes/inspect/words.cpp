@@ -19,7 +19,7 @@ std::string no_transform(const std::string& frame, const std::string& fixed_fram
 }
 
 const ScaleWords& scale_words(ColourBy by) {
-  static const ScaleWords distortion{"skin area", "tighter", "looser"},
+  static const ScaleWords distortion{"skin area", "pressed together", "stretched"},
       stretch{"skin length", "shorter", "longer"}, displacement{"moved", "", ""}, plain{"", "", ""};
   switch (by) {
     case ColourBy::distortion:

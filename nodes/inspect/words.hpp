@@ -49,8 +49,8 @@ struct ScaleWords {
 };
 const ScaleWords& scale_words(ColourBy by);
 
-// What was pointed at: "skin area 93 %: tighter"; "12.1 cm forward, 8.0 cm to her left, 118.2 cm up"; "2.1 cm
-// from the left bust point".
+// What was pointed at: "skin area 93 %: pressed together"; "12.1 cm forward, 8.0 cm to her left, 118.2 cm
+// up"; "2.1 cm from the left bust point".
 std::string value_there(ColourBy by, double value);
 std::string position(const Eigen::Vector3d& place);
 std::string nearest(const std::string& landmark, double distance);

@@ -90,8 +90,8 @@ std::vector<FileContent> contents_of(const FitFigures& figures) {
                                  {{front, "From the front: before and after"},
                                   {side, "From the side: before and after"},
                                   {distortion,
-                                   "Where the skin is pressed together (tighter) and "
-                                   "where it is stretched (looser)"}},
+                                   "Where the skin is pressed together and "
+                                   "where it is stretched"}},
                                  model)}};
 }
 

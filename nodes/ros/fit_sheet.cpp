@@ -75,17 +75,6 @@ std::string rows_of(const FitFigures& figures, const std::string& kind,
   return rows;
 }
 
-/// Before and after, m; nothing where one of the two was not found.
-std::optional<std::pair<double, double>> distance_of_bust_points(const FitFigures& figures) {
-  const geometry::Landmark *left = figures.measures.find_landmark("bust_point_L"),
-                           *right = figures.measures.find_landmark("bust_point_R");
-  if (!left || !right) return std::nullopt;
-  const geometry::MovedSkin skin{figures.body, figures.deformed};
-  return std::pair{
-      (left->position - right->position).norm(),
-      (geometry::carried(left->position, skin) - geometry::carried(right->position, skin)).norm()};
-}
-
 /// What a bra is bought for.
 std::string first_rows(const FitFigures& figures) {
   std::string rows;
@@ -98,9 +87,9 @@ std::string first_rows(const FitFigures& figures) {
   for (const ChangedMeasure& measure : figures.heights)
     if (measure.before.name == "bust" && measure.after)
       rows += row({"lift of the bust, mm", "", "", fmt::format("{:+.0f}", 1e3 * measure.change() + 0.0)});
-  if (const auto apart = distance_of_bust_points(figures))
-    rows += row({"bust points apart, cm", centimetres(apart->first), centimetres(apart->second),
-                 change(apart->second - apart->first)});
+  if (const auto apart = geometry::bust_points_apart(figures.measures, {figures.body, figures.deformed}))
+    rows += row({"bust points apart, cm", centimetres(apart->before.metres), centimetres(*apart->after),
+                 change(apart->change())});
   return rows;
 }
 

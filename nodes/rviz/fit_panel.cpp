@@ -20,6 +20,8 @@ constexpr int kTick = 250;  // milliseconds
 constexpr std::chrono::milliseconds kOwnEcho{
     400};  // after an answer: what was asked for is still coming back
 constexpr std::chrono::seconds kPatience{3};
+constexpr double kPale = 0.35;    // opacity of a body that is no longer the newest
+constexpr double kKeepOld = 120;  // s that it stays
 
 double seconds(std::chrono::steady_clock::time_point time) {
   return std::chrono::duration<double>(time.time_since_epoch()).count();
@@ -55,6 +57,7 @@ FitPanel::~FitPanel() = default;
 
 void FitPanel::onInitialize() {
   view_->set_manager(vis_manager_);
+  ros::NodeHandle("~").param("keep_previous_body", keep_old_, kKeepOld);
   client_ = std::make_unique<FitClient>();
   client_->on_garment = [this](const Garment& garment) { take_garment(garment); };
   client_->on_fit = [this](const FitState& fit) { take_fit(fit); };
@@ -312,7 +315,7 @@ void FitPanel::show_girths() {
   new_girths_ = false;
   follow_view();
   const std::vector<Eigen::Vector3d> worn = body_.vertices(1);
-  table_->show_girths(geometry::girths_after(measures_, {body_.mesh(), worn}));
+  table_->show_measures(measures_, {body_.mesh(), worn});
 
   const std::vector<double> distortion = body_.values(ColourBy::distortion, 1);
   const auto tightest = std::min_element(distortion.begin(), distortion.end());
@@ -345,11 +348,32 @@ void FitPanel::answer(const std::string& words, bool done) {
   if (!words.empty()) ROS_INFO("fit panel: %s", words.c_str());
 }
 
+// While the next scan is worked on, and after one was refused, the body before is not taken for hers: it is
+// pale, and goes after a while.
+void FitPanel::show_age(const PipelineWatch::State& state) {
+  const bool old = !body_.empty() && !state.newest_scan.empty() && state.newest_scan != body_.scan_id();
+  if (old != old_since_.has_value()) {
+    set_display("Alpha", old ? kPale : 1.0);
+    table_->setEnabled(!old);
+    if (old)
+      old_since_ = Clock::now();
+    else
+      old_since_.reset();
+  }
+  const bool gone =
+      old && keep_old_ > 0 && Clock::now() - *old_since_ > std::chrono::duration<double>(keep_old_);
+  if (gone == old_gone_) return;
+  old_gone_ = gone;
+  table_->setVisible(!gone);
+  enable_display(!gone);
+}
+
 void FitPanel::show_state() {
   const PipelineWatch::State state = watch_.state(seconds(Clock::now()));
   if (state.trouble && pipeline_->toolTip() != text(state.words))
     ROS_WARN("fit panel: %s", state.words.c_str());
-  show_words(pipeline_, state.words);
+  show_age(state);
+  show_words(pipeline_, state.words + (!old_since_ ? "" : old_gone_ ? words::kOldBodyGone : words::kOldBody));
   pipeline_->setStyleSheet(state.trouble ? "color: #b2182b" : "");
   const QString garment = text(session_.now().garment);
   if (!(typing_ && garment_->hasFocus()) && !client_->is_asking() && garment_->currentText() != garment)

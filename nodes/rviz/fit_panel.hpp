@@ -11,6 +11,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,7 @@ class FitPanel : public rviz::Panel {
   void blend(int per_cent);
   void compare(bool on);
   void set_display(const char* property, const QVariant& value);
+  void enable_display(bool on);
   void start_export();
 
   // What the pipeline says.
@@ -85,6 +87,7 @@ class FitPanel : public rviz::Panel {
   void show_girths();
   void follow_view();
   void show_state();
+  void show_age(const PipelineWatch::State& state);
   void answer(const std::string& words, bool done = false);  // to the clerk, and to the log
 
   using Clock = std::chrono::steady_clock;
@@ -102,8 +105,11 @@ class FitPanel : public rviz::Panel {
   geometry::BodyMeasures measures_;
   bool new_girths_ = false;
   Clock::time_point asked_at_{};
-  bool changed_here_ = false;  // what was asked for last is on the panel already
-  bool typing_ = false;        // a garment's name
+  bool changed_here_ = false;                   // what was asked for last is on the panel already
+  bool typing_ = false;                         // a garment's name
+  std::optional<Clock::time_point> old_since_;  // what is shown is of an earlier scan since then
+  bool old_gone_ = false;
+  double keep_old_ = 0;  // s; 0: for good
 
   QComboBox* garment_;
   QLabel *pipeline_, *fit_, *answer_, *folds_, *tightness_, *volumes_;

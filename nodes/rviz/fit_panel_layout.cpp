@@ -42,6 +42,14 @@ void empty(QWidget* box) {
   qDeleteAll(box->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly));
 }
 
+std::vector<rviz::Display*> displays(rviz::VisualizationManager* manager) {
+  std::vector<rviz::Display*> ours;
+  rviz::DisplayGroup* all = manager->getRootDisplayGroup();
+  for (int i = 0; i < all->numDisplays(); ++i)
+    if (all->getDisplayAt(i)->getClassId() == kDisplay) ours.push_back(all->getDisplayAt(i));
+  return ours;
+}
+
 QStringList shipped_garments() {
   std::string folder = geometry::shipped_folder("garments");
   ros::NodeHandle().getParam("tensegric/garment_directory", folder);
@@ -230,10 +238,11 @@ void FitPanel::build_regions() {
 }
 
 void FitPanel::set_display(const char* property, const QVariant& value) {
-  rviz::DisplayGroup* all = vis_manager_->getRootDisplayGroup();
-  for (int i = 0; i < all->numDisplays(); ++i)
-    if (all->getDisplayAt(i)->getClassId() == kDisplay)
-      all->getDisplayAt(i)->subProp(property)->setValue(value);
+  for (rviz::Display* display : displays(vis_manager_)) display->subProp(property)->setValue(value);
+}
+
+void FitPanel::enable_display(bool on) {
+  for (rviz::Display* display : displays(vis_manager_)) display->setEnabled(on);
 }
 
 void FitPanel::blend(int per_cent) {

@@ -45,24 +45,33 @@ void GirthTable::set(int row, int column, const std::string& words) {
   setItem(row, column, new QTableWidgetItem(text(words)));
 }
 
-void GirthTable::show_girths(Girths girths) {
+void GirthTable::set_row(int row, const std::array<std::string, 4>& words) {
+  for (int column = 0; column < 4; ++column) set(row, column, words[static_cast<std::size_t>(column)]);
+}
+
+void GirthTable::show_measures(const geometry::BodyMeasures& measures, const geometry::MovedSkin& skin) {
+  Girths girths = geometry::girths_after(measures, skin);
   const auto place = [](const geometry::ChangedMeasure& girth) {
     return std::find(kFirst.begin(), kFirst.end(), girth.before.name) - kFirst.begin();
   };
   std::stable_sort(girths.begin(), girths.end(),
                    [&](const auto& one, const auto& other) { return place(one) < place(other); });
-  setRowCount(static_cast<int>(girths.size()) + 1);
-  int row = 0;
-  set(row, 0, words::kBraSize);
-  set(row, 1, size_of(girths));  // of the body without a garment: what a garment squeezes has no size
-  for (const int column : {2, 3}) set(row, column, "");
-  for (const geometry::ChangedMeasure& girth : girths) {
-    ++row;
-    set(row, 0, spoken(girth.before.name));
-    set(row, 1, words::centimetres(girth.before.metres));
-    set(row, 2, girth.after ? words::centimetres(*girth.after) : words::kNoSize);
-    set(row, 3, girth.after ? words::change(girth.change()) : words::kNoSize);
-  }
+  const auto row_of = [](const std::string& name, const geometry::ChangedMeasure& measure) {
+    return std::array<std::string, 4>{name, words::centimetres(measure.before.metres),
+                                      measure.after ? words::centimetres(*measure.after) : words::kNoSize,
+                                      measure.after ? words::change(measure.change()) : words::kNoSize};
+  };
+  // The size is of the body without a garment: what a garment squeezes has none.
+  std::vector<std::array<std::string, 4>> rows{{words::kBraSize, size_of(girths), "", ""}};
+  for (const geometry::ChangedMeasure& height : geometry::heights_after(measures, skin))
+    if (height.before.name == "bust" && height.after)
+      rows.push_back({words::kLift, "", "", words::rise(height.change())});
+  if (const auto apart = geometry::bust_points_apart(measures, skin))
+    rows.push_back(row_of(words::kApart, *apart));
+  for (const geometry::ChangedMeasure& girth : girths)
+    rows.push_back(row_of(spoken(girth.before.name), girth));
+  setRowCount(static_cast<int>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) set_row(static_cast<int>(i), rows[i]);
 }
 
 }  // namespace tensegric_fit::inspect

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <QTableWidget>
+#include <array>
+#include <string>
 
 #include "geometry/moved_skin.hpp"
 
@@ -10,9 +12,11 @@ namespace tensegric_fit::inspect {
 class GirthTable : public QTableWidget {
  public:
   GirthTable();
-  void show_girths(std::vector<geometry::ChangedMeasure> girths);
+  /// Lift and distance of the bust points, then girths.
+  void show_measures(const geometry::BodyMeasures& measures, const geometry::MovedSkin& skin);
 
  private:
+  void set_row(int row, const std::array<std::string, 4>& words);
   void set(int row, int column, const std::string& words);
 };
 

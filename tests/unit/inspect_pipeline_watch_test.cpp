@@ -25,6 +25,7 @@ TEST(PipelineWatch, CountsTheStagesThatAreThroughWithTheNewestScan) {
   watch.hear({"reconstruction", "working", "", "two"}, 1);
   EXPECT_EQ(watch.state(1).done, 0);
   EXPECT_TRUE(watch.state(1).working);
+  EXPECT_EQ(watch.state(1).newest_scan, "two") << "what is shown is not of it";
   watch.hear({"reconstruction", "done", "", "two"}, 2);
   EXPECT_EQ(watch.state(2).done, 1);
 }

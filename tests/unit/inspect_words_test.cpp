@@ -9,7 +9,7 @@ namespace tensegric_fit::inspect::words {
 namespace {
 
 TEST(Words, SayWhetherTheSkinIsTighterOrLooser) {
-  EXPECT_EQ(value_there(ColourBy::distortion, 0.93), "skin area 93 %: tighter");
+  EXPECT_EQ(value_there(ColourBy::distortion, 0.93), "skin area 93 %: pressed together");
   EXPECT_EQ(value_there(ColourBy::distortion, 1.001), "skin area 100 %: unchanged");
   EXPECT_EQ(value_there(ColourBy::stretch, 1.2), "skin length 120 %: longer");
   EXPECT_EQ(value_there(ColourBy::displacement, 0.0123), "moved 12.3 mm");
