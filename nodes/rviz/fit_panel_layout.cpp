@@ -64,7 +64,7 @@ QStringList shipped_garments() {
 FitPanel::FitPanel(QWidget* parent) : rviz::Panel(parent) {
   auto* inside = new QWidget;
   auto* layout = new QVBoxLayout(inside);
-  pipeline_ = sentence(layout, 2);
+  pipeline_ = sentence(layout, 3);
   progress_ = new QProgressBar;
   progress_->setTextVisible(false);
   progress_->setMaximumHeight(8);
