@@ -288,7 +288,8 @@ void FitPanel::take_diagnostics(const diagnostic_msgs::DiagnosticStatus& status)
   // "<namespace>/<node>: <stage>"; another booth's stages are no concern of ours.
   const std::size_t colon = status.name.find(": ");
   if (colon == std::string::npos) return;
-  const std::string node = "/" + status.name.substr(0, colon), ours = ros::this_node::getNamespace();
+  const std::string node = "/" + status.name.substr(0, colon);
+  const std::string& ours = ros::this_node::getNamespace();
   if (node.substr(0, node.rfind('/')) != (ours == "/" ? "" : ours)) return;
   StageReport report{status.name.substr(colon + 2), "", status.message, ""};
   for (const auto& pair : status.values) {

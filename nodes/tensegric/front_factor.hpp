@@ -46,7 +46,7 @@ class FrontFactor {
   void place_sources(const NodeMatrix& pattern);
   Eigen::MatrixXd assemble(const Front& front, const NodeMatrix& matrix,
                            std::vector<Eigen::MatrixXd>& updates);
-  bool eliminate(Front& front, Eigen::MatrixXd& matrix);
+  bool eliminate(Front& front, Eigen::MatrixXd& dense);
 
   std::vector<int> order_, rank_;  // old number by new, new by old
   std::vector<Front> fronts_;      // children before parents

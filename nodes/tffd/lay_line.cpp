@@ -169,7 +169,7 @@ std::vector<CarriedPoint> on_the_tape(const std::vector<CarriedPoint>& points,
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
     double off = kFarFromSkin;
     for (std::size_t s = 0; s < tape.size(); ++s) {
-      const Vector3d &a = tape[s], b = tape[(s + 1) % tape.size()];
+      const Vector3d &a = tape[s], &b = tape[(s + 1) % tape.size()];
       Vector3d from = points[i].rest - a, along = b - a;
       from -= normal.dot(from) * normal;
       along -= normal.dot(along) * normal;
