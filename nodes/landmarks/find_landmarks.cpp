@@ -258,7 +258,7 @@ class Reader {
     girth_of(name, tape_of(mesh_.trunk), tape_of(skin_.trunk));
   }
   /// Never taken for seen: what is taken for arms may be missing from a tape.
-  void girth_of(const std::string& name, Tape on_mesh, Tape on_model) {
+  void girth_of(const std::string& name, const Tape& on_mesh, const Tape& on_model) {
     if (on_mesh.size() < 3 && on_model.size() < 3) return;
     const auto value = [](const Tape& t) {
       return t.size() < 3 ? std::nullopt : std::optional<double>(length(t));

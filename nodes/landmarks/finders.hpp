@@ -29,9 +29,9 @@ struct Fold {
 Fold find_fold(const Trunk& trunk, const Vector3d& bust_point, Side side,
                const std::vector<Vector3d>& expected, double reach);
 
-/// Where the back of a buttock is rearmost, by a parabola through its profiles near `expected`; nothing where
+/// Where the back of a buttock is rearmost, by a parabola through its profiles near `start_at`; nothing where
 /// it has no apex there.
-std::optional<Vector3d> find_buttock(const Trunk& trunk, const Vector3d& expected);
+std::optional<Vector3d> find_buttock(const Trunk& trunk, const Vector3d& start_at);
 
 /// Where the skin between a buttock and the back of the thigh `length` metres under it lies deepest under a
 /// straight edge laid on both; nothing where that is less than `depth` metres.

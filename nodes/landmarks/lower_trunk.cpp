@@ -57,8 +57,8 @@ double girth(const std::vector<Vector3d>& tape) {
 
 }  // namespace
 
-std::optional<Vector3d> find_buttock(const Trunk& trunk, const Vector3d& expected) {
-  const Vector3d expected = rearmost_near(trunk.surface(), expected);
+std::optional<Vector3d> find_buttock(const Trunk& trunk, const Vector3d& start_at) {
+  const Vector3d expected = rearmost_near(trunk.surface(), start_at);
   // Profiles side by side: of each the parabola's apex, and the median of them.
   std::vector<Vector3d> apexes;
   for (int i = -kProfiles; i <= kProfiles; ++i) {
