@@ -146,7 +146,7 @@ def exports_are_of_the_scan_that_is_shown(shop):
     from sensor_msgs.msg import PointCloud2
 
     shop.press("alt+x")
-    shop.hears("Wrote 10 files")
+    shop.hears("Wrote 11 files")
     with open(os.path.join(shop.exports, shop.exported()[0], "fit.json")) as file:
         assert json.load(file)["scan"]["scan_id"] == shop.message["body/mesh"].scan_id
 
