@@ -87,7 +87,8 @@ void FitPanel::onInitialize() {
 
 void FitPanel::choose(const QString& garment) {
   SetGarment::Request request;
-  request.name = garment.trimmed().toStdString();
+  const int listed = garment_->findText(garment, Qt::MatchExactly);
+  request.name = (listed < 0 ? garment.trimmed() : garment_->itemData(listed).toString()).toStdString();
   if (request.name.empty()) return;
   typing_ = false;
   session_.settle();

@@ -12,6 +12,7 @@
 #include <QVBoxLayout>
 
 #include "geometry/shipped_files.hpp"
+#include "inspect/garment_titles.hpp"
 #include "inspect/panel_words.hpp"
 #include "inspect/words.hpp"
 #include "rviz/fit_panel.hpp"
@@ -50,13 +51,15 @@ std::vector<rviz::Display*> displays(rviz::VisualizationManager* manager) {
   return ours;
 }
 
-QStringList shipped_garments() {
+// Each with its title to be read, and its name to be asked for.
+void add_shipped_garments(QComboBox* box) {
   std::string folder = geometry::shipped_folder("garments");
   ros::NodeHandle().getParam("tensegric/garment_directory", folder);
-  QStringList names;
-  for (const QString& file : QDir(text(folder)).entryList({"*.yaml"}, QDir::Files, QDir::Name))
-    names << file.left(file.size() - 5);
-  return names;
+  for (const GarmentTitle& garment : garments_in(folder)) {
+    const std::string shown = garment.name + (garment.title.empty() ? "" : ": " + garment.title);
+    box->addItem(text(shown), text(garment.name));
+    box->setItemData(box->count() - 1, text(garment.about), Qt::ToolTipRole);
+  }
 }
 
 }  // namespace
@@ -100,7 +103,8 @@ void FitPanel::build_garment(QVBoxLayout* layout) {
   garment_ = new QComboBox;
   garment_->setEditable(true);
   garment_->setInsertPolicy(QComboBox::NoInsert);
-  garment_->addItems(shipped_garments());
+  add_shipped_garments(garment_);
+  garment_->setCompleter(nullptr);  // it would add a title to the name that is typed
   garment_->setCurrentText("");
   garment_->setToolTip(words::kGarmentHelp);
   label->setBuddy(garment_);

@@ -130,7 +130,8 @@ std::array<bool, 2> held_in(const std::vector<std::string>& words, const std::st
 
 Garment load_garment(const std::string& path) {
   const YAML::Node root = geometry::load_yaml_map(path, kBadGarment);
-  geometry::check_keys(root, {"name", "region", "lines"}, path, kBadGarment);
+  geometry::check_keys(root, {"name", "title", "about", "region", "lines"}, path, kBadGarment);
+  for (const char* key : {"title", "about"}) geometry::optional(root, key, std::string(), path, kBadGarment);
   Garment garment;
   garment.name = geometry::required<std::string>(root, "name", path, kBadGarment);
   garment.regions = words(root, "region", path);

@@ -1,0 +1,34 @@
+#include "inspect/garment_titles.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace tensegric_fit::inspect {
+namespace {
+
+// A file that is broken is refused when it is put on, in words; here it only has no title.
+std::string text_in(const std::string& path, const char* key) {
+  try {
+    const YAML::Node value = YAML::LoadFile(path)[key];
+    return value && value.IsScalar() ? value.Scalar() : "";
+  } catch (const YAML::Exception&) {
+    return "";
+  }
+}
+
+}  // namespace
+
+std::vector<GarmentTitle> garments_in(const std::string& folder) {
+  std::vector<GarmentTitle> garments;
+  std::error_code missing;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, missing))
+    if (entry.is_regular_file() && entry.path().extension() == ".yaml")
+      garments.push_back({entry.path().stem().string(), text_in(entry.path().string(), "title"),
+                          text_in(entry.path().string(), "about")});
+  std::sort(garments.begin(), garments.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return garments;
+}
+
+}  // namespace tensegric_fit::inspect
