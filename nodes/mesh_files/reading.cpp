@@ -26,9 +26,9 @@ constexpr const char* kAxes[] = {"x", "y", "z", "-x", "-y", "-z"};
 
 constexpr double kShortest = 1.2, kTallest = 2.2;  // m, statures
 constexpr double kSmallest = 0.4, kLargest = 4.0;  // m, parts of a person; a booth with its floor
-constexpr double kDeepest = 0.30;                  // share of a stature: a whole person is less deep
-constexpr double kUpright = 0.5, kAsLong = 0.8;    // shares of the longest extent
-constexpr double kClearly = 1.25;                  // how much faster the head's end widens
+constexpr double kDeepest = 0.36;  // share of a stature: a whole person is less deep, a trunk deeper
+constexpr double kUpright = 0.5, kAsLong = 0.8;  // shares of the longest extent
+constexpr double kClearly = 1.25;                // how much faster the head's end widens
 
 int axis_of(const std::string& up) {
   return static_cast<int>(up.back() - 'x');
@@ -145,6 +145,10 @@ Eigen::Matrix3d Reading::turn() const {
   Eigen::Matrix3d rows;
   rows << x.transpose(), z.cross(x).transpose(), z.transpose();
   return rows;
+}
+
+Vector3d Reading::operator()(const Vector3d& p) const {
+  return (metres() * (turn() * p)).cast<float>().cast<double>();
 }
 
 void check_asked(const Asked& asked) {

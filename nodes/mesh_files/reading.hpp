@@ -22,7 +22,8 @@ struct Reading {
   double metres() const;  ///< per unit of the file
   Eigen::Matrix3d turn()
       const;  ///< the file's axes to z up: the identity for z, y and z swapped for y (x stays)
-  Eigen::Vector3d operator()(const Eigen::Vector3d& p) const { return metres() * (turn() * p); }
+  /// As float32, which a PLY of the same body has: the last digits of other units are none of the body's.
+  Eigen::Vector3d operator()(const Eigen::Vector3d& p) const;
   bool is_identity() const { return unit == "m" && up == "z"; }
 };
 

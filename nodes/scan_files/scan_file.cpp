@@ -47,7 +47,7 @@ void take_faces(const std::string& path, const pcl::PolygonMesh& file, ScanFile&
   for (const pcl::Vertices& polygon : file.polygons) {
     const auto& v = polygon.vertices;
     for (std::size_t k = 0; k < v.size(); ++k) {
-      if (v[k] >= mesh.vertices.size())
+      if (static_cast<std::size_t>(v[k]) >= mesh.vertices.size())
         throw geometry::Refusal(geometry::refusal::kBadMesh,
                                 path + ": has a face with a vertex that is not there");
       used[v[k]] = 1;
