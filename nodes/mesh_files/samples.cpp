@@ -11,17 +11,34 @@ namespace {
 using Eigen::Vector3d;
 using geometry::TriangleMesh;
 
-// Nearly every edge is passed once in each direction at most; a few spots where pieces touch do not count.
+// Every edge is passed once in each direction at most.
 bool runs_alike(const TriangleMesh& mesh) {
-  constexpr double kFew = 0.01;
   const std::vector<geometry::TriangleSide> sides = geometry::sorted_sides(mesh);
-  std::size_t wrong = 0;
-  for (std::size_t i = 1; i < sides.size(); ++i) {
-    const auto &a = sides[i - 1], &b = sides[i];
-    if (a.low != b.low || a.high != b.high) continue;
-    if (a.forward == b.forward) ++wrong;
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    if (sides[i - 1].low == sides[i].low && sides[i - 1].high == sides[i].high &&
+        sides[i - 1].forward == sides[i].forward)
+      return false;
+  return true;
+}
+
+// For each piece of the mesh, 1, or -1 where its triangles run clockwise from outside, by its volume about
+// its middle.
+std::vector<double> outside_of(const TriangleMesh& mesh, const std::vector<int>& piece,
+                               const std::vector<Vector3d>& areas) {
+  const int count = piece.empty() ? 0 : *std::max_element(piece.begin(), piece.end()) + 1;
+  std::vector<double> area(count, 0), volume(count, 0);
+  std::vector<Vector3d> middle(count, Vector3d::Zero());
+  for (std::size_t f = 0; f < areas.size(); ++f) {
+    const Eigen::Vector3i& t = mesh.triangles[f];
+    area[piece[f]] += areas[f].norm();
+    middle[piece[f]] +=
+        areas[f].norm() / 3 * (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]);
   }
-  return static_cast<double>(wrong) <= kFew * static_cast<double>(sides.size());
+  for (std::size_t f = 0; f < areas.size(); ++f)
+    volume[piece[f]] += areas[f].dot(mesh.vertices[mesh.triangles[f][0]] - middle[piece[f]] / area[piece[f]]);
+  std::vector<double> outside;
+  for (const double v : volume) outside.push_back(v < 0 ? -1 : 1);
+  return outside;
 }
 
 TriangleMesh usable(const TriangleMesh& mesh) {
@@ -47,20 +64,15 @@ Eigen::Vector2d evenly(int i) {
 geometry::PointCloud surface_samples(const TriangleMesh& given, int count) {
   const TriangleMesh mesh = usable(given);
   std::vector<Vector3d> areas;
-  double whole = 0, volume = 0;
-  Vector3d middle = Vector3d::Zero();
+  double whole = 0;
   for (const Eigen::Vector3i& t : mesh.triangles) {
-    const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    areas.push_back(geometry::area_vector(a, b, c));
+    areas.push_back(geometry::area_vector(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]));
     whole += areas.back().norm();
-    middle += areas.back().norm() / 3 * (a + b + c);
   }
   if (!(whole > 0)) throw geometry::Refusal(geometry::refusal::kBadMesh, "the mesh has no area");
-  middle /= whole;
-  for (std::size_t f = 0; f < areas.size(); ++f)
-    volume += areas[f].dot(mesh.vertices[mesh.triangles[f][0]] - middle);
   const bool oriented = runs_alike(mesh);
-  const double outward = volume < 0 ? -1 : 1;
+  const std::vector<int> piece = geometry::components_of(mesh);
+  const std::vector<double> outside = outside_of(mesh, piece, areas);
 
   geometry::PointCloud cloud;
   double before = 0;  // area
@@ -74,7 +86,7 @@ geometry::PointCloud surface_samples(const TriangleMesh& given, int count) {
       if (at.sum() > 1) at = Eigen::Vector2d::Ones() - at;
       const Vector3d& a = mesh.vertices[t[0]];
       cloud.points.push_back(a + at.x() * (mesh.vertices[t[1]] - a) + at.y() * (mesh.vertices[t[2]] - a));
-      if (oriented) cloud.normals.push_back(outward / area * areas[f]);
+      if (oriented) cloud.normals.push_back(outside[piece[f]] / area * areas[f]);
     }
   }
   return cloud;
