@@ -67,12 +67,21 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
   std::vector<std::string> ratios;
   std::string band, gravity, volume = "control", solver = to_string(line.settings.solver.solver);
 
-  auto* scan =
-      app.add_option(
-             "--scan", line.scans,
-             "Scan: FILE.ply, .pcd or .bag, metres; may be repeated: parts of one person, in one frame")
-          ->allow_extra_args(false);
-  auto* mesh = app.add_option("--mesh", line.mesh, "Body mesh BODY.ply, taken as it is instead of a scan");
+  auto* scan = app.add_option("--scan", line.scans,
+                              "Scan: FILE.ply, .pcd, .xyz, .bag, or a mesh .obj, .stl, .glb, .gltf; may be "
+                              "repeated: parts of one person, in one frame")
+                   ->allow_extra_args(false);
+  auto* mesh = app.add_option("--mesh", line.mesh,
+                              "Body mesh .ply, .obj, .stl, .glb, .gltf, taken as it is instead of a scan");
+  app.add_option("--unit", line.asked.unit, "Unit of the scan or mesh; not said: inferred from the body")
+      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
+  app.add_option("--up", line.asked.up, "Its axis that points up; not said: inferred from the body")
+      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
+  app.add_option(
+         "--export", line.exports,
+         "Also files for makers' programs: any of obj,glb,stl; with them measures.json and measures.vit")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"obj", "glb", "stl"}));
   auto* garment =
       app.add_option("--garment", line.garment, "Shipped garment (B1 ...) or FILE.yaml; none: measure only");
   app.add_option(

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fit/chain.hpp"
+#include "mesh_files/reading.hpp"
 
 namespace tensegric_fit::fit {
 
@@ -19,11 +20,13 @@ struct RatioRequest {
 
 struct CommandLine {
   std::vector<std::string> scans;  ///< of one person, in one frame
+  mesh_files::Asked asked;         ///< unit and axes of scans or mesh
   std::string mesh, garment, templates, tissue, control, fixed, out = "fit_out";
   std::vector<RatioRequest> ratios;
   std::optional<tensegric::TensionLaw> band;
   geometry::Posture posture;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< as tensegric::force_of_share takes it
+  std::vector<std::string> exports;                   ///< obj, glb, stl: files for makers' programs
   bool quiet = false;
   bool overlay = false;  ///< the registered body model in front.png and side.png
   Settings settings;

@@ -56,11 +56,14 @@ class Run {
   Body worn_body() {
     source_.file = line_.mesh.empty() ? line_.worn : line_.mesh;
     if (!line_.mesh.empty()) {
-      geometry::TriangleMesh mesh = geometry::read_ply_mesh(line_.mesh);
+      geometry::TriangleMesh mesh = scan_files::read_body_mesh(line_.mesh, {}, false, source_.reading);
       source_.points = mesh.vertices.size();
       return measure_mesh(std::move(mesh), line_.settings, times_);
     }
-    const geometry::PointCloud scan = geometry::points_of(scan_files::read_scan(line_.worn));
+    scan_files::ScanFile file = scan_files::read_scan_file(line_.worn);
+    source_.reading = scan_files::reading_of({file}, {});
+    scan_files::apply(source_.reading, file.cloud);
+    const geometry::PointCloud scan = geometry::points_of(file.cloud);
     source_.points = scan.points.size();
     return measure_scan(scan, line_.settings, times_);
   }

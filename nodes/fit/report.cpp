@@ -30,6 +30,12 @@ Json json_of(const Eigen::Isometry3d& pose) {
   return rows;
 }
 
+Json axes_of(const mesh_files::Reading& reading) {
+  Json rows = Json::array();
+  for (int r = 0; r < 3; ++r) rows.push_back(json_of(Eigen::Vector3d(reading.turn().row(r).transpose())));
+  return {{"up", reading.up}, {"scan_from_file", std::move(rows)}};
+}
+
 Json stages_of(const StageTimes& times) {
   const auto ms = [](double value) { return Json{{"ms", value}}; };
   return {{"reconstruction", ms(times.reconstruction)}, {"body_model", ms(times.body_model)},
@@ -166,6 +172,8 @@ Json report_of(const Source& source, const Body& body, const Fitting* fitting, c
                     {"more_files", source.more},
                     {"points", source.points},
                     {"points_used", body.mesh.points_used},
+                    {"unit", source.reading.unit},
+                    {"axes", axes_of(source.reading)},
                     {"body_from_scan", json_of(body.measures.body_from_scan)}};
   report["status"] = "ok";
   report["reason"] = nullptr;

@@ -8,6 +8,7 @@
 
 #include "fit/chain.hpp"
 #include "geometry/status.hpp"
+#include "mesh_files/reading.hpp"
 
 namespace tensegric_fit::fit {
 
@@ -16,6 +17,7 @@ struct Source {
   std::string file;
   std::size_t points = 0;
   std::vector<std::string> more = {};  ///< further files of the same scan
+  mesh_files::Reading reading = {};    ///< of all of them
 };
 
 /// Body vertices whose area shrinks below this share are called over-constricted (P1 Fig. 8).

@@ -12,6 +12,7 @@
 #include "body_model/parts.hpp"
 #include "body_model/registration.hpp"
 #include "control_mesh/shape_control.hpp"
+#include "fit/maker_export.hpp"
 #include "fit/report.hpp"
 #include "fit/result_folder.hpp"
 #include "fit/tissue_file.hpp"
@@ -27,9 +28,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const ResultNames kResults = {"report.json",  "body.ply",      "control.ply", "control_deformed.ply",
-                              "deformed.ply", "history.csv",   "front.png",   "side.png",
-                              "back.png",     "distortion.png"};
+const ResultNames kResults = [] {
+  ResultNames names = {"report.json",  "body.ply",      "control.ply", "control_deformed.ply",
+                       "deformed.ply", "history.csv",   "front.png",   "side.png",
+                       "back.png",     "distortion.png"};
+  names.insert(names.end(), std::begin(kMakerFiles), std::end(kMakerFiles));
+  return names;
+}();
 
 constexpr int kPanel = 750;  // pixels; the height of the pictures of a fit
 
@@ -46,6 +51,7 @@ class Run {
       constexpr int kWhole = 900;
       save_picture("front.png", measured(inspect::front_picture, kWhole));
       save_picture("side.png", measured(inspect::side_picture, kWhole));
+      export_for_makers(line_.out, line_.exports, body_, nullptr);
       write_report(nullptr, nullptr);
       return;
     }
@@ -86,7 +92,8 @@ class Run {
     if (!line_.mesh.empty()) {
       source_.file = line_.mesh;
       say("reading the mesh");
-      geometry::TriangleMesh mesh = geometry::read_ply_mesh(line_.mesh);
+      geometry::TriangleMesh mesh =
+          scan_files::read_body_mesh(line_.mesh, line_.asked, line_.is_shape(), source_.reading);
       source_.points = mesh.vertices.size();
       body_ =
           line_.is_shape() ? take_mesh(std::move(mesh)) : measure_mesh(std::move(mesh), settings_, times_);
@@ -95,13 +102,22 @@ class Run {
     source_.file = line_.scans.front();
     source_.more.assign(line_.scans.begin() + 1, line_.scans.end());
     say("reading the scan");
-    std::vector<geometry::PointCloud> parts;
-    for (const std::string& file : line_.scans)
-      parts.push_back(geometry::points_of(scan_files::read_scan(file)));
-    const geometry::PointCloud scan = geometry::joined(parts);
+    const geometry::PointCloud scan = read_scans();
     source_.points = scan.points.size();
     say("reconstruction, landmarks");
     body_ = measure_scan(scan, settings_, times_);
+  }
+
+  geometry::PointCloud read_scans() {
+    std::vector<scan_files::ScanFile> files;
+    for (const std::string& file : line_.scans) files.push_back(scan_files::read_scan_file(file));
+    source_.reading = scan_files::reading_of(files, line_.asked);
+    std::vector<geometry::PointCloud> parts;
+    for (scan_files::ScanFile& file : files) {
+      scan_files::apply(source_.reading, file.cloud);
+      parts.push_back(geometry::points_of(file.cloud));
+    }
+    return geometry::joined(parts);
   }
 
   // The defaults are calibrated for the shipped templates as they are; finer ones have tissue of their own.
@@ -188,6 +204,7 @@ class Run {
     write_mesh("deformed.ply", {fit.deformed, body_.mesh.mesh.triangles});
     write_text(path("history.csv"), history_csv(body_, fitting, fit.solution));
     save_pictures(fitting, fit);
+    export_for_makers(line_.out, line_.exports, body_, &fit);
     write_report(&fitting, &fit);
   }
 

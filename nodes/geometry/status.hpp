@@ -14,7 +14,9 @@ inline constexpr char kEmptyCloud[] = "empty_cloud";         ///< no points at a
 inline constexpr char kNonFinite[] = "non_finite";           ///< no finite point, or NaN where none may be
 inline constexpr char kTooFewPoints[] = "too_few_points";    ///< too sparse for the resolution needed
 inline constexpr char kTooManyPoints[] = "too_many_points";  ///< more than memory is planned for
-inline constexpr char kWrongUnit[] = "wrong_unit";      ///< the size of a body in another unit than metres
+inline constexpr char kWrongUnit[] =
+    "wrong_unit";  ///< the size of a body in no unit, or in two; of a message, not in metres
+inline constexpr char kWrongAxes[] = "wrong_axes";      ///< a body that could stand on either of two ends
 inline constexpr char kNotABody[] = "not_a_body";       ///< a shape, but not that of a standing person
 inline constexpr char kMissingPart[] = "missing_part";  ///< missing_part:PART
 inline constexpr char kBadMesh[] = "bad_mesh";          ///< indices out of range, not manifold, not oriented

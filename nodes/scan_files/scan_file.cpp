@@ -1,48 +1,169 @@
 #include "scan_files/scan_file.hpp"
 
 #include <pcl/PolygonMesh.h>
+#include <pcl/conversions.h>
+#include <pcl/point_types.h>
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
+#include <array>
+#include <cstring>
 
 #include "geometry/ply.hpp"
+#include "geometry/point_cloud.hpp"
 #include "geometry/status.hpp"
+#include "mesh_files/read_mesh.hpp"
+#include "mesh_files/samples.hpp"
 #include "scan_files/pcd_file.hpp"
 #include "scan_files/scan_bag.hpp"
 
 namespace tensegric_fit::scan_files {
 namespace {
 
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return ending;
+using geometry::TriangleMesh;
+
+pcl::PCLPointCloud2 message_of(const geometry::PointCloud& cloud) {
+  pcl::PCLPointCloud2 message;
+  if (cloud.normals.empty()) {
+    pcl::PointCloud<pcl::PointXYZ> points;
+    for (const Eigen::Vector3d& p : cloud.points)
+      points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
+    pcl::toPCLPointCloud2(points, message);
+    return message;
+  }
+  pcl::PointCloud<pcl::PointNormal> points(static_cast<std::uint32_t>(cloud.points.size()), 1);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    points[i].getVector3fMap() = cloud.points[i].cast<float>();
+    points[i].getNormalVector3fMap() = cloud.normals[i].cast<float>();
+  }
+  pcl::toPCLPointCloud2(points, message);
+  return message;
+}
+
+// A mesh by its faces, where they hold most of the vertices; a cloud with a few faces stays a cloud.
+void take_faces(const std::string& path, const pcl::PolygonMesh& file, ScanFile& scan) {
+  if (file.polygons.empty()) return;
+  TriangleMesh mesh{geometry::points_of(file.cloud).points, {}};
+  std::vector<char> used(mesh.vertices.size(), 0);
+  for (const pcl::Vertices& polygon : file.polygons) {
+    const auto& v = polygon.vertices;
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      if (static_cast<std::size_t>(v[k]) >= mesh.vertices.size())
+        throw geometry::Refusal(geometry::refusal::kBadMesh,
+                                path + ": has a face with a vertex that is not there");
+      used[v[k]] = 1;
+      if (k >= 2)
+        mesh.triangles.emplace_back(static_cast<int>(v[0]), static_cast<int>(v[k - 1]),
+                                    static_cast<int>(v[k]));
+    }
+  }
+  if (2 * static_cast<std::size_t>(std::count(used.begin(), used.end(), 1)) < used.size()) return;
+  scan.cloud = message_of(mesh_files::surface_samples(mesh));
+  scan.kind.surface = true;
+}
+
+// The up of the format's own definition, where it has one.
+mesh_files::Kind kind_of(const std::string& ending) {
+  return {true, ending == ".glb" || ending == ".gltf" ? "y" : ending == ".ply" ? "z" : ""};
 }
 
 }  // namespace
 
 bool is_scan_name(const std::string& path) {
-  const std::string ending = ending_of(path);
-  return ending == ".ply" || ending == ".pcd" || ending == ".bag";
+  const std::string ending = mesh_files::ending_of(path);
+  return ending == ".ply" || ending == ".pcd" || ending == ".xyz" || ending == ".bag" ||
+         mesh_files::is_mesh_name(path);
 }
 
-pcl::PCLPointCloud2 read_scan(const std::string& path) {
-  const std::string ending = ending_of(path);
-  pcl::PCLPointCloud2 scan;
+ScanFile read_scan_file(const std::string& path) {
+  const std::string ending = mesh_files::ending_of(path);
+  ScanFile scan;
   if (ending == ".ply") {
     pcl::PolygonMesh file;
     geometry::read_ply(path, file);
-    scan = std::move(file.cloud);
+    take_faces(path, file, scan);
+    if (!scan.kind.surface) scan.cloud = std::move(file.cloud);
   } else if (ending == ".pcd") {
-    scan = read_pcd(path);
+    scan.cloud = read_pcd(path);
+  } else if (ending == ".xyz") {
+    scan.cloud = message_of({mesh_files::read_xyz(path), {}, {}});
   } else if (ending == ".bag") {
-    scan = read_bag_scan(path);
+    scan.cloud = read_bag_scan(path);
+    scan.is_message = true;
+  } else if (mesh_files::is_mesh_name(path)) {
+    scan.cloud = message_of(mesh_files::surface_samples(mesh_files::read_mesh(path)));
+    scan.kind = kind_of(ending);
   } else {
-    throw geometry::Refusal(geometry::refusal::kBadOption, path + ": a scan file ends in .ply, .pcd or .bag");
+    throw geometry::Refusal(geometry::refusal::kBadOption,
+                            path + ": a scan file ends in .ply, .pcd, .xyz, .bag, .obj, .stl, .glb or .gltf");
   }
   return scan;
+}
+
+pcl::PCLPointCloud2 read_scan(const std::string& path) {
+  return read_scan_file(path).cloud;
+}
+
+mesh_files::Reading reading_of(const std::vector<ScanFile>& files, const mesh_files::Asked& asked) {
+  mesh_files::check_asked(asked);
+  mesh_files::Kind kind{true, ""};
+  mesh_files::Asked wanted = asked;
+  std::vector<Eigen::Vector3d> points;
+  for (const ScanFile& file : files) {
+    if (file.is_message && wanted.unit.empty()) wanted.unit = "m";
+    if (file.is_message && wanted.up.empty()) wanted.up = "z";
+    const geometry::PointCloud cloud = geometry::points_of(file.cloud);
+    for (const Eigen::Vector3d& p : cloud.points)
+      if (p.allFinite()) points.push_back(p);
+    kind.surface = kind.surface && file.kind.surface;
+    if (!file.kind.usual_up.empty()) kind.usual_up = file.kind.usual_up;
+  }
+  if (points.empty()) points.emplace_back(0, 0, 0);  // refused by the reconstruction, by name
+  return mesh_files::infer_reading(points, kind, wanted);
+}
+
+void apply(const mesh_files::Reading& reading, pcl::PCLPointCloud2& cloud) {
+  if (reading.is_identity()) return;
+  const geometry::PointCloud read = geometry::points_of(cloud);
+  if (cloud.is_bigendian != pcl::PCLPointCloud2().is_bigendian) cloud = message_of(read);
+  const auto write = [&cloud](const std::array<const char*, 3>& names, std::size_t i,
+                              const Eigen::Vector3d& value) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const pcl::PCLPointField& field : cloud.fields) {
+        if (field.name != names[axis]) continue;
+        std::uint8_t* at = cloud.data.data() + i / cloud.width * cloud.row_step +
+                           i % cloud.width * cloud.point_step + field.offset;
+        const auto single = static_cast<float>(value[axis]);
+        if (field.datatype == pcl::PCLPointField::FLOAT64)
+          std::memcpy(at, &value[axis], sizeof(double));
+        else
+          std::memcpy(at, &single, sizeof single);
+      }
+    }
+  };
+  for (std::size_t i = 0; i < read.points.size(); ++i) {
+    write({"x", "y", "z"}, i, reading(read.points[i]));
+    if (read.normals.empty()) continue;
+    const Eigen::Vector3d normal = reading.turn() * read.normals[i];
+    write({"normal_x", "normal_y", "normal_z"}, i, normal);
+    write({"nx", "ny", "nz"}, i, normal);
+  }
+}
+
+TriangleMesh read_body_mesh(const std::string& path, const mesh_files::Asked& asked, bool any_shape,
+                            mesh_files::Reading& reading) {
+  mesh_files::check_asked(asked);
+  const std::string ending = mesh_files::ending_of(path);
+  const bool is_ply = !mesh_files::is_mesh_name(path);
+  TriangleMesh mesh = is_ply ? geometry::read_ply_mesh(path) : mesh_files::read_mesh(path);
+  mesh_files::Asked wanted = asked;
+  if (any_shape && wanted.unit.empty()) wanted.unit = "m";
+  if (any_shape && wanted.up.empty()) wanted.up = "z";
+  constexpr int kEnough = 20'000;
+  reading = mesh_files::infer_reading(mesh_files::surface_samples(mesh, kEnough).points,
+                                      kind_of(is_ply ? ".ply" : ending), wanted);
+  if (!reading.is_identity())
+    for (Eigen::Vector3d& p : mesh.vertices) p = reading(p);
+  return mesh;
 }
 
 }  // namespace tensegric_fit::scan_files

@@ -51,9 +51,10 @@ Setup setup_from(Parameters parameters) {
 
 std::vector<PointCloud2::ConstPtr> scans_in(const std::string& path) {
   if (fs::path(path).extension() == ".bag") return scan_files::read_bag_scans(path);
-  pcl::PCLPointCloud2 cloud = scan_files::read_scan(path);
+  scan_files::ScanFile file = scan_files::read_scan_file(path);
+  scan_files::apply(scan_files::reading_of({file}, {}), file.cloud);
   const auto scan = boost::make_shared<PointCloud2>();
-  pcl_conversions::moveFromPCL(cloud, *scan);
+  pcl_conversions::moveFromPCL(file.cloud, *scan);
   return {scan};
 }
 

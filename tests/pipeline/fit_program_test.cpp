@@ -13,8 +13,12 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
+#include <tuple>
 
 #include "geometry/ply.hpp"
+#include "mesh_files/glb.hpp"
+#include "mesh_files/maker_files.hpp"
+#include "mesh_files/read_mesh.hpp"
 
 namespace {
 
@@ -419,7 +423,69 @@ TEST_F(FitProgram, RefusesBadScansByName) {
     value *= 1000;
     std::memcpy(&millimetres[i], &value, 4);
   }
-  expect_refused(scan("millimetres.ply", millimetres), "wrong_unit");
+  EXPECT_EQ(fit(scan("millimetres.ply", millimetres)), 0) << read_file(file("log"));
+  EXPECT_EQ(report()["scan"]["unit"], "mm");
+  expect_refused(scan("millimetres.ply", millimetres) + " --unit inch", "wrong_unit");
+}
+
+// The same body from every format, in its usual unit and axes.
+TEST_F(FitProgram, ReadsMeshesOfEveryFormatAlike) {
+  namespace formats = tensegric_fit::mesh_files;
+  const auto body = tensegric_fit::geometry::read_ply_mesh(kScans + "/a/body.ply");
+  auto centimetres = body;  // z up
+  for (auto& p : centimetres.vertices) p = Eigen::Vector3d(p.z(), p.x(), p.y()) / 10;
+  ASSERT_EQ(fit("--mesh " + kScans + "/a/body.ply"), 0) << read_file(file("log"));
+  const json truth = report();
+  EXPECT_EQ(truth["scan"]["unit"], "m");
+  EXPECT_EQ(truth["scan"]["axes"]["up"], "z");
+  for (const auto& [name, bytes, unit, up] : {std::tuple("a.obj", formats::obj_text(body, "body"), "mm", "y"),
+                                              {"a.stl", formats::stl_bytes(centimetres), "cm", "z"},
+                                              {"a.glb", formats::glb_bytes({{"body", body}}), "m", "y"}}) {
+    ASSERT_EQ(fit("--mesh " + write(name, bytes)), 0) << name << read_file(file("log"));
+    const json said = report();
+    EXPECT_EQ(said["scan"]["unit"], unit) << name;
+    EXPECT_EQ(said["scan"]["axes"]["up"], up) << name;
+    for (const char* kind : {"heights", "girths"})
+      for (const auto& [measure, value] : truth[kind].items())
+        EXPECT_NEAR(said[kind][measure].get<double>(), value.get<double>(), 1e-4) << name << ' ' << measure;
+  }
+  expect_refused("--mesh " + file("a.obj") + " --unit inch", "not_a_body");
+}
+
+TEST_F(FitProgram, ExportsForMakers) {
+  ASSERT_EQ(fit("--mesh " + kScans + "/a/body.ply --garment B1 --export obj,glb,stl"), 0)
+      << read_file(file("log"));
+  const auto body = tensegric_fit::geometry::read_ply_mesh(file("out/body.ply"));
+  for (const char* name : {"body.obj", "deformed.obj", "body.stl", "deformed.stl"}) {
+    const auto mesh = tensegric_fit::mesh_files::read_mesh(file(std::string("out/") + name));
+    EXPECT_EQ(mesh.triangles.size(), body.triangles.size()) << name;
+    EXPECT_LE(mesh.triangles.size(), 70000U) << name;  // what CLO asks for
+    EXPECT_TRUE(tensegric_fit::geometry::is_closed(mesh)) << name;
+    EXPECT_GT(tensegric_fit::geometry::cone_volume(mesh.vertices, mesh.triangles), 3e7)
+        << name;  // mm^3, outward
+    const auto box = tensegric_fit::geometry::bounding_box(mesh.vertices);
+    EXPECT_NEAR(box[0].y(), 0, 20) << name;  // y up, on the floor
+  }
+  const std::string glb = read_file(file("out/fit.glb"));
+  EXPECT_NE(glb.find("under the garment"), std::string::npos);
+  EXPECT_NE(glb.find("_DISTORTION"), std::string::npos);
+  EXPECT_NE(glb.find("line chest"), std::string::npos);
+  const json said = report(), measures = json::parse(read_file(file("out/measures.json")));
+  EXPECT_EQ(measures["measures"].size(), said["heights"].size() + said["girths"].size());
+  for (const json& measure : measures["measures"]) {
+    const std::string kind = measure["kind"], name = measure["name"];
+    EXPECT_EQ(measure["before"]["value"], said[kind + "s"][name]) << name;
+    if (kind != "girth") continue;
+    for (const char* when : {"before", "under_garment"}) {
+      const json& loop = measure[when];
+      EXPECT_NEAR(loop["tape"].get<double>(), loop["value"].get<double>(), 5e-4) << name;
+      EXPECT_GE(loop["skin"].get<double>(), loop["tape"].get<double>() - 2e-3) << name;
+      EXPECT_LE(loop["skin"].get<double>(), 1.1 * loop["tape"].get<double>()) << name;
+    }
+  }
+  EXPECT_NE(read_file(file("out/measures.vit")).find("<m name=\"bust_circ\""), std::string::npos);
+  ASSERT_EQ(fit("--mesh " + kScans + "/a/body.ply"), 0);  // old ones are never taken for new ones
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "fit.glb"));
 }
 
 TEST_F(FitProgram, RefusesBadGarmentsByName) {

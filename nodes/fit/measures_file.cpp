@@ -1,0 +1,171 @@
+#include "fit/measures_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/moved_skin.hpp"
+#include "geometry/section.hpp"
+#include "mesh_files/frame.hpp"
+
+namespace tensegric_fit::fit {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Eigen::Vector3d;
+using Points = std::vector<Vector3d>;
+
+/// Numbers of ISO 8559-1:2017 as other vendors' public tables have them; heights have none there.
+struct Standard {
+  const char *kind, *name, *iso_name, *iso_number, *vit;
+};
+constexpr Standard kStandards[] = {
+    {"girth", "neck", "neck girth", "5.3.2", "neck_mid_circ"},
+    {"girth", "bust", "bust girth", "5.3.4", "bust_circ"},
+    {"girth", "underbust", "under bust girth", "5.3.8", "lowbust_circ"},
+    {"girth", "waist", "waist girth", "5.3.10", "waist_circ"},
+    {"girth", "hip", "hip girth", "5.3.13", "hip_circ"},
+    {"girth", "upper_arm_R", "upper-arm girth", "5.3.16", "arm_upper_circ"},
+    {"girth", "upper_arm_L", "upper-arm girth", "5.3.16", ""},
+    {"girth", "thigh_R", "thigh girth", "5.3.20", "leg_thigh_upper_circ"},
+    {"girth", "thigh_L", "thigh girth", "5.3.20", ""},
+    {"height", "stature", "stature", "", "height"},
+    {"height", "neck", "", "", "height_neck_back"},
+    {"height", "bust", "", "", "height_bustpoint"},
+    {"height", "waist", "waist height", "", "height_waist_side"},
+    {"height", "hip", "hip height", "", "height_hip"},
+    {"height", "crotch", "", "", "leg_crotch_to_floor"},
+};
+
+const char* kind_of(const MeasureEntry& entry) {
+  return entry.is_girth ? "girth" : "height";
+}
+
+const Standard* standard_of(const MeasureEntry& entry) {
+  for (const Standard& standard : kStandards)
+    if (entry.before.name == standard.name && std::string(kind_of(entry)) == standard.kind) return &standard;
+  return nullptr;
+}
+
+/// Twice the area of a loop times its normal.
+Vector3d area_of(const Points& loop) {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 0; i < loop.size(); ++i) sum += loop[i].cross(loop[(i + 1) % loop.size()]);
+  return sum;
+}
+
+// The section in the tape's plane, where it is inside the tape; what is outside (an arm that touches) is cut
+// off.
+double skin_length(const geometry::TriangleMesh& mesh, const Points& tape) {
+  if (tape.size() < 3 || !(area_of(tape).norm() > 0)) return 0;
+  const Vector3d normal = area_of(tape).normalized();
+  constexpr double kOnTape = 5e-4;  // m
+  const auto inside = [&](const Vector3d& p) {
+    for (std::size_t i = 0; i < tape.size(); ++i) {
+      const Vector3d side = tape[(i + 1) % tape.size()] - tape[i];
+      if (normal.cross(side).normalized().dot(p - tape[i]) < -kOnTape) return false;
+    }
+    return true;
+  };
+  double longest = 0;
+  for (const geometry::SectionLoop& loop : geometry::plane_section(mesh, tape.front(), normal)) {
+    Points kept;
+    for (const Vector3d& p : loop.points)
+      if (inside(p)) kept.push_back(p);
+    longest = std::max(longest, geometry::length_of(kept, true));
+  }
+  return longest;
+}
+
+std::optional<Loop> loop_of(const geometry::TriangleMesh& mesh, const Points& tape,
+                            const Eigen::Isometry3d& place) {
+  if (tape.empty()) return std::nullopt;
+  Loop loop{tape, geometry::length_of(tape, true), skin_length(mesh, tape)};
+  for (Vector3d& p : loop.points) p = place * p;
+  return loop;
+}
+
+Json json_of(const std::optional<double>& value, const std::optional<Loop>& loop) {
+  if (!value) return nullptr;
+  Json entry{{"value", *value}};
+  if (!loop) return entry;
+  entry["tape"] = loop->tape;
+  entry["skin"] = loop->skin > 0 ? Json(loop->skin) : Json();
+  entry["polyline"] = Json::array();
+  for (const Vector3d& p : loop->points) {
+    const Vector3d q = mesh_files::y_up(p);
+    entry["polyline"].push_back({q.x(), q.y(), q.z()});
+  }
+  return entry;
+}
+
+Json text_or_null(const char* text) {
+  return *text == '\0' ? Json() : Json(text);
+}
+
+}  // namespace
+
+std::vector<MeasureEntry> measure_entries(const Body& body, const Fit* fit) {
+  const geometry::TriangleMesh& mesh = body.mesh.mesh;
+  const Points& after = fit == nullptr ? mesh.vertices : fit->deformed;
+  const geometry::MovedSkin skin{mesh, after};
+  std::vector<MeasureEntry> entries;
+  for (const geometry::ChangedMeasure& height : geometry::heights_after(body.measures, skin))
+    entries.push_back({height.before, false, fit == nullptr ? std::nullopt : height.after, {}, {}});
+  const Eigen::Isometry3d& place = body.measures.body_from_scan;
+  for (const geometry::ChangedMeasure& girth : geometry::girths_after(body.measures, skin)) {
+    MeasureEntry entry{girth.before, true, fit == nullptr ? std::nullopt : girth.after, {}, {}};
+    for (const geometry::GirthLoop& loop : body.measures.loops) {
+      if (loop.name != girth.before.name) continue;
+      entry.loop = loop_of(mesh, loop.points, place);
+      if (fit != nullptr)
+        entry.loop_worn = loop_of({after, mesh.triangles}, geometry::tape_after(skin, loop.points), place);
+    }
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+Json measures_json(const std::vector<MeasureEntry>& measures) {
+  Json list = Json::array();
+  for (const MeasureEntry& entry : measures) {
+    const Standard* standard = standard_of(entry);
+    Json iso{{"name", text_or_null(standard == nullptr ? "" : standard->iso_name)},
+             {"number", text_or_null(standard == nullptr ? "" : standard->iso_number)}};
+    list.push_back({{"name", entry.before.name},
+                    {"kind", kind_of(entry)},
+                    {"iso_8559_1", std::move(iso)},
+                    {"half_width", entry.before.half_width > 0 ? Json(entry.before.half_width) : Json()},
+                    {"confidence", entry.before.confidence},
+                    {"before", json_of(entry.before.metres, entry.loop)},
+                    {"under_garment", json_of(entry.worn, entry.loop_worn)}});
+  }
+  return {{"format", "tensegric_fit/measures"},
+          {"version", 1},
+          {"unit", "m"},
+          {"axes", "y up, z forward, x to her left, origin on the floor between the feet: those of fit.glb"},
+          {"measures", std::move(list)}};
+}
+
+std::string measures_vit(const std::vector<MeasureEntry>& measures, bool worn) {
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<vit>\n  <!--tensegric_fit-->\n  "
+      "<version>0.3.3</version>\n"
+      "  <read-only>false</read-only>\n  <notes>" +
+      std::string(worn ? "under the garment" : "before the garment") +
+      "</notes>\n  <unit>cm</unit>\n  <pm_system>998</pm_system>\n  <personal>\n    <family-name/>\n    "
+      "<given-name/>\n"
+      "    <birth-date>1900-01-01</birth-date>\n    <gender>female</gender>\n    <email/>\n  </personal>\n"
+      "  <body-measurements>\n";
+  for (const MeasureEntry& entry : measures) {
+    const Standard* standard = standard_of(entry);
+    const std::optional<double> value = worn ? entry.worn : entry.before.metres;
+    if (standard == nullptr || *standard->vit == '\0' || !value) continue;
+    text += fmt::format("    <m name=\"{}\" value=\"{:.1f}\" description=\"\" full_name=\"\"/>\n",
+                        standard->vit, 100 * *value);
+  }
+  return text + "  </body-measurements>\n</vit>\n";
+}
+
+}  // namespace tensegric_fit::fit

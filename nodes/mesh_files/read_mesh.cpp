@@ -1,0 +1,130 @@
+#include "mesh_files/read_mesh.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <string_view>
+#include <tuple>
+
+#include "geometry/status.hpp"
+#include "mesh_files/formats.hpp"
+
+namespace tensegric_fit::mesh_files {
+namespace {
+
+namespace refusal = geometry::refusal;
+using geometry::Refusal;
+using geometry::TriangleMesh;
+
+std::string bytes_of(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none))
+    throw Refusal(refusal::kBrokenFile, path + ": does not exist or is no regular file");
+  const std::uintmax_t size = std::filesystem::file_size(path, none);
+  if (none) throw Refusal(refusal::kBrokenFile, path + ": cannot be read");
+  if (size > kMostBytes)
+    throw Refusal(refusal::kTooManyPoints, path + ": has " + std::to_string(size >> 20) +
+                                               " MB; mesh files of up to " +
+                                               std::to_string(kMostBytes >> 20) + " MB are read");
+  std::string bytes(size, '\0');
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(size)))
+    throw Refusal(refusal::kBrokenFile, path + ": cannot be read");
+  return bytes;
+}
+
+// For each vertex the first one in its place.
+std::vector<int> first_in_place(const std::vector<Eigen::Vector3d>& vertices) {
+  std::vector<int> order(vertices.size()), first(vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](int v) { return std::tuple(vertices[v].x(), vertices[v].y(), vertices[v].z(), v); };
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    first[order[i]] = i > 0 && vertices[order[i]] == vertices[order[i - 1]] ? first[order[i - 1]] : order[i];
+  return first;
+}
+
+TriangleMesh tidy(const TriangleMesh& mesh) {
+  const std::vector<int> first = first_in_place(mesh.vertices);
+  TriangleMesh joined{mesh.vertices, {}};
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    const Eigen::Vector3i u(first[t[0]], first[t[1]], first[t[2]]);
+    if (u[0] != u[1] && u[1] != u[2] && u[2] != u[0]) joined.triangles.push_back(u);
+  }
+  return geometry::submesh(joined, std::vector<char>(joined.triangles.size(), 1));
+}
+
+}  // namespace
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+bool is_mesh_name(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".obj" || ending == ".stl" || ending == ".glb" || ending == ".gltf";
+}
+
+void check_count(std::size_t vertices, std::size_t triangles, const std::string& path) {
+  if (vertices <= kMostVertices && triangles <= kMostTriangles) return;
+  throw Refusal(refusal::kTooManyPoints, path + ": has more than " + std::to_string(kMostVertices / 1000000) +
+                                             " million vertices or " +
+                                             std::to_string(kMostTriangles / 1000000) + " million triangles");
+}
+
+TriangleMesh read_mesh(const std::string& path) {
+  const std::string ending = ending_of(path);
+  if (!is_mesh_name(path))
+    throw Refusal(refusal::kBadOption, path + ": a mesh file ends in .obj, .stl, .glb or .gltf");
+  const auto reader = ending == ".obj"   ? obj_mesh
+                      : ending == ".stl" ? stl_mesh
+                      : ending == ".glb" ? glb_mesh
+                                         : gltf_mesh;
+  const TriangleMesh mesh = reader(bytes_of(path), path);
+  if (!std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const auto& p) { return p.allFinite(); }))
+    throw Refusal(refusal::kNonFinite, path + ": has a coordinate that is not finite");
+  const int count = static_cast<int>(mesh.vertices.size());
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    if (t.minCoeff() < 0 || t.maxCoeff() >= count)
+      throw Refusal(refusal::kBadMesh, path + ": has a face with a vertex that is not there");
+  TriangleMesh tidied = tidy(mesh);
+  if (tidied.triangles.empty()) throw Refusal(refusal::kBadMesh, path + ": has no faces");
+  return tidied;
+}
+
+std::vector<Eigen::Vector3d> read_xyz(const std::string& path) {
+  const std::string bytes = bytes_of(path);
+  std::vector<Eigen::Vector3d> points;
+  std::size_t number = 0;
+  for (std::size_t start = 0; start < bytes.size(); ++number) {
+    const std::size_t end = std::min(bytes.find('\n', start), bytes.size());
+    std::string_view line(bytes.data() + start, end - start);
+    start = end + 1;
+    Eigen::Vector3d p;
+    int axis = 0;
+    bool is_empty = true;
+    for (; axis < 3; ++axis) {
+      const std::size_t word = line.find_first_not_of(" \t\r,;");
+      if (word == std::string_view::npos) break;
+      is_empty = false;
+      line = line.substr(word);
+      const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), p[axis]);
+      if (error != std::errc()) break;
+      line = line.substr(stop - line.data());
+    }
+    if (axis == 3)
+      points.push_back(p);
+    else if (!is_empty && number > 0)
+      throw Refusal(refusal::kBrokenFile, path + ": line " + std::to_string(number + 1) + " has no x y z");
+    check_count(points.size(), 0, path);
+  }
+  return points;
+}
+
+}  // namespace tensegric_fit::mesh_files

@@ -1,0 +1,171 @@
+#include "mesh_files/reading.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::mesh_files {
+namespace {
+
+namespace refusal = geometry::refusal;
+using Eigen::Vector3d;
+using geometry::Refusal;
+using Points = std::vector<Vector3d>;
+
+struct Unit {
+  const char* name;
+  double metres;
+};
+constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"inch", 0.0254}};
+constexpr const char* kAxes[] = {"x", "y", "z", "-x", "-y", "-z"};
+
+constexpr double kShortest = 1.2, kTallest = 2.2;  // m, statures
+constexpr double kSmallest = 0.4, kLargest = 4.0;  // m, parts of a person; a booth with its floor
+constexpr double kDeepest = 0.36;  // share of a stature: a whole person is less deep, a trunk deeper
+constexpr double kUpright = 0.5, kAsLong = 0.8;  // shares of the longest extent
+constexpr double kClearly = 1.25;                // how much faster the head's end widens
+
+int axis_of(const std::string& up) {
+  return static_cast<int>(up.back() - 'x');
+}
+
+Vector3d direction(const std::string& up) {
+  return (up.front() == '-' ? -1.0 : 1.0) * Vector3d::Unit(axis_of(up));
+}
+
+/// The axes' extents without stray points, and the lowest.
+struct Spread {
+  Vector3d low, extent;
+};
+
+Spread spread_of(const Points& points) {
+  Spread spread;
+  std::vector<double> values;
+  for (int axis = 0; axis < 3; ++axis) {
+    values.clear();
+    for (const Vector3d& p : points)
+      if (p.allFinite()) values.push_back(p[axis]);
+    if (values.empty()) throw Refusal(refusal::kNonFinite, "the scan has no finite point");
+    std::sort(values.begin(), values.end());
+    const std::size_t stray = values.size() / 200;
+    spread.low[axis] = values[stray];
+    spread.extent[axis] = values[values.size() - 1 - stray] - values[stray];
+  }
+  return spread;
+}
+
+std::string unit_of(const Spread& spread) {
+  Vector3d extent = spread.extent;
+  std::sort(extent.begin(), extent.end());
+  const double longest = extent[2];
+  std::vector<const Unit*> fit;
+  const Unit* stature = nullptr;
+  for (const Unit& unit : kUnits) {
+    const double metres = longest * unit.metres;
+    if (metres >= kShortest && metres <= kTallest) stature = &unit;
+    if (metres >= kSmallest && metres <= kLargest) fit.push_back(&unit);
+  }
+  if (stature != nullptr && (fit.size() == 1 || extent[0] <= kDeepest * longest)) return stature->name;
+  if (longest < 8 && fit.size() <= 1) return "m";  // the reconstruction says what is wrong with it
+  if (fit.size() == 1) return fit.front()->name;
+  if (fit.empty())
+    throw Refusal(refusal::kWrongUnit,
+                  fmt::format("the scan is {:.4g} across: a body in none of m, cm, mm, inch", longest));
+  throw Refusal(
+      refusal::kWrongUnit,
+      fmt::format("the scan is {:.4g} across: {:.2f} m if it is in {}, {:.2f} m if in {}; --unit says which",
+                  longest, longest * fit[0]->metres, fit[0]->name, longest * fit[1]->metres, fit[1]->name));
+}
+
+/// How much wider she is a fifth of the height below this end than near it: from face to shoulders about
+/// double.
+double widening(const Points& points, const Spread& spread, int axis, bool from_top) {
+  const auto width = [&](double near, double far) {
+    Points slab;
+    for (const Vector3d& p : points) {
+      const double share = (p[axis] - spread.low[axis]) / spread.extent[axis];
+      const double depth = from_top ? 1 - share : share;
+      if (depth >= near && depth <= far) slab.push_back(p);
+    }
+    if (slab.size() < 10) return 0.0;
+    Vector3d mean = Vector3d::Zero();
+    for (const Vector3d& p : slab) mean += p / static_cast<double>(slab.size());
+    double sum = 0;
+    for (Vector3d p : slab) {
+      p -= mean;
+      p[axis] = 0;
+      sum += p.squaredNorm();
+    }
+    return std::sqrt(sum / static_cast<double>(slab.size()));
+  };
+  const double end = width(0.04, 0.10);
+  return end > 0 ? width(0.17, 0.23) / end : 0;
+}
+
+Refusal two_axes(const std::string& a, const std::string& b) {
+  return {refusal::kWrongAxes,
+          fmt::format("the body could stand with {} or with {} up; --up says which", a, b)};
+}
+
+std::string up_of(const Points& points, const Spread& spread, const Kind& kind, double metres) {
+  const double longest = spread.extent.maxCoeff();
+  const bool whole = longest * metres >= kShortest && longest * metres <= kTallest;
+  if (!whole) return kind.usual_up.empty() ? "z" : kind.usual_up;
+  if (!kind.surface && spread.extent.z() >= kUpright * longest) return "z";
+  std::vector<std::pair<double, std::string>> ends;
+  for (const char* up : kAxes) {
+    const int axis = axis_of(up);
+    if (spread.extent[axis] >= kAsLong * longest)
+      ends.emplace_back(widening(points, spread, axis, up[0] != '-'), up);
+  }
+  std::stable_sort(ends.begin(), ends.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (ends[0].first >= kClearly * ends[1].first) return ends[0].second;
+  for (const auto& end : ends)
+    if (end.second == kind.usual_up) return kind.usual_up;
+  throw two_axes(ends[0].second, ends[1].second);
+}
+
+}  // namespace
+
+double Reading::metres() const {
+  for (const Unit& known : kUnits)
+    if (unit == known.name) return known.metres;
+  return 1;
+}
+
+Eigen::Matrix3d Reading::turn() const {
+  // Quarter turns only, so that coordinates stay what they are.
+  const Vector3d z = direction(up);
+  const Vector3d x = axis_of(up) == 0 ? Vector3d::UnitY() : Vector3d::UnitX();
+  Eigen::Matrix3d rows;
+  rows << x.transpose(), z.cross(x).transpose(), z.transpose();
+  return rows;
+}
+
+Vector3d Reading::operator()(const Vector3d& p) const {
+  return (metres() * (turn() * p)).cast<float>().cast<double>();
+}
+
+void check_asked(const Asked& asked) {
+  const auto is_known = [&](const Unit& unit) { return asked.unit == unit.name; };
+  if (!asked.unit.empty() && std::none_of(std::begin(kUnits), std::end(kUnits), is_known))
+    throw Refusal(refusal::kBadOption, "'" + asked.unit + "' is no unit: m, cm, mm, inch");
+  if (!asked.up.empty() && std::find(std::begin(kAxes), std::end(kAxes), asked.up) == std::end(kAxes))
+    throw Refusal(refusal::kBadOption, "'" + asked.up + "' is no axis: x, y, z, -x, -y, -z");
+}
+
+Reading infer_reading(const Points& points, const Kind& kind, const Asked& asked) {
+  check_asked(asked);
+  Reading reading;
+  const Spread spread = spread_of(points);
+  reading.unit = asked.unit.empty() ? unit_of(spread) : asked.unit;
+  reading.up = asked.up.empty() ? up_of(points, spread, kind, reading.metres()) : asked.up;
+  return reading;
+}
+
+}  // namespace tensegric_fit::mesh_files

@@ -1,0 +1,240 @@
+// Meshes from files: the same shape from every format; odd and hostile files are refused by name.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "geometry/status.hpp"
+#include "mesh_files/frame.hpp"
+#include "mesh_files/glb.hpp"
+#include "mesh_files/maker_files.hpp"
+#include "mesh_files/read_mesh.hpp"
+#include "mesh_files/samples.hpp"
+
+namespace tensegric_fit::mesh_files {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+using geometry::TriangleMesh;
+using nlohmann::json;
+
+TriangleMesh tetrahedron() {
+  return {{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+}
+
+const std::string kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+class MeshFile : public ::testing::Test {
+ protected:
+  MeshFile() { fs::create_directories(folder_); }
+  ~MeshFile() override { fs::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    return (folder_ / name).string();
+  }
+
+  std::string refusal_of(const std::string& name, const std::string& bytes) const {
+    try {
+      read_mesh(write(name, bytes));
+    } catch (const geometry::Refusal& refusal) {
+      EXPECT_NE(std::string(refusal.what()).find(name), std::string::npos) << refusal.what();
+      return refusal.code();
+    }
+    return "accepted";
+  }
+
+  fs::path folder_ = fs::temp_directory_path() / ("tensegric_mesh_files_" + std::to_string(getpid()));
+};
+
+std::string number(std::uint32_t value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+/// A GLB of the tetrahedron whose JSON a test may spoil.
+struct Glb {
+  json text;
+  std::string data;
+
+  Glb() {
+    const std::string bytes = glb_bytes({{"body", tetrahedron()}});
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, sizeof length);
+    text = json::parse(bytes.substr(20, length));
+    data = bytes.substr(28 + length);
+  }
+
+  std::string bytes() const {
+    std::string t = text.dump();
+    t.resize((t.size() + 3) / 4 * 4, ' ');
+    return "glTF" + number(2) + number(static_cast<std::uint32_t>(28 + t.size() + data.size())) +
+           number(static_cast<std::uint32_t>(t.size())) + "JSON" + t +
+           number(static_cast<std::uint32_t>(data.size())) + std::string("BIN\0", 4) + data;
+  }
+};
+
+TEST_F(MeshFile, EveryFormatHasTheShape) {
+  const TriangleMesh mesh = tetrahedron();
+  for (const auto& [name, bytes, unit] : {std::tuple("a.OBJ", obj_text(mesh, "body"), 1e-3),
+                                          {"a.stl", stl_bytes(mesh), 1e-3},
+                                          {"a.glb", glb_bytes({{"body", mesh}}), 1.0}}) {
+    const TriangleMesh read = read_mesh(write(name, bytes));
+    ASSERT_EQ(read.vertices.size(), 4U) << name;
+    EXPECT_TRUE(geometry::is_closed(read)) << name;
+    EXPECT_NEAR(unit * unit * unit * geometry::cone_volume(read.vertices, read.triangles), 1, 1e-6) << name;
+    const auto box = geometry::bounding_box(read.vertices);
+    EXPECT_NEAR((unit * (box[1] - box[0]) - y_up({1, 2, 3})).norm(), 0, 1e-6) << name;
+  }
+}
+
+TEST_F(MeshFile, ObjWaysToWriteAFace) {
+  const std::string text =
+      "mtllib ../../etc/passwd\r\no a\n" + kCorners +
+      "v 1 1 0 0.5 0.5 0.5\nvt 0 0\nvn 0 0 1\nusemtl b\nf 1/1/1 2//1 4/1 \\\n 3\nf -4 -3 -1\n";
+  const TriangleMesh mesh = read_mesh(write("faces.obj", text));
+  EXPECT_EQ(mesh.triangles.size(), 3U);
+  EXPECT_EQ(mesh.vertices.size(), 4U);
+}
+
+TEST_F(MeshFile, AsciiStlAndBinaryStlThatSaysSolid) {
+  const std::string facet =
+      " facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1e0 0 0\n vertex 0 1 0\n endloop\n "
+      "endfacet\n";
+  EXPECT_EQ(read_mesh(write("a.stl", "solid x\n" + facet + "endsolid x\n")).triangles.size(), 1U);
+  std::string binary = stl_bytes(tetrahedron());
+  binary.replace(0, 5, "solid");
+  EXPECT_EQ(read_mesh(write("b.stl", binary)).triangles.size(), 4U);
+}
+
+TEST_F(MeshFile, GltfNodesPlaceMeshesAndDataLieInTheFile) {
+  Glb glb;
+  glb.text["nodes"][0]["scale"] = {2, 2, -2};  // mirrored: the outside stays outside
+  const TriangleMesh mesh = read_mesh(write("a.glb", glb.bytes()));
+  EXPECT_NEAR(geometry::cone_volume(mesh.vertices, mesh.triangles), 8, 1e-6);
+  json three{
+      {"asset", {{"version", "2.0"}}},
+      {"buffers",
+       {{{"byteLength", 36}, {"uri", "data:a/b;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}}},
+      {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}}},
+      {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}}},
+      {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
+      {"nodes", {{{"mesh", 0}}}}};
+  EXPECT_EQ(read_mesh(write("a.gltf", three.dump())).triangles.size(), 1U);
+}
+
+TEST_F(MeshFile, RefusesOddTextFilesByName) {
+  EXPECT_EQ(refusal_of("nan.obj", kCorners + "v nan 0 0\nf 1 2 4\n"), "non_finite");
+  EXPECT_EQ(refusal_of("inf.obj", kCorners + "v inf 0 0\nf 1 2 4\n"), "non_finite");
+  EXPECT_EQ(refusal_of("nofaces.obj", kCorners), "bad_mesh");
+  EXPECT_EQ(refusal_of("empty.obj", ""), "bad_mesh");
+  EXPECT_EQ(refusal_of("flat.obj", kCorners + "f 1 1 1\n"), "bad_mesh");
+  EXPECT_EQ(refusal_of("zero.obj", kCorners + "f 0 1 2\n"), "bad_mesh");
+  EXPECT_EQ(refusal_of("negative.obj", kCorners + "f 1 2 -9\n"), "bad_mesh");
+  EXPECT_EQ(refusal_of("huge.obj", kCorners + "f 1 2 99999999999999999999\n"), "bad_mesh");
+  EXPECT_EQ(refusal_of("words.obj", "v a b c\n"), "broken_file");
+  EXPECT_EQ(refusal_of("corner.obj", kCorners + "f 1 2 x\n"), "broken_file");
+  EXPECT_EQ(refusal_of("short.obj", "v 0 0\n"), "broken_file");
+  EXPECT_EQ(refusal_of("a.dae", ""), "bad_option");
+  fs::resize_file(write("two_gb.obj", ""), 2UL << 30);  // sparse
+  EXPECT_THROW(read_mesh((folder_ / "two_gb.obj").string()), geometry::Refusal);
+  EXPECT_THROW(read_mesh(folder_.string() + "/not_there.obj"), geometry::Refusal);
+}
+
+TEST_F(MeshFile, RefusesOddStlByName) {
+  const std::string good = stl_bytes(tetrahedron());
+  EXPECT_EQ(refusal_of("cut.stl", good.substr(0, good.size() - 10)), "broken_file");
+  EXPECT_EQ(refusal_of("solid.stl", "solid" + good.substr(5, good.size() - 15)), "broken_file");
+  EXPECT_EQ(refusal_of("count.stl", good.substr(0, 80) + number(4000000000U) + good.substr(84)),
+            "broken_file");
+  EXPECT_EQ(refusal_of("half.stl", "solid x\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"),
+            "broken_file");
+  EXPECT_EQ(refusal_of("none.stl", "solid x\nendsolid x\n"), "bad_mesh");
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::string bad = good;
+  std::memcpy(&bad[96], &nan, sizeof nan);
+  EXPECT_EQ(refusal_of("nan.stl", bad), "non_finite");
+}
+
+TEST_F(MeshFile, RefusesGlbThatLies) {
+  const Glb good;
+  const std::string bytes = good.bytes();
+  EXPECT_EQ(refusal_of("good.glb", bytes), "accepted");
+  EXPECT_EQ(refusal_of("cut.glb", bytes.substr(0, bytes.size() - 8)), "broken_file");
+  EXPECT_EQ(refusal_of("length.glb", bytes.substr(0, 8) + number(3000000000U) + bytes.substr(12)),
+            "broken_file");
+  EXPECT_EQ(refusal_of("text.glb", bytes.substr(0, 12) + number(3000000000U) + bytes.substr(16)),
+            "broken_file");
+  EXPECT_EQ(refusal_of("deep.gltf", std::string(100000, '[')), "broken_file");
+  const auto spoilt = [&](const char* pointer, const json& value) {
+    Glb glb;
+    glb.text[json::json_pointer(pointer)] = value;
+    return refusal_of("spoilt.glb", glb.bytes());
+  };
+  EXPECT_EQ(spoilt("/accessors/0/count", 4000000000U), "broken_file");
+  EXPECT_EQ(spoilt("/accessors/0/count", std::uint64_t{1} << 63), "broken_file");
+  EXPECT_EQ(spoilt("/accessors/0/count", -5), "broken_file");
+  EXPECT_EQ(spoilt("/accessors/0/type", 5), "broken_file");
+  EXPECT_EQ(spoilt("/accessors/0/byteOffset", 4000000000U), "broken_file");
+  EXPECT_EQ(spoilt("/bufferViews/0/byteOffset", 4000000000U), "broken_file");
+  EXPECT_EQ(spoilt("/bufferViews/0/byteStride", 0), "broken_file");
+  EXPECT_EQ(spoilt("/meshes/0/primitives/0/attributes/POSITION", 77), "broken_file");
+  EXPECT_EQ(spoilt("/nodes/0/children", json::array({0, 0})), "broken_file");
+  EXPECT_EQ(spoilt("/nodes/0/matrix", json::array({1, 2})), "broken_file");
+  EXPECT_EQ(spoilt("/extensionsRequired", json::array({"KHR_draco_mesh_compression"})), "broken_file");
+  EXPECT_EQ(spoilt("/scene", 9), "broken_file");
+  Glb index;
+  const std::size_t start = index.text["bufferViews"].back()["byteOffset"];
+  index.data.replace(start, 4, number(4000000000U));
+  EXPECT_EQ(refusal_of("index.glb", index.bytes()), "bad_mesh");
+}
+
+TEST_F(MeshFile, OpensNothingElse) {
+  // The other file is there, and whole: it is refused all the same.
+  Glb glb;
+  write("other.bin", glb.data);
+  glb.text["buffers"][0]["uri"] = "other.bin";
+  try {
+    read_mesh(write("outside.glb", glb.bytes()));
+    FAIL();
+  } catch (const geometry::Refusal& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("other.bin"), std::string::npos);
+  }
+  Glb textured;
+  textured.text["images"] = json::array({{{"uri", "/not/there.png"}}});
+  EXPECT_EQ(refusal_of("textured.glb", textured.bytes()), "accepted");
+}
+
+TEST_F(MeshFile, XyzHasHeadingsAndFurtherColumns) {
+  const auto points = read_xyz(write("a.xyz", "x y z r\n1 2 3 255\r\n\n4,5;6\n"));
+  EXPECT_EQ(points, (std::vector<Vector3d>{{1, 2, 3}, {4, 5, 6}}));
+  EXPECT_THROW(read_xyz(write("b.xyz", "1 2 3\n4 5\n")), geometry::Refusal);
+}
+
+TEST(SurfaceSamples, AreEvenAndHaveNormalsWhereTheMeshHasAnOutside) {
+  TriangleMesh mesh = tetrahedron();
+  const geometry::PointCloud cloud = surface_samples(mesh, 10000);
+  ASSERT_EQ(cloud.points.size(), 10000U);
+  int on_floor = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (cloud.points[i].z() > 0) continue;
+    ++on_floor;
+    EXPECT_NEAR(cloud.normals[i].z(), -1, 1e-9);
+  }
+  EXPECT_NEAR(on_floor / 10000.0, 1 / (1 + 1.5 + 3 + 3.5), 1e-3);  // by area
+  for (Eigen::Vector3i& t : mesh.triangles) std::swap(t[0], t[1]);
+  EXPECT_EQ(surface_samples(mesh, 100).normals.size(), 100U);  // all reversed: known from the volume
+  const geometry::PointCloud reversed = surface_samples(mesh, 100);
+  for (std::size_t i = 0; i < 100; ++i)
+    if (reversed.points[i].z() == 0) {
+      EXPECT_NEAR(reversed.normals[i].z(), -1, 1e-9);
+    }
+  std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
+  EXPECT_TRUE(surface_samples(mesh, 100).normals.empty());
+}
+
+}  // namespace
+}  // namespace tensegric_fit::mesh_files
