@@ -1,5 +1,7 @@
 #include "inspect/fit_model.hpp"
 
+#include <algorithm>
+
 #include "inspect/colours.hpp"
 #include "mesh_files/glb.hpp"
 
@@ -8,35 +10,63 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr char kMorph[] = "under_garment";
-constexpr double kTube = 0.004;  // m: a line lies on the skin, and half of the tube in it
-constexpr Colour kLine{59, 47, 42};
+constexpr char kMorph[] = "under the garment";
+constexpr double kTubeRadius = 0.004;  // m: a line lies on the skin, and half of the tube in it
+constexpr int kTubePoints = 200;
+constexpr Colour kTubeColour{40, 40, 48};
 
-Points in_body_frame(const Eigen::Isometry3d& body_from_scan, Points points) {
-  for (Eigen::Vector3d& p : points) p = body_from_scan * p;
+Points moved(Points points, const Eigen::Isometry3d& motion) {
+  for (Eigen::Vector3d& p : points) p = motion * p;
   return points;
+}
+
+// As many points for a line before and after, in even steps.
+Points in_steps(const Points& line, int count) {
+  std::vector<double> reached{0};
+  for (std::size_t i = 1; i < line.size(); ++i)
+    reached.push_back(reached.back() + (line[i] - line[i - 1]).norm());
+  Points result;
+  std::size_t i = 0;
+  for (int k = 0; k < count; ++k) {
+    const double at = reached.back() * k / (count - 1);
+    while (i + 2 < line.size() && reached[i + 1] < at) ++i;
+    const double step = reached[i + 1] - reached[i];
+    const double share = step > 0 ? std::clamp((at - reached[i]) / step, 0.0, 1.0) : 0;
+    result.push_back(line[i] + share * (line[i + 1] - line[i]));
+  }
+  return result;
+}
+
+mesh_files::GlbMesh body_of(const FitModel& model) {
+  mesh_files::GlbMesh body{"body",
+                           {moved(model.before.vertices, model.body_from_scan), model.before.triangles}};
+  if (model.after.empty()) {
+    body.colour = kNeutral;
+    return body;
+  }
+  body.colours = distortion_colours(model.distortion);
+  body.scalars = {{"_DISTORTION", {model.distortion.begin(), model.distortion.end()}}};
+  body.morphs = {{kMorph, moved(model.after, model.body_from_scan)}};
+  body.extras = {{"distortion", "skin area under the garment / before"},
+                 {"distortion_colours", {kTightest, 1, kLoosest}}};
+  return body;
 }
 
 }  // namespace
 
-std::string fit_glb(const FitScene& scene) {
-  const Eigen::Isometry3d& frame = scene.measures.body_from_scan;
-  mesh_files::GlbMesh body;
-  body.name = "body";
-  body.shape = {in_body_frame(frame, scene.before.vertices), scene.before.triangles};
-  body.colours = distortion_colours(scene.distortion);
-  body.scalars = {{"_DISTORTION", {scene.distortion.begin(), scene.distortion.end()}}};
-  body.morphs = {{kMorph, in_body_frame(frame, scene.after)}};
-  std::vector<mesh_files::GlbMesh> meshes{std::move(body)};
-  for (std::size_t i = 0; i < scene.lines_before.size(); ++i) {
-    const Points &before = scene.lines_before[i], &after = scene.lines_after[i];
-    if (before.size() < 2 || before.size() != after.size()) continue;
-    mesh_files::GlbMesh line;
-    line.name = "line " + std::to_string(i);
-    line.shape = mesh_files::tube(in_body_frame(frame, before), kTube);
-    line.morphs = {{kMorph, mesh_files::tube(in_body_frame(frame, after), kTube).vertices}};
-    line.colour = kLine;
-    meshes.push_back(std::move(line));
+std::string fit_glb(const FitModel& model) {
+  std::vector<mesh_files::GlbMesh> meshes{body_of(model)};
+  for (const ModelLine& line : model.lines) {
+    if (line.before.size() < 2 || line.after.size() < 2) continue;
+    const auto tube = [&](const Points& course) {
+      return mesh_files::tube(in_steps(moved(course, model.body_from_scan), kTubePoints), kTubeRadius);
+    };
+    mesh_files::GlbMesh mesh{"line " + line.name, tube(line.before)};
+    mesh.morphs = {{kMorph, tube(line.after).vertices}};
+    mesh.colour = kTubeColour;
+    mesh.extras = {
+        {"line", line.name}, {"initial", line.initial}, {"final", line.final}, {"tension", line.tension}};
+    meshes.push_back(std::move(mesh));
   }
   return mesh_files::glb_bytes(meshes);
 }

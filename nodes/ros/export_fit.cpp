@@ -67,6 +67,15 @@ inspect::FitScene scene_of(const FitFigures& figures) {
   return scene;
 }
 
+inspect::FitModel model_of(const FitFigures& figures) {
+  inspect::FitModel model{figures.body, figures.deformed, figures.distortion,
+                          figures.measures.body_from_scan};
+  for (const LineResult& line : figures.scan.fit->lines)
+    model.lines.push_back({line.name, points_in(line.course_at_rest), points_in(line.course), line.initial,
+                           line.final, line.tension});
+  return model;
+}
+
 std::vector<FileContent> contents_of(const FitFigures& figures) {
   const geometry::TriangleMesh deformed{figures.deformed, figures.body.triangles};
   const auto& cells = figures.control.triangles;
@@ -75,7 +84,7 @@ std::vector<FileContent> contents_of(const FitFigures& figures) {
   const FileContent front = png("front.png", inspect::front_picture(scene)),
                     side = png("side.png", inspect::side_picture(scene)),
                     distortion = png("distortion.png", inspect::distortion_picture(scene)),
-                    model{"fit.glb", inspect::fit_glb(scene)};
+                    model{"fit.glb", inspect::fit_glb(model_of(figures))};
   return {{kFitDocument, fit_json(figures, {kFiles.begin(), kFiles.end()})},
           {"measurements.csv", measurements_csv(figures)},
           {"body.ply", geometry::ply_bytes(figures.body)},
