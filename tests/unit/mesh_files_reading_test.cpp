@@ -33,7 +33,7 @@ Points figure(double arms_out = 0.1) {
   return points;
 }
 
-constexpr Kind kMesh{true, ""};
+const Kind kMesh{true, ""};
 
 TEST(Reading, FindsUnitAndAxes) {
   for (const char* unit : {"m", "cm", "mm", "inch"}) {
