@@ -180,11 +180,11 @@ TEST_F(ScanFileTest, HeadersThatPromiseTooMuchAreRefusedBeforeMemoryIsTaken) {
 }
 
 TEST_F(ScanFileTest, OtherFilesAreRefusedByName) {
-  EXPECT_EQ(refusal_of(text_file("scan.xyz", "0 0 0\n")), geometry::refusal::kBadOption);
+  EXPECT_EQ(refusal_of(text_file("scan.txt", "0 0 0\n")), geometry::refusal::kBadOption);
   EXPECT_EQ(refusal_of(text_file("scan", "0 0 0\n")), geometry::refusal::kBadOption);
   for (const char* name : {"text.ply", "text.pcd", "text.bag"})
     EXPECT_EQ(refusal_of(text_file(name, "this is no scan\n")), geometry::refusal::kBrokenFile) << name;
-  for (const char* name : {"absent.ply", "absent.pcd", "absent.bag"})
+  for (const char* name : {"absent.ply", "absent.pcd", "absent.bag", "absent.xyz", "absent.obj"})
     EXPECT_EQ(refusal_of(file(name)), geometry::refusal::kBrokenFile) << name;
 }
 
