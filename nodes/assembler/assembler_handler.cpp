@@ -14,6 +14,7 @@ namespace tensegric_fit::node {
 namespace {
 
 using geometry::Refusal;
+using Fate = assembler::CaptureJoin::Fate;
 namespace refusal = geometry::refusal;
 
 Eigen::Isometry3d isometry(const geometry_msgs::Transform& transform) {
@@ -42,8 +43,13 @@ void AssemblerHandler::add(int sensor, const sensor_msgs::PointCloud2& message, 
     pcl_conversions::toPCL(message, cloud);
     const auto seen = std::make_shared<const assembler::SensorCloud>(assembler::SensorCloud{
         message.header.stamp.toNSec(), message.header.frame_id, geometry::points_of(cloud)});
-    if (join_.add(sensor, seen, now) == assembler::CaptureJoin::Fate::late)
+    const Fate fate = join_.add(sensor, seen, now);
+    if (fate == Fate::late)
       throw Refusal(refusal::kLateCloud, "the cloud came after its capture, or a newer one, had left");
+    if (fate == Fate::played)
+      throw Refusal(refusal::kLateCloud,
+                    "a scan was made of this cloud already; to play a recording again, start the assembler "
+                    "again");
   } catch (const Refusal& refused) {
     throw Refusal(refused.code(), setup_.sensors[sensor] + ": " + refused.what());
   }

@@ -38,7 +38,7 @@ CaptureJoin::Fate CaptureJoin::add(int sensor, std::shared_ptr<const SensorCloud
   const std::uint64_t stamp = cloud->stamp;
   if (left_) {
     const auto& sent = left_->clouds[sensor];
-    if (sent && sent->stamp == stamp) return Fate::repeated;
+    if (sent && sent->stamp == stamp) return Fate::played;
     if (open_.empty() && stamp + kStartedOver < left_->first)
       left_.reset();
     else if (stamp <= left_->last || (!sent && fits(*left_, stamp)))

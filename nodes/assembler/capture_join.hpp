@@ -42,7 +42,8 @@ class CaptureJoin {
   enum class Fate {
     taken,
     late,      ///< its capture, or a newer one, has left already
-    repeated,  ///< its sensor has sent a cloud of that stamp before
+    repeated,  ///< its sensor has sent it before, and its capture still waits for others
+    played,    ///< its capture has left with it: a recording that is played again, or a latched sensor
   };
 
   /// \throw Refusal bad_option naming the option and its range

@@ -52,6 +52,16 @@ reconstruction::Anatomy shipped_anatomy() {
           registrar.standing()};
 }
 
+std::string lacks_of(const std_msgs::Header& header) {
+  std::string words;
+  if (header.stamp.isZero())
+    words = "no_stamp: the scan says not when it was seen; let the driver stamp it, or equal scans are one. ";
+  if (header.frame_id.empty())
+    words += "no_frame: the scan names no frame and is taken to be in 'scan'; set the driver's frame_id. ";
+  if (!words.empty()) words.pop_back();
+  return words;
+}
+
 ReconstructionHandler::ReconstructionHandler(Parameters parameters)
     : options_(reconstruction_options(parameters)), anatomy_(shipped_anatomy()) {
   parameters.check_all_known();

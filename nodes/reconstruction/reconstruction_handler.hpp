@@ -6,6 +6,7 @@
 #include <tensegric_fit/TriangleMesh.h>
 
 #include <memory>
+#include <string>
 
 #include "reconstruction/reconstruct.hpp"
 #include "ros/facts.hpp"
@@ -19,6 +20,10 @@ reconstruction::Options reconstruction_options(Parameters& parameters);
 
 /// The shipped body model, loaded now. \throw Refusal broken_file
 reconstruction::Anatomy shipped_anatomy();
+
+/// What a scan's header lacks, named (`no_stamp`, `no_frame`), with what to do about it; "" where nothing.
+/// The scan is taken all the same.
+std::string lacks_of(const std_msgs::Header& header);
 
 class ReconstructionHandler {
  public:

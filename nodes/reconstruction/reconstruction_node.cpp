@@ -29,7 +29,7 @@ class ReconstructionNode {
                 mesh_.publish(output.mesh);
                 show(output.result, output.mesh->header);
               },
-              output.facts};
+              output.facts, lacks_of(scan->header)};
     });
   }
 

@@ -74,6 +74,11 @@ bool is_scan_name(const std::string& path) {
          mesh_files::is_mesh_name(path);
 }
 
+bool is_companion_name(const std::string& path) {
+  const std::string ending = mesh_files::ending_of(path);
+  return ending == ".mtl" || ending == ".png" || ending == ".jpg" || ending == ".jpeg";
+}
+
 ScanFile read_scan_file(const std::string& path) {
   const std::string ending = mesh_files::ending_of(path);
   ScanFile scan;

@@ -15,6 +15,8 @@ namespace tensegric_fit::scan_files {
 /// Whether a file of that name can be a scan, by its ending, in either case: .ply, .pcd, .xyz, .bag, .obj,
 /// .stl, .glb, .gltf.
 bool is_scan_name(const std::string& path);
+/// Whether it comes with a mesh and is not read: materials, textures.
+bool is_companion_name(const std::string& path);
 
 /// A file's points, in its own unit and axes; the fields are as the file has them, of a mesh x y z and, where
 /// its triangles run alike, normals. geometry::points_of checks them.

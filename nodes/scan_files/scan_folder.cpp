@@ -5,7 +5,6 @@
 #include <set>
 
 #include "geometry/status.hpp"
-#include "scan_files/scan_file.hpp"
 
 namespace tensegric_fit::scan_files {
 
@@ -16,8 +15,8 @@ std::map<std::string, ScanFolder::Version> ScanFolder::look() const {
   try {
     for (const fs::directory_entry& entry : fs::directory_iterator(path_)) {
       const std::string name = entry.path().filename().string();
-      if (name.front() == '.' || !is_scan_name(name)) continue;
-      std::error_code gone;  // meanwhile: not a scan
+      if (name.front() == '.') continue;
+      std::error_code gone;  // meanwhile
       const bool regular = entry.is_regular_file(gone);
       const std::uintmax_t size = entry.file_size(gone);
       const fs::file_time_type changed = entry.last_write_time(gone);

@@ -8,9 +8,9 @@
 
 namespace tensegric_fit::scan_files {
 
-/// Finds new scan files (.ply, .pcd, .bag; not those whose name begins with a dot) once they are complete:
-/// when neither size nor time of change have moved for a while. A file that is written again is a new one.
-/// For one thread.
+/// Finds new files (not those whose name begins with a dot; whether they are scans is_scan_name says) once
+/// they are complete: when neither size nor time of change have moved for a while. A file that is written
+/// again is a new one. For one thread.
 class ScanFolder {
  public:
   /// `settle`: seconds for which a complete file has been still.

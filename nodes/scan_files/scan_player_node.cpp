@@ -96,7 +96,12 @@ class ScanPlayer {
     try {
       const std::vector<std::string> complete = folder_->poll(ros::SteadyTime::now().toSec());
       if (complete.empty()) return;
-      files_.insert(files_.end(), complete.begin(), complete.end());
+      for (const std::string& path : complete)
+        if (scan_files::is_scan_name(path))
+          files_.push_back(path);
+        else if (!scan_files::is_companion_name(path))
+          stage_.drop(path, geometry::Refusal(geometry::refusal::kBrokenFile,
+                                              path + ": scans are not read from files of this type"));
       remember();
     } catch (const geometry::Refusal& refusal) {
       stage_.drop("", refusal);

@@ -145,6 +145,14 @@ TEST_F(AssemblerTest, CapturesThatCrossEachOtherAreNotMixed) {
   EXPECT_EQ(booth_.facts["state"], "done");  // as before the late cloud
 }
 
+TEST_F(AssemblerTest, ARecordingPlayedAgainIsNamed) {
+  booth_.send_all("a", 250);
+  ASSERT_TRUE(booth_.scanned(1));
+  booth_.send_all("a", 250);
+  EXPECT_TRUE(booth_.says("late_cloud", "to play a recording again"));
+  EXPECT_EQ(booth_.scans.size(), 1u);
+}
+
 TEST_F(AssemblerTest, AMissingSensorIsNamedInTimeAndTheNextCaptureWorks) {
   const ros::WallTime start = ros::WallTime::now();
   booth_.send_all("a", 300, 4);

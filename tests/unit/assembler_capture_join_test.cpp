@@ -74,7 +74,18 @@ TEST(CaptureJoinTest, ASensorThatFiresTwiceWithinTheSlopBeginsAnotherCapture) {
   ASSERT_TRUE(first && second);
   EXPECT_EQ(first->last, kStart + kSecond / 100);
   EXPECT_EQ(second->first, kStart + 3 * kSecond / 10);
-  EXPECT_EQ(join.add(1, cloud(0.31), 0), Fate::repeated);
+  EXPECT_EQ(join.add(1, cloud(0.31), 0), Fate::played);
+}
+
+TEST(CaptureJoinTest, ARecordingPlayedAgainIsSaidForEverySensor) {
+  constexpr int kSensors = 12;
+  CaptureJoin join(kSensors, {0.2, 2.0});
+  for (int sensor = 0; sensor < kSensors; ++sensor)
+    EXPECT_EQ(join.add(sensor, cloud(0.01 * sensor), 0), Fate::taken);
+  ASSERT_TRUE(join.next(0));
+  for (int sensor = 0; sensor < kSensors; ++sensor)
+    EXPECT_EQ(join.add(sensor, cloud(0.01 * sensor), 30), Fate::played);
+  EXPECT_FALSE(join.next(100));
 }
 
 TEST(CaptureJoinTest, ARecordingThatStartsOverIsTakenAgain) {

@@ -37,6 +37,16 @@ std::string refusal_of(const Read& read) {
   return "accepted";
 }
 
+TEST(ReconstructionHandler, NamesWhatAHeaderLacks) {
+  std_msgs::Header header;
+  EXPECT_EQ(lacks_of(header).rfind("no_stamp: ", 0), 0u);
+  EXPECT_NE(lacks_of(header).find(" no_frame: "), std::string::npos);
+  header.frame_id = "booth";
+  EXPECT_EQ(lacks_of(header).find("no_frame"), std::string::npos);
+  header.stamp = ros::Time(1);
+  EXPECT_EQ(lacks_of(header), "");
+}
+
 TEST(Parameters, FromAFileAreReadAndCheckedLikeThoseOfANode) {
   Parameters given = parameters("{count: 7, size: 2, exact: true, word: b, name: '12', way: [0, 0.5, -1]}");
   EXPECT_EQ(given.integer("count", 1, {0, 10}), 7);

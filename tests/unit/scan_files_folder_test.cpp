@@ -72,13 +72,13 @@ TEST_F(ScanFolderTest, RenamedInIsNewAndWrittenAgainIsNew) {
   EXPECT_EQ(played(folder, 4), "a.ply");
 }
 
-TEST_F(ScanFolderTest, WhatIsNoScanIsLeftOut) {
+TEST_F(ScanFolderTest, OtherFilesAreNamedAndWhatIsHiddenOrNoFileIsNot) {
   ScanFolder folder(root_, 1);
   for (const char* name : {".hidden.ply", "readme.txt", "ply", "a.ply.part"}) write(name, "text");
   fs::create_directories(root_ / "folder.ply");
   fs::create_symlink(root_ / "nowhere", root_ / "dangling.ply");
   played(folder, 0);
-  EXPECT_EQ(played(folder, 5), "");
+  EXPECT_EQ(played(folder, 5), "readme.txt ply a.ply.part");
 }
 
 TEST_F(ScanFolderTest, AnotherLifeGoesOnWhereTheFirstEnded) {
