@@ -257,11 +257,11 @@ class WatchedFolderTest : public testing::Test {
     std::ofstream(path, std::ios::app) << text;
   }
 
-  /// An ASCII scan of that many points.
+  /// An ASCII scan of that many points, as high as a person: another height would be another unit.
   static std::string ply(int points) {
     std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(points) +
                        "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
-    for (int i = 0; i < points; ++i) text += "0 0 " + std::to_string(i) + "\n";
+    for (int i = 0; i < points; ++i) text += "0 0 " + std::to_string(1.7 * i / points) + "\n";
     return text;
   }
 
