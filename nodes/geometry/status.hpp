@@ -23,9 +23,11 @@ inline constexpr char kBadMesh[] = "bad_mesh";          ///< indices out of rang
 inline constexpr char kBadGarment[] = "bad_garment";    ///< garment YAML: unknown key, value out of range
 inline constexpr char kUnknownLine[] =
     "unknown_line";  ///< a line or node that the control mesh does not have
-inline constexpr char kBadTemplate[] = "bad_template";      ///< control mesh template YAML
-inline constexpr char kBadOption[] = "bad_option";          ///< an option or parameter out of range
-inline constexpr char kCannotWrite[] = "cannot_write";      ///< a folder that is read-only, full or missing
+inline constexpr char kBadTemplate[] = "bad_template";  ///< control mesh template YAML
+inline constexpr char kBadOption[] = "bad_option";      ///< an option or parameter out of range
+inline constexpr char kCannotWrite[] = "cannot_write";  ///< a folder that is read-only, full or missing
+inline constexpr char kSurfaceFailed[] =
+    "surface_failed";  ///< the process that makes the surface crashed or took too much
 inline constexpr char kMissingSensor[] = "missing_sensor";  ///< a sensor of the booth sent nothing in time
 inline constexpr char kLateCloud[] =
     "late_cloud";  ///< a sensor's cloud came after its capture had been published

@@ -1,76 +1,87 @@
 #include "reconstruction/poisson.hpp"
 
-#include <fcntl.h>
-#include <pcl/point_types.h>
-#include <pcl/surface/poisson.h>
-#include <unistd.h>
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <string>
 
-#include <cstdio>
-#include <mutex>
+#include "geometry/status.hpp"
+#include "reconstruction/poisson_protocol.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
 
-constexpr float kSamplesPerNode = 4;  // cells as deep as the points are dense
-constexpr int kFullDepth = 4;         // the octree is complete down to here, also where there are no points
+using geometry::Refusal;
+namespace refusal = geometry::refusal;
 
-/// PCL prints to standard output, which belongs to the program's user: it goes nowhere while one lives.
-class QuietOutput {
- public:
-  QuietOutput() {
-    std::fflush(stdout);
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (nowhere < 0) return;
-    output_ = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
-    if (output_ >= 0) dup2(nowhere, STDOUT_FILENO);
-    close(nowhere);
-  }
-  ~QuietOutput() {
-    if (output_ < 0) return;
-    std::fflush(stdout);
-    dup2(output_, STDOUT_FILENO);
-    close(output_);
-  }
-  QuietOutput(const QuietOutput&) = delete;
-  QuietOutput& operator=(const QuietOutput&) = delete;
+template <typename T>
+void append(std::string& bytes, const T& value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
 
- private:
-  int output_ = -1;
-};
+/// Values in the order in which they were written. \pre `bytes` has them
+template <typename T>
+T take(const std::string& bytes, std::size_t& at) {
+  T value;
+  std::memcpy(&value, bytes.data() + at, sizeof(value));
+  at += sizeof(value);
+  return value;
+}
+
+std::string request(const geometry::PointCloud& cloud, int depth, std::size_t limit) {
+  std::string bytes;
+  bytes.reserve(sizeof(PoissonRequest) + cloud.points.size() * 6 * sizeof(float));
+  append(bytes, PoissonRequest{limit, cloud.points.size(), depth});
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    for (const Eigen::Vector3d& v : {cloud.points[i], cloud.normals[i]})
+      for (int axis = 0; axis < 3; ++axis) append(bytes, static_cast<float>(v[axis]));
+  return bytes;
+}
+
+geometry::TriangleMesh mesh_of(const std::string& bytes) {
+  std::size_t at = 0;
+  PoissonAnswer size{};
+  if (bytes.size() >= sizeof(size)) size = take<PoissonAnswer>(bytes, at);
+  const std::size_t item = 3 * sizeof(float);
+  if (bytes.size() != sizeof(size) + item * (size.vertices + size.triangles))
+    throw ChildFailure("gave half an answer");
+  geometry::TriangleMesh mesh;
+  mesh.vertices.reserve(size.vertices);
+  for (std::size_t i = 0; i < size.vertices; ++i) {
+    const auto v = take<std::array<float, 3>>(bytes, at);
+    mesh.vertices.emplace_back(v[0], v[1], v[2]);
+  }
+  mesh.triangles.reserve(size.triangles);
+  for (std::size_t i = 0; i < size.triangles; ++i) {
+    const auto t = take<std::array<std::int32_t, 3>>(bytes, at);
+    mesh.triangles.emplace_back(t[0], t[1], t[2]);
+  }
+  return mesh;
+}
+
+/// Beside the program, wherever that is.
+std::string worker_program() {
+  return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "poisson_worker").string();
+}
+
+Refusal failed(const ChildFailure& failure) {
+  const std::string why = failure.exit_code == kOutOfMemory ? "ran out of memory" : failure.what();
+  return Refusal(refusal::kSurfaceFailed, "the process that makes the surface " + why);
+}
 
 }  // namespace
 
-geometry::TriangleMesh poisson_surface(const geometry::PointCloud& cloud, int depth) {
-  const auto input = pcl::make_shared<pcl::PointCloud<pcl::PointNormal>>();
-  input->reserve(cloud.points.size());
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const Eigen::Vector3f p = cloud.points[i].cast<float>(), n = cloud.normals[i].cast<float>();
-    input->emplace_back(p.x(), p.y(), p.z(), n.x(), n.y(), n.z());
+PoissonWorker::PoissonWorker(const PoissonLimits& limits) try : limits_(limits), process_(worker_program()) {
+} catch (const ChildFailure& failure) {
+  throw failed(failure);
+}
+
+geometry::TriangleMesh PoissonWorker::surface(const geometry::PointCloud& cloud, int depth) {
+  try {
+    return mesh_of(process_.answer(request(cloud, depth, limits_.bytes), limits_.seconds));
+  } catch (const ChildFailure& failure) {
+    throw failed(failure);
   }
-  pcl::PointCloud<pcl::PointNormal> vertices;
-  std::vector<pcl::Vertices> faces;
-  {
-    static std::mutex one_at_a_time;
-    const std::lock_guard<std::mutex> lock(one_at_a_time);
-    const QuietOutput quiet;
-    pcl::Poisson<pcl::PointNormal> poisson;
-    poisson.setDepth(depth);
-    poisson.setMinDepth(kFullDepth);
-    poisson.setSamplesPerNode(kSamplesPerNode);
-    poisson.setSolverDivide(depth);  // whole, not in blocks: those save memory and cost time
-    poisson.setIsoDivide(depth);
-    poisson.setThreads(1);
-    poisson.setInputCloud(input);
-    poisson.reconstruct(vertices, faces);
-  }
-  geometry::TriangleMesh mesh;
-  mesh.vertices.reserve(vertices.size());
-  for (const pcl::PointNormal& v : vertices) mesh.vertices.emplace_back(v.x, v.y, v.z);
-  mesh.triangles.reserve(faces.size());
-  for (const pcl::Vertices& face : faces)
-    mesh.triangles.emplace_back(static_cast<int>(face.vertices[0]), static_cast<int>(face.vertices[1]),
-                                static_cast<int>(face.vertices[2]));
-  return mesh;
 }
 
 }  // namespace tensegric_fit::reconstruction

@@ -230,7 +230,8 @@ void stand(Person& person, RegisteredBody& model, const body_model::Standing& st
   person.from_scan = to_ground * person.from_scan;
 }
 
-BodyMesh surface_of(const Person& person, const Options& options, const RegisteredBody& model) {
+BodyMesh surface_of(const Person& person, const Options& options, const RegisteredBody& model,
+                    PoissonWorker& poisson) {
   PointCloud body = person.cloud;
   const std::size_t seen = body.points.size();
   // 1. Skin where no sensor sees but the shape is known.
@@ -242,7 +243,7 @@ BodyMesh surface_of(const Person& person, const Options& options, const Register
     return std::make_unique<const geometry::PointTree>(body.points);
   });
   TriangleMesh mesh = one_closed_surface(
-      poisson_surface(thinned(body, fine_heights(body.points, options)), options.poisson_depth));
+      poisson.surface(thinned(body, fine_heights(body.points, options)), options.poisson_depth));
   mesh = without_handles(mesh, kLongestLoop);
   if (const double cell = cell_width(body.points, options.poisson_depth); cell < kFineCell)
     mesh = geometry::without_short_edges(mesh, kSliver * cell);
@@ -268,9 +269,11 @@ BodyMesh surface_of(const Person& person, const Options& options, const Register
 
 Reconstruction reconstruct(const PointCloud& scan, const Options& options, const Anatomy& anatomy) {
   Person person = find_person(scan, options);
+  PoissonWorker poisson;
   RegisteredBody model = registered(person, anatomy);
   stand(person, model, anatomy.standing);
-  Reconstruction result{surface_of(person, options, model), moved(model, person.from_scan.inverse())};
+  Reconstruction result{surface_of(person, options, model, poisson),
+                        moved(model, person.from_scan.inverse())};
   return result;
 }
 
