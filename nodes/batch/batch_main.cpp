@@ -1,11 +1,10 @@
-#include <sys/stat.h>
-
 #include <CLI/CLI.hpp>
 #include <thread>
 
 #include "batch/merge.hpp"
 #include "batch/run_batch.hpp"
 #include "batch/worker.hpp"
+#include "files/owner_only.hpp"
 
 namespace {
 
@@ -79,7 +78,7 @@ int batch_main(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  umask(S_IRWXG | S_IRWXO);  // measures of persons are for who asked for them
+  tensegric_fit::files::owner_only();
   const std::string word = argc > 1 ? argv[1] : "";
   if (word == "worker" && argc == 3) return work(std::stoull(argv[2]));  // WorkerPool starts it
   return word == "merge" ? merge_main(argc - 1, argv + 1) : batch_main(argc, argv);

@@ -38,7 +38,7 @@ class Run {
   void operator()() {
     compute(line_, done_, [this](const std::string& what) { say(what); });
     say("pictures, report");
-    write_mesh("body.ply", done_.body.mesh.mesh);
+    write_mesh(path("body.ply"), done_.body.mesh.mesh);
     if (done_.fit) {
       write_fit(*done_.fitting, *done_.fit);
     } else {
@@ -59,12 +59,8 @@ class Run {
 
   std::string path(const std::string& name) const { return (fs::path(line_.out) / name).string(); }
 
-  void write_mesh(const std::string& name, const geometry::TriangleMesh& mesh) const {
-    geometry::write_ply_mesh(path(name), mesh);
-  }
-
   void save_picture(const std::string& name, const cv::Mat& picture) const {
-    if (!cv::imwrite(path(name), picture)) throw std::runtime_error(path(name) + ": cannot be written");
+    write_picture(path(name), picture);
   }
 
   void save_pictures(const Fitting& fitting, const Fit& fit) const {
@@ -113,9 +109,8 @@ class Run {
   void write_fit(const Fitting& fitting, const Fit& fit) {
     for (const auto& [name, nodes] :
          {std::pair{"control.ply", &fitting.control.outer}, {"control_deformed.ply", &fit.solution.outer}})
-      geometry::write_ply_mesh(path(name), {*nodes, fitting.control.triangles}, {},
-                               geometry::Coordinates::float64);
-    write_mesh("deformed.ply", {fit.deformed, done_.body.mesh.mesh.triangles});
+      write_mesh(path(name), {*nodes, fitting.control.triangles}, {}, geometry::Coordinates::float64);
+    write_mesh(path("deformed.ply"), {fit.deformed, done_.body.mesh.mesh.triangles});
     write_text(path("history.csv"), history_csv(done_.body, fitting, fit.solution));
     save_pictures(fitting, fit);
   }

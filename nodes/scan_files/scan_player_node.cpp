@@ -135,7 +135,7 @@ class ScanPlayer {
     scan.header.frame_id = setup_.frame_id;
     publisher_.publish(scan);
     next_ = ros::SteadyTime::now().toSec() + (setup_.rate > 0 ? 1 / setup_.rate : setup_.interval);
-    ROS_INFO("scan_player: scan %s, %u points", tag_of(scan).scan_id.c_str(), scan.width * scan.height);
+    ROS_INFO("scan_player: scan %s", tag_of(scan).scan_id.c_str());
   }
 
   const Setup setup_;
