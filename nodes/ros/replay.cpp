@@ -36,6 +36,7 @@ Replay::Replay(ros::NodeHandle node, const Options& options)
   keep<Landmarks>("body/landmarks", &Answer::landmarks);
   last_stage_ = "landmarks";
   if (options.measure_only) return;
+  worn_in_ = node_.subscribe<Garment>("garment", 10, [this](const Garment::ConstPtr& worn) { worn_ = worn; });
   keep<ControlMesh>("control/mesh", &Answer::control);
   keep<FitState>("control/deformed", &Answer::fit);
   keep<DeformedMesh>("body/deformed", &Answer::deformed);
@@ -98,6 +99,13 @@ bool Replay::answered() const {
          fact(last->second->status.front(), "scan_id") == scan_id_;
 }
 
+void Replay::write_input(const Garment& garment, const ros::Time& time, rosbag::Bag& out) const {
+  Garment asked = garment;
+  asked.header = {};
+  asked.header.stamp = time;  // not when it was asked for here: the same bag in, the same bag out
+  out.write("garment", time, asked);
+}
+
 void Replay::write_answer(const ros::Time& time, rosbag::Bag& out, bool whole) {
   if (whole) {
     write(out, "body/model", time, got_.model);
@@ -119,6 +127,8 @@ bool Replay::send(const sensor_msgs::PointCloud2& scan, const ros::Time& time, r
   refused_ = false;
   scans_.publish(scan);
   const bool ended = wait([this] { return answered(); });
+  if (worn_) write_input(*worn_, time, out);
+  out.write("scan/points", time, scan);
   if (got_.landmarks) wait([this] { return body_frame_ != nullptr; }, kFramePatience);
   write_answer(time, out, true);
   ROS_INFO("replay: scan %s %s", scan_id_.c_str(),
@@ -141,6 +151,7 @@ bool Replay::send(const Garment& garment, const ros::Time& time, rosbag::Bag& ou
     return false;
   }
   if (!on_scan) return true;
+  write_input(garment, time, out);
   const bool ended = wait([this] { return answered(); });
   write_answer(time, out, false);
   ROS_INFO("replay: garment '%s' %s", garment.name.c_str(), ended ? "worn" : "TIMED OUT");

@@ -30,8 +30,9 @@ class Replay {
   /// Waits until the whole chain is there. Names the topics that nobody serves; empty: none.
   std::vector<std::string> wait_for_chain();
 
-  /// Each writes what comes out to `out`, at `time`. False: it took too long, or was not understood; a
-  /// refusal is an answer, and goes to /diagnostics in `out`.
+  /// Each writes what goes in and what comes out to `out`, at `time`, so that `out` can be replayed, too.
+  /// False: it took too long, or was not understood; a refusal is an answer, and goes to /diagnostics in
+  /// `out`.
   bool send(const sensor_msgs::PointCloud2& scan, const ros::Time& time, rosbag::Bag& out);
   /// To be worn from now on, and on the scan before, if it went through.
   bool send(const Garment& garment, const ros::Time& time, rosbag::Bag& out);
@@ -47,6 +48,7 @@ class Replay {
   bool wait(const std::function<bool()>& condition) const { return wait(condition, options_.timeout); }
   bool wait(const std::function<bool()>& condition, double seconds) const;
   bool answered() const;
+  void write_input(const Garment& garment, const ros::Time& time, rosbag::Bag& out) const;
   void write_answer(const ros::Time& time, rosbag::Bag& out, bool whole);
 
   const Options options_;
@@ -54,12 +56,13 @@ class Replay {
   ros::Publisher scans_;
   ros::ServiceClient set_garment_;
   std::vector<ros::Subscriber> subscribers_;
-  ros::Subscriber diagnostics_in_, body_frame_in_;
+  ros::Subscriber diagnostics_in_, body_frame_in_, worn_in_;
 
   std::string scan_id_, last_stage_;
   ros::Time scan_stamp_;
   Answer got_;
   tf2_msgs::TFMessage::ConstPtr body_frame_;
+  Garment::ConstPtr worn_;  // as the chain says
   bool refused_ = false;
   std::map<std::string, diagnostic_msgs::DiagnosticArray::ConstPtr> diagnostics_;  // newest of each stage
 };

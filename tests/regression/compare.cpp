@@ -21,7 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kShort = 4;  // values of a field that is shown as it is
+constexpr std::size_t kShort = 4;   // values of a field that is shown as it is
+constexpr double kRounding = 1e-9;  // of metres, ratios, residuals: named last
+
 bool is_payload(const std::string& topic, const std::string& field) {
   const auto ends = [&](const std::string& ending) {
     return field.size() >= ending.size() &&
@@ -114,7 +116,7 @@ std::optional<FieldDifference> difference(const Field* one, const Field* other) 
     }
   }
   if (found.differing == 0) return std::nullopt;
-  if (one->words.empty()) found.share = largest > 0 ? std::min(1.0, found.most / largest) : 1;
+  if (one->words.empty()) found.share = found.most > kRounding ? std::min(1.0, found.most / largest) : 0;
   return found;
 }
 

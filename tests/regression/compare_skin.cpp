@@ -20,8 +20,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kPanel = 440;                                                        // pixels
-constexpr double kScales[] = {0.0001, 0.0003, 0.001, 0.003, 0.010, 0.030, 0.100};  // m
+constexpr int kPanel = 440;                                                                       // pixels
+constexpr double kScales[] = {0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.010, 0.020, 0.050};  // m
 constexpr double kSame = 1e-9;  // m; a vertex of float32 to its own triangle
 
 std::vector<double> distances(const geometry::TriangleMesh& one, const geometry::TriangleMesh& other) {
@@ -78,7 +78,7 @@ void draw(const geometry::TriangleMesh& skin, const std::vector<double>& distanc
   const double most = std::abs(difference.parts.front().most);
   const auto* scale =
       std::find_if(std::begin(kScales), std::end(kScales), [&](double s) { return s >= most; });
-  difference.scale = scale == std::end(kScales) ? kScales[6] : *scale;
+  difference.scale = scale == std::end(kScales) ? *std::rbegin(kScales) : *scale;
   std::vector<inspect::Colour> colours;
   std::vector<Vector3d> part;
   double forward = 0;
@@ -100,7 +100,7 @@ void draw(const geometry::TriangleMesh& skin, const std::vector<double>& distanc
                                     from(inspect::back_view, skin.vertices, 1.05))));
   difference.pictures.push_back(
       picture(difference.parts.front().part,
-              from(forward >= 0 ? inspect::oblique_view : inspect::oblique_back_view, part, 1.3)));
+              from(forward >= 0 ? inspect::oblique_view : inspect::oblique_back_view, part, 2.5)));
 }
 
 class Skins {

@@ -45,9 +45,8 @@ YAML::Node pipeline_of(const Case& asked) {
 // The first garment stands before the scan, the others after it.
 void add_garments(const std::string& path, const std::vector<Garment>& garments) {
   if (garments.empty()) return;
+  const auto [begin, end] = times_of(path);
   rosbag::Bag bag(path, rosbag::bagmode::Append);
-  rosbag::View view(bag);
-  const ros::Time begin = view.getBeginTime(), end = view.getEndTime();
   for (std::size_t i = 0; i < garments.size(); ++i)
     bag.write("/garment", i == 0 ? begin - ros::Duration(1) : end + ros::Duration(static_cast<double>(i)),
               garments[i]);

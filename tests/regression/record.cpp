@@ -207,9 +207,8 @@ std::string metric_lines(const Metrics& metrics) {
     if (metric.rfind("time/", 0) == 0 || metric.rfind("memory/", 0) == 0) continue;
     if (const double* number = std::get_if<double>(&value)) {
       const Kind& kind = kind_of(metric);
-      lines +=
-          fmt::format("  {}: {{golden: {}, tolerance: {:.3g}, reason: \"{}\"}}\n", metric, to_text(value),
-                      std::max(kind.tolerance, kind.share * std::abs(*number)), kind.reason);
+      lines += fmt::format("  {}: {{golden: {}, tolerance: {:g}, reason: \"{}\"}}\n", metric, to_text(value),
+                           std::max(kind.tolerance, kind.share * std::abs(*number)), kind.reason);
     } else {
       lines += fmt::format("  {}: {{golden: {}, reason: as recorded}}\n", metric, to_text(value));
     }

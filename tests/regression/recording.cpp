@@ -90,6 +90,12 @@ std::string chain_topic(const std::string& topic) {
   return "";
 }
 
+std::pair<ros::Time, ros::Time> times_of(const std::string& path) {
+  const rosbag::Bag bag(path);
+  rosbag::View view(bag);
+  return {view.getBeginTime(), view.getEndTime()};
+}
+
 std::map<std::string, std::string> hashes_of(const Recording& recording) {
   std::map<std::string, std::string> hashes;
   if (recording.scan) hashes["scan/points"] = hash_of<sensor_msgs::PointCloud2>({recording.scan});
@@ -125,9 +131,8 @@ Recording recording_in(const std::string& path, const std::string& scan_id) {
 }
 
 void append(const Recording& recording, const std::string& path) {
+  const ros::Time time = times_of(path).second + ros::Duration(1);
   rosbag::Bag bag(path, rosbag::bagmode::Append);
-  rosbag::View view(bag);
-  const ros::Time time = view.getEndTime() + ros::Duration(1);
   const auto write = [&](const std::string& topic, const auto& message) {
     if (message) bag.write(topic, time, *message);
   };

@@ -12,6 +12,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tensegric/solver.hpp"
@@ -26,6 +27,9 @@ inline const std::string kChainTopics[] = {"scan/points",   "garment",          
 
 /// The name that the chain gives a topic of any namespace; empty: it is none of the chain's.
 std::string chain_topic(const std::string& topic);
+
+/// When a bag's first and last message were recorded. \throw rosbag::BagException
+std::pair<ros::Time, ros::Time> times_of(const std::string& bag);
 
 struct Recording {
   std::string scan_id;
