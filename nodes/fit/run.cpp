@@ -40,7 +40,9 @@ constexpr int kPanel = 750;  // pixels; the height of the pictures of a fit
 
 class Run {
  public:
-  explicit Run(const CommandLine& line) : line_(line), settings_(line.settings) {}
+  explicit Run(const CommandLine& line) : line_(line), settings_(line.settings) {
+    source_.customer = line.customer;
+  }
 
   // The chain: launch/pages/architecture.md. Refusals leave as exceptions.
   void operator()() {
@@ -56,6 +58,7 @@ class Run {
       return;
     }
     const tensegric::Garment garment = load_garment();
+    source_.garment = garment.name;
     if (const std::string tissue = tissue_file(); !tissue.empty()) take_tissue(tissue, settings_);
     if (line_.posture.twist != 0 || line_.posture.side_lean != 0)
       settings_.solver.bones = geometry::BoneFrames(body_.measures, line_.posture);

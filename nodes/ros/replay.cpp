@@ -28,6 +28,7 @@ Replay::Replay(ros::NodeHandle node, const Options& options)
     : options_(options),
       node_(node),
       scans_(node.advertise<sensor_msgs::PointCloud2>("scan/points", 1, true)),
+      labels_(node.advertise<ScanLabel>("scan/label", 16, true)),
       set_garment_(node.serviceClient<SetGarment>("set_garment")),
       diagnostics_in_(node.subscribe("/diagnostics", 100, &Replay::on_diagnostics, this)),
       body_frame_in_(node.subscribe("/tf_static", 100, &Replay::on_tf, this)) {
@@ -136,6 +137,11 @@ bool Replay::send(const sensor_msgs::PointCloud2& scan, const ros::Time& time, r
            : refused_ ? "refused"
                       : "went through");
   return ended;
+}
+
+void Replay::send(const ScanLabel& label, const ros::Time& time, rosbag::Bag& out) {
+  labels_.publish(label);
+  out.write("scan/label", time, label);
 }
 
 bool Replay::send(const Garment& garment, const ros::Time& time, rosbag::Bag& out) {

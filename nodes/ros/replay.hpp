@@ -7,6 +7,7 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/Garment.h>
+#include <tensegric_fit/ScanLabel.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <functional>
@@ -36,6 +37,8 @@ class Replay {
   bool send(const sensor_msgs::PointCloud2& scan, const ros::Time& time, rosbag::Bag& out);
   /// To be worn from now on, and on the scan before, if it went through.
   bool send(const Garment& garment, const ros::Time& time, rosbag::Bag& out);
+  /// Scans keep their ids, and labels their scans. Nothing answers.
+  void send(const ScanLabel& label, const ros::Time& time, rosbag::Bag& out);
 
  private:
   struct Answer : FittedScan {
@@ -53,7 +56,7 @@ class Replay {
 
   const Options options_;
   ros::NodeHandle node_;
-  ros::Publisher scans_;
+  ros::Publisher scans_, labels_;
   ros::ServiceClient set_garment_;
   std::vector<ros::Subscriber> subscribers_;
   ros::Subscriber diagnostics_in_, body_frame_in_, worn_in_;

@@ -20,10 +20,10 @@
 namespace tensegric_fit::regression {
 
 /// What travels through the chain, in its order.
-inline const std::string kChainTopics[] = {"scan/points",   "garment",          "body/model",
-                                           "body/mesh",     "body/landmarks",   "/tf_static",
-                                           "control/mesh",  "control/deformed", "control/forces",
-                                           "body/deformed", "body/warnings",    "worn/correlation"};
+inline const std::string kChainTopics[] = {
+    "scan/points",    "scan/label",    "garment",         "body/model",       "body/mesh",
+    "body/landmarks", "/tf_static",    "control/mesh",    "control/deformed", "control/forces",
+    "body/deformed",  "body/warnings", "worn/correlation"};
 
 /// The name that the chain gives a topic of any namespace; empty: it is none of the chain's.
 std::string chain_topic(const std::string& topic);
