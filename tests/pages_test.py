@@ -232,6 +232,8 @@ class Files(unittest.TestCase):
         for program, file in (("fit", "fit/command_line.cpp"), ("correlate", "fit/correlate_line.cpp")):
             said = {word for row in rows_under(text, program) for word in re.findall(r"--[a-z-]+", row[0])}
             self.assertEqual(said, code.options(file), program)
+        said = set(re.findall(r"--[a-z-]+", page("many_scans.md")))
+        self.assertEqual(code.options("batch/batch_main.cpp") - said, set())
 
     def test_keys(self):
         text = page("garments_and_templates.md")

@@ -63,6 +63,9 @@ ALLOWED = {
     ("fit", "tensegric"): "wires all stages",
     ("fit", "tffd"): "wires all stages",
     ("fit", "correlation"): "wires all stages",
+    ("batch", "fit"): "many scans through the chain",
+    ("batch", "files"): "its tables and page",
+    ("batch", "geometry"): "refusals by name, workers, shipped files",
 }
 
 # The sides that know ROS: these rooms, these names, and these files. All others are core.

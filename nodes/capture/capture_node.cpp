@@ -7,6 +7,7 @@
 #include "capture/booth_trigger.hpp"
 #include "capture/capture_handler.hpp"
 #include "geometry/status.hpp"
+#include "ros/log_words.hpp"
 #include "ros/run_node.hpp"
 
 namespace tensegric_fit::node {
@@ -90,7 +91,7 @@ class CaptureNode {
   void finish(const CaptureResult& result) {
     deformed_.shutdown();
     ROS_INFO("capture: scan %s: %s %s", result.scan_id.c_str(),
-             result.measured ? "measured" : result.code.c_str(), result.message.c_str());
+             result.measured ? "measured" : result.code.c_str(), without_figures(result.message).c_str());
     if (result.measured)
       server_.setSucceeded(result);
     else

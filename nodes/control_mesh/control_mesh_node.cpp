@@ -1,6 +1,7 @@
 /// body/mesh + body/landmarks + body/model -> control/mesh
 #include "control_mesh/control_mesh_handler.hpp"
 #include "ros/display.hpp"
+#include "ros/log_words.hpp"
 #include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
@@ -39,7 +40,7 @@ class ControlMeshNode {
     if (!input) return;
     stage_.post(scan_id, [this, input = *input]() -> Stage::Result {
       const auto output = std::make_shared<const Output>(handler_.handle(input));
-      if (!output->left_out.empty()) ROS_WARN("left out: %s", output->left_out.c_str());
+      if (!output->left_out.empty()) ROS_WARN("left out: %s", without_figures(output->left_out).c_str());
       return {[this, output] {
                 control_.publish(output->control);
                 show(output);

@@ -1,7 +1,9 @@
 /// CSV files (RFC 4180).
 #pragma once
 
+#include <istream>
 #include <string>
+#include <vector>
 
 namespace tensegric_fit::files {
 
@@ -12,5 +14,9 @@ inline std::string csv_field(const std::string& text) {
   for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
 }
+
+/// The next row's fields; `line` grows by the line ends that lie in quotes. False: there is none. A byte
+/// order mark is passed over.
+bool read_csv_row(std::istream& stream, std::vector<std::string>& fields, std::size_t& line);
 
 }  // namespace tensegric_fit::files

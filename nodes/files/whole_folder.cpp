@@ -1,7 +1,9 @@
 #include "files/whole_folder.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +11,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "files/descriptor.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::files {
@@ -17,79 +20,67 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kUnfinished[] = ".unfinished";  // suffix of hidden folders
-
-[[noreturn]] void fail(const std::string& path) {
-  throw fs::filesystem_error("", path, std::error_code(errno, std::generic_category()));
-}
-
-std::string in_words(const fs::filesystem_error& error) {
-  const std::string path = "'" + error.path1().string() + "'";
-  switch (error.code().value()) {
-    case ENOSPC:
-    case EDQUOT:
-      return "the disk of " + path + " is full";
-    case EROFS:
-    case EACCES:
-    case EPERM:
-      return path + " is read-only or belongs to someone else";
-    case EFBIG:
-      return path + " would be larger than files may be";
-    default:
-      return path + ": " + error.code().message();
-  }
-}
-
-/// Owns a file descriptor.
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags) : number_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {
-    if (number_ < 0) fail(path);
-  }
-  ~Descriptor() { close(number_); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-
- private:
-  const int number_;
-};
-
-void write_to_disk(const fs::path& path, const std::string& bytes) {
-  const Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL);
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t count = write(file.number(), bytes.data() + done, bytes.size() - done);
-    if (count < 0 && errno != EINTR) fail(path);
-    if (count > 0) done += static_cast<std::size_t>(count);
-  }
-  if (fsync(file.number()) != 0) fail(path);
-}
-
-void to_disk(const fs::path& folder) {
-  const Descriptor directory(folder, O_RDONLY | O_DIRECTORY);
-  if (fsync(directory.number()) != 0) fail(folder);
-}
+constexpr char kPart[] = ".part";              // of files
 
 fs::path hidden(const fs::path& folder) {
   return folder.parent_path() / ("." + folder.filename().string() + kUnfinished);
 }
 
+/// The parent may be reached by a link, the folders in it not.
+fs::path parent_of(const fs::path& folder) {
+  return fs::canonical(folder.parent_path());
+}
+
+/// Files in it and the folder; never what a link in it leads to. \throw filesystem_error: a folder in it
+void remove_folder(const Descriptor& parent, const fs::path& folder) {
+  const std::string name = folder.filename();
+  {
+    const Descriptor directory(parent, name, O_RDONLY | O_DIRECTORY);
+    std::vector<std::string> entries;
+    for (const fs::directory_entry& entry :
+         fs::directory_iterator(fmt::format("/proc/self/fd/{}", directory.number())))
+      entries.push_back(entry.path().filename());
+    for (const std::string& entry : entries)
+      if (unlinkat(directory.number(), entry.c_str(), 0) != 0) fail(folder / entry);
+  }
+  if (unlinkat(parent.number(), name.c_str(), AT_REMOVEDIR) != 0) fail(folder);
+}
+
 /// Held by one writer at a time; unfinished folders that exist when it is acquired were abandoned.
-class ParentLock {
+class LockedParent {
  public:
-  explicit ParentLock(const fs::path& parent) : directory_(parent, O_RDONLY | O_DIRECTORY) {
+  explicit LockedParent(const fs::path& parent) : directory_(parent, O_RDONLY | O_DIRECTORY) {
     while (flock(directory_.number(), LOCK_EX) != 0)
       if (errno != EINTR) fail(parent);
     for (const fs::directory_entry& entry : fs::directory_iterator(parent)) {
-      const std::string name = entry.path().filename().string();
+      const std::string name = entry.path().filename();
       if (name.front() == '.' && entry.path().extension() == kUnfinished &&
           entry.symlink_status().type() == fs::file_type::directory)
-        fs::remove_all(entry.path());
+        remove_folder(directory_, entry.path());
     }
+  }
+
+  const Descriptor& directory() const { return directory_; }
+
+  void rename(const fs::path& from, const fs::path& to) const {
+    if (renameat(directory_.number(), from.filename().c_str(), directory_.number(), to.filename().c_str()) !=
+        0)
+      fail(to);
   }
 
  private:
   const Descriptor directory_;
 };
+
+void write_files(const LockedParent& parent, const fs::path& unfinished,
+                 const std::vector<FileContent>& files) {
+  // one that is there already, or a link, is somebody else's
+  if (mkdirat(parent.directory().number(), unfinished.filename().c_str(), S_IRWXU) != 0) fail(unfinished);
+  const Descriptor folder(parent.directory(), unfinished.filename(), O_RDONLY | O_DIRECTORY);
+  for (const FileContent& file : files)
+    Descriptor(folder, file.name, O_WRONLY | O_CREAT | O_EXCL).write_to_disk(file.bytes);
+  folder.to_disk();
+}
 
 /// The folder's path without a slash at its end. \throw Refusal bad_option
 fs::path new_folder(const std::string& folder) {
@@ -99,7 +90,9 @@ fs::path new_folder(const std::string& folder) {
     throw geometry::Refusal(geometry::refusal::kBadOption,
                             "directory '" + folder + "' is not an absolute path");
   std::error_code ignored;  // a path that cannot be looked at cannot be written either, which says why
-  if (fs::exists(wanted, ignored) && !(fs::is_directory(wanted, ignored) && fs::is_empty(wanted, ignored)))
+  const fs::file_type there = fs::symlink_status(wanted, ignored).type();
+  if (there != fs::file_type::not_found && there != fs::file_type::none &&
+      !(there == fs::file_type::directory && fs::is_empty(wanted, ignored)))
     throw geometry::Refusal(geometry::refusal::kBadOption,
                             "'" + wanted.string() + "' is there already and is not overwritten");
   return wanted;
@@ -114,42 +107,62 @@ void check_new_folder(const std::string& folder) {
 std::vector<std::string> write_whole_folder(const std::string& folder,
                                             const std::vector<FileContent>& files) {
   const fs::path wanted = new_folder(folder);
-  const fs::path unfinished = hidden(wanted);
-  std::vector<std::string> paths;
   try {
     fs::create_directories(wanted.parent_path());
-    const ParentLock lock(wanted.parent_path());
+    const LockedParent parent(parent_of(wanted));
+    const fs::path unfinished = hidden(parent_of(wanted) / wanted.filename());
     try {
-      fs::create_directory(unfinished);
-      for (const FileContent& file : files) {
-        write_to_disk(unfinished / file.name, file.bytes);
-        paths.push_back(wanted / file.name);
-      }
-      to_disk(unfinished);
-      fs::rename(unfinished, wanted);  // fails where a non-empty directory has been created in the meantime
-      to_disk(wanted.parent_path());
+      write_files(parent, unfinished, files);
+      parent.rename(unfinished, wanted);  // fails where a non-empty directory has been created meanwhile
+      parent.directory().to_disk();
     } catch (const fs::filesystem_error&) {
-      std::error_code ignored;
-      fs::remove_all(unfinished, ignored);
+      try {
+        remove_folder(parent.directory(), unfinished);
+      } catch (const fs::filesystem_error&) {  // said below is what went wrong first
+      }
       throw;
     }
   } catch (const fs::filesystem_error& error) {
     throw geometry::Refusal(geometry::refusal::kCannotWrite,
                             "nothing was written to '" + wanted.string() + "': " + in_words(error));
   }
+  std::vector<std::string> paths;
+  for (const FileContent& file : files) paths.push_back(wanted / file.name);
   std::sort(paths.begin(), paths.end());
   return paths;
 }
 
 void delete_whole_folder(const std::string& folder) {
   try {
-    const ParentLock lock(fs::path(folder).parent_path());
-    const fs::path unfinished = hidden(folder);
-    fs::rename(folder, unfinished);
-    fs::remove_all(unfinished);
+    const LockedParent parent(parent_of(folder));
+    const fs::path place = parent_of(folder) / fs::path(folder).filename();
+    if (fs::symlink_status(place).type() != fs::file_type::directory) {
+      errno = ENOTDIR;
+      fail(folder);
+    }
+    parent.rename(place, hidden(place));
+    remove_folder(parent.directory(), hidden(place));
+    parent.directory().to_disk();
   } catch (const fs::filesystem_error& error) {
     throw geometry::Refusal(geometry::refusal::kCannotWrite,
                             "'" + folder + "' was not deleted: " + in_words(error));
+  }
+}
+
+void write_whole_file(const std::string& path, const std::string& bytes) {
+  const fs::path wanted(path), unfinished(path + kPart);
+  try {
+    fs::remove(unfinished);  // a link to elsewhere, or what one that was interrupted has left
+    try {
+      Descriptor(unfinished, O_WRONLY | O_CREAT | O_EXCL).write_to_disk(bytes);
+      fs::rename(unfinished, wanted);
+    } catch (const fs::filesystem_error&) {
+      std::error_code ignored;
+      fs::remove(unfinished, ignored);
+      throw;
+    }
+  } catch (const fs::filesystem_error& error) {
+    throw geometry::Refusal(geometry::refusal::kCannotWrite, path + " cannot be written: " + in_words(error));
   }
 }
 

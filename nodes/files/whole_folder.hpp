@@ -1,4 +1,4 @@
-/// Folders that are written atomically: complete or not at all.
+/// Folders and files that are written atomically, complete or not at all, and readable by their owner only.
 #pragma once
 
 #include <string>
@@ -21,7 +21,11 @@ void check_new_folder(const std::string& folder);
 /// cannot_write, in words
 std::vector<std::string> write_whole_folder(const std::string& folder, const std::vector<FileContent>& files);
 
-/// Takes the folder away at once and deletes it. \pre an absolute path \throw Refusal cannot_write
+/// Takes the folder away at once and deletes it with its files; a link in it goes, what it leads to stays.
+/// \pre an absolute path \throw Refusal cannot_write: a link, or a folder with folders in it
 void delete_whole_folder(const std::string& folder);
+
+/// Replaces what has that name, a link as well. \throw Refusal cannot_write
+void write_whole_file(const std::string& path, const std::string& bytes);
 
 }  // namespace tensegric_fit::files

@@ -60,7 +60,7 @@ Eigen::Vector3d vector_from(const std::string& text, const std::string& option) 
 
 }  // namespace
 
-std::optional<int> parse(int argc, char** argv, CommandLine& line) {
+std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, std::ostream& errors) {
   CLI::App app(
       "From a booth scan to the body that a garment would make of it. Exit: 0 done, 2 usage, 3 input "
       "refused, 1 the results cannot be written.");
@@ -161,7 +161,7 @@ std::optional<int> parse(int argc, char** argv, CommandLine& line) {
       throw CLI::ValidationError("--gravity", "needs --garment or --fixed");
     if (!gravity.empty()) line.gravity = vector_from(gravity, "--gravity");
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return app.exit(error, std::cout, errors) == 0 ? 0 : 2;
   }
   if (line.is_shape() && control_triangles->count() == 0)
     line.settings.control_mesh.control_triangles = kShapeTriangles;

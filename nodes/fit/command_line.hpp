@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <iostream>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,8 +36,10 @@ struct CommandLine {
   bool is_shape() const { return !fixed.empty(); }
 };
 
-/// Exit code where the program has nothing more to do (0 help, 2 usage), else none and `line` is filled.
-std::optional<int> parse(int argc, char** argv, CommandLine& line);
+/// Exit code where the program has nothing more to do (0 help, 2 usage), else none and `line` is filled. What
+/// is wrong goes to `errors`.
+std::optional<int> parse(int argc, const char* const* argv, CommandLine& line,
+                         std::ostream& errors = std::cerr);
 
 /// The garment with the ratios and the band of the command line. \throw Refusal unknown_line
 tensegric::Garment adjusted(tensegric::Garment garment, const CommandLine& line);

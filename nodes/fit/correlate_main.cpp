@@ -1,6 +1,8 @@
+#include "files/owner_only.hpp"
 #include "fit/correlate_run.hpp"
 
 int main(int argc, char** argv) {
+  tensegric_fit::files::owner_only();
   tensegric_fit::fit::CorrelateLine line;
   if (const auto exit_code = tensegric_fit::fit::parse(argc, argv, line)) return *exit_code;
   return tensegric_fit::fit::run(line);

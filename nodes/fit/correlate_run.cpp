@@ -97,8 +97,8 @@ class Run {
                                           result.map.compared,
                                           before.measures.body_from_scan,
                                           inspect::parts_of(fitted_.control, before.measures.body_from_scan)};
-    geometry::write_ply_mesh(path("distance.ply"), simulated,
-                             inspect::distance_colours(result.map.distance, result.map.compared));
+    write_mesh(path("distance.ply"), simulated,
+               inspect::distance_colours(result.map.distance, result.map.compared));
     write_text(path("distance.csv"), distance_csv(result));
     const std::vector<PagePicture> pictures = {
         save("distance.png", distance_picture(scene),

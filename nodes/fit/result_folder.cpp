@@ -1,7 +1,10 @@
 #include "fit/result_folder.hpp"
 
-#include <fstream>
+#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
+
+#include "files/whole_folder.hpp"
+#include "geometry/status.hpp"
 
 namespace tensegric_fit::fit {
 
@@ -22,16 +25,22 @@ const std::string* endangered_input(const std::vector<const std::string*>& input
 }
 
 void write_text(const std::string& path, const std::string& text) {
-  const std::string unfinished = path + ".part";
-  std::ofstream file(unfinished, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (!file) {
-    std::error_code ignored;
-    fs::remove(unfinished, ignored);
-    throw std::runtime_error(path + ": cannot be written");
+  try {
+    files::write_whole_file(path, text);
+  } catch (const geometry::Refusal& refusal) {  // no input was refused
+    throw std::runtime_error(refusal.what());
   }
-  fs::rename(unfinished, path);
+}
+
+void write_picture(const std::string& path, const cv::Mat& picture) {
+  std::vector<unsigned char> bytes;
+  cv::imencode(".png", picture, bytes);
+  write_text(path, {bytes.begin(), bytes.end()});
+}
+
+void write_mesh(const std::string& path, const geometry::TriangleMesh& mesh,
+                const std::vector<std::array<std::uint8_t, 3>>& colours, geometry::Coordinates coordinates) {
+  write_text(path, geometry::ply_bytes(mesh, colours, coordinates));
 }
 
 void write_json(const fs::path& path, const nlohmann::ordered_json& json) {

@@ -1,9 +1,7 @@
 #include "reconstruction/child_process.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +12,9 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <utility>
+
+#include "geometry/spawned_process.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -21,35 +22,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kBlock = std::size_t{1} << 16;  // bytes read at once
-
-/// What a child starts with: `channel` as standard input and output, no other descriptor but standard error
-/// (a socket of ROS that it held would stay open after the node closes it), no blocked or ignored signal.
-class SpawnSettings {
- public:
-  explicit SpawnSettings(int channel) {
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, channel, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, channel, STDOUT_FILENO);
-    posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
-    posix_spawnattr_init(&attributes);
-    sigset_t none, usual;
-    sigemptyset(&none);
-    sigemptyset(&usual);
-    sigaddset(&usual, SIGPIPE);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setsigdefault(&attributes, &usual);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  }
-  ~SpawnSettings() {
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-  }
-  SpawnSettings(const SpawnSettings&) = delete;
-  SpawnSettings& operator=(const SpawnSettings&) = delete;
-
-  posix_spawn_file_actions_t actions{};
-  posix_spawnattr_t attributes{};
-};
 
 /// Until the channel can be read or, where `writing`, written. \throw ChildFailure: not before the deadline
 short ready(int channel, bool writing, Clock::time_point deadline, double seconds) {
@@ -66,36 +38,21 @@ short ready(int channel, bool writing, Clock::time_point deadline, double second
 }  // namespace
 
 ChildProcess::ChildProcess(const std::string& program) {
-  std::array<int, 2> ends{};
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    throw ChildFailure(std::string("has no channel: ") + std::strerror(errno));
-  channel_ = ends[0];
-  const SpawnSettings settings(ends[1]);
-  std::array<char*, 2> arguments{const_cast<char*>(program.c_str()), nullptr};
-  const int error = posix_spawn(&process_, program.c_str(), &settings.actions, &settings.attributes,
-                                arguments.data(), environ);
-  close(ends[1]);
-  if (error == 0) return;
-  close(channel_);
-  throw ChildFailure(fmt::format("cannot be started ({}): {}", program, std::strerror(error)));
+  try {
+    const geometry::SpawnedProcess process = geometry::spawn(program);
+    process_ = process.id;
+    channel_ = process.channel;
+  } catch (const std::runtime_error& error) {
+    throw ChildFailure(error.what());
+  }
 }
 
 ChildProcess::~ChildProcess() {
   if (process_ > 0) {
     kill(process_, SIGKILL);
-    wait_status();
+    waitpid(process_, nullptr, 0);
   }
   close(channel_);
-}
-
-int ChildProcess::wait_status() {
-  int status = 0;
-  pid_t ended = 0;
-  while ((ended = waitpid(process_, &status, 0)) < 0 && errno == EINTR) {
-  }
-  process_ = -1;
-  if (ended < 0) throw ChildFailure(std::string("was lost: ") + std::strerror(errno));
-  return status;
 }
 
 std::string ChildProcess::answer(const std::string& input, double seconds) {
@@ -120,11 +77,8 @@ std::string ChildProcess::answer(const std::string& input, double seconds) {
       open = n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));
     }
   }
-  const int status = wait_status();
-  if (WIFSIGNALED(status))
-    throw ChildFailure(fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status))));
-  if (WEXITSTATUS(status) != 0)
-    throw ChildFailure(fmt::format("ended with exit code {}", WEXITSTATUS(status)), WEXITSTATUS(status));
+  const int status = geometry::wait_for(std::exchange(process_, -1));
+  if (status != 0) throw ChildFailure(geometry::ending(status), WIFEXITED(status) ? WEXITSTATUS(status) : 0);
   return output;
 }
 

@@ -17,8 +17,7 @@ struct ChildFailure : std::runtime_error {
 
 class ChildProcess {
  public:
-  /// Starts `program`; its standard input and output are this object's, its other descriptors are closed but
-  /// standard error. \throw ChildFailure: it cannot be started
+  /// Starts `program` (geometry::spawn). \throw ChildFailure: it cannot be started
   explicit ChildProcess(const std::string& program);
   /// Kills it where it still runs.
   ~ChildProcess();
@@ -30,8 +29,6 @@ class ChildProcess {
   std::string answer(const std::string& input, double seconds);
 
  private:
-  int wait_status();
-
   pid_t process_ = -1;  // -1 once its end has been seen
   int channel_ = -1;
 };

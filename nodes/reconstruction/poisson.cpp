@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cstring>
-#include <filesystem>
 #include <string>
 
+#include "geometry/spawned_process.hpp"
 #include "geometry/status.hpp"
 #include "reconstruction/poisson_protocol.hpp"
 
@@ -59,11 +59,6 @@ geometry::TriangleMesh mesh_of(const std::string& bytes) {
   return mesh;
 }
 
-/// Beside the program, wherever that is.
-std::string worker_program() {
-  return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "poisson_worker").string();
-}
-
 Refusal failed(const ChildFailure& failure) {
   const std::string why = failure.exit_code == kOutOfMemory ? "ran out of memory" : failure.what();
   return Refusal(refusal::kSurfaceFailed, "the process that makes the surface " + why);
@@ -71,7 +66,8 @@ Refusal failed(const ChildFailure& failure) {
 
 }  // namespace
 
-PoissonWorker::PoissonWorker(const PoissonLimits& limits) try : limits_(limits), process_(worker_program()) {
+PoissonWorker::PoissonWorker(const PoissonLimits& limits) try
+    : limits_(limits), process_(geometry::sibling_program("poisson_worker")) {
 } catch (const ChildFailure& failure) {
   throw failed(failure);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "geometry/status.hpp"
+#include "ros/log_words.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -20,7 +21,7 @@ bool answered(Response& response, const Work& work) {
     response.code = "internal_error";
     response.message = error.what();
   }
-  ROS_ERROR("export: %s: %s", response.code.c_str(), response.message.c_str());
+  ROS_ERROR("export: %s: %s", response.code.c_str(), without_figures(response.message).c_str());
   return false;
 }
 

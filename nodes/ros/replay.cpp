@@ -2,6 +2,7 @@
 
 #include <tensegric_fit/SetGarment.h>
 
+#include "ros/log_words.hpp"
 #include "ros/scan_tag.hpp"
 
 namespace tensegric_fit::node {
@@ -153,7 +154,7 @@ bool Replay::send(const Garment& garment, const ros::Time& time, rosbag::Bag& ou
   call.request.garment = garment;
   if (!set_garment_.call(call) || !call.response.accepted) {
     ROS_ERROR("replay: garment '%s': %s: %s", garment.name.c_str(), call.response.code.c_str(),
-              call.response.message.c_str());
+              without_figures(call.response.message).c_str());
     return false;
   }
   if (!on_scan) return true;

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "files/owner_only.hpp"
 #include "geometry/status.hpp"
 #include "ros/parameters.hpp"
 #include "ros/replay.hpp"
@@ -72,6 +73,7 @@ int run(const Setup& setup) {
 }  // namespace tensegric_fit::node
 
 int main(int argc, char** argv) {
+  tensegric_fit::files::owner_only();
   ros::init(argc, argv, "replay");
   ros::NodeHandle private_node("~");
   try {

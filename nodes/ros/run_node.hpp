@@ -6,6 +6,7 @@
 #include <exception>
 #include <string>
 
+#include "files/owner_only.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::node {
@@ -13,6 +14,7 @@ namespace tensegric_fit::node {
 /// Exit codes: 0 shut down, 1 an error nobody foresaw, 2 a parameter or file of its own was refused.
 template <typename Node>
 int run_node(int argc, char** argv, const std::string& name) {
+  files::owner_only();
   ros::init(argc, argv, name);
   try {
     Node node(ros::NodeHandle{}, ros::NodeHandle{"~"});

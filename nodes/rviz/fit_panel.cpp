@@ -11,6 +11,7 @@
 #include "ros/body_messages.hpp"
 #include "ros/flat.hpp"
 #include "ros/line_force.hpp"
+#include "ros/log_words.hpp"
 #include "rviz/qt_text.hpp"
 
 namespace tensegric_fit::inspect {
@@ -255,7 +256,8 @@ void FitPanel::show_whose() {
 void FitPanel::show_warnings(std::vector<std::string> messages) {
   for (const FitWarning& warning : warnings_.warnings) messages.push_back(warning.message);
   const std::string words = words::warnings(messages);
-  if (!words.empty() && folds_->toolTip() != text(words)) ROS_WARN("fit panel: %s", words.c_str());
+  if (!words.empty() && folds_->toolTip() != text(words))
+    ROS_WARN("fit panel: %s", node::without_figures(words).c_str());
   show_words(folds_, words);
 }
 
@@ -363,7 +365,7 @@ void FitPanel::answer(const std::string& words, bool done) {
   if (answer_->toolTip() == text(words)) return;
   show_words(answer_, words);
   answer_->setStyleSheet(done ? "" : "color: #8a4b00");
-  if (!words.empty()) ROS_INFO("fit panel: %s", words.c_str());
+  if (!words.empty()) ROS_INFO("fit panel: %s", node::without_figures(words).c_str());
 }
 
 // While the next scan is worked on, and after one was refused, the body before is not taken for hers: it is
@@ -389,7 +391,7 @@ void FitPanel::show_age(const PipelineWatch::State& state) {
 void FitPanel::show_state() {
   const PipelineWatch::State state = watch_.state(seconds(Clock::now()));
   if (state.trouble && pipeline_->toolTip() != text(state.words))
-    ROS_WARN("fit panel: %s", state.words.c_str());
+    ROS_WARN("fit panel: %s", node::without_figures(state.words).c_str());
   show_age(state);
   show_words(pipeline_, state.words + (!old_since_ ? "" : old_gone_ ? words::kOldBodyGone : words::kOldBody));
   pipeline_->setStyleSheet(state.trouble ? "color: #b2182b" : "");

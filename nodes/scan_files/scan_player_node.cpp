@@ -174,8 +174,7 @@ class ScanPlayer {
     labels_.publish(label);
     publisher_.publish(scan);
     next_ = ros::SteadyTime::now().toSec() + (setup_.rate > 0 ? 1 / setup_.rate : setup_.interval);
-    ROS_INFO("scan_player: scan %s of %s, %u points", label.scan_id.c_str(), label.source.c_str(),
-             scan.width * scan.height);
+    ROS_INFO("scan_player: scan %s", label.scan_id.c_str());
   }
 
   const Setup setup_;

@@ -1,0 +1,34 @@
+/// How figures differ from those of another version's table.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "batch/table.hpp"
+
+namespace tensegric_fit::batch {
+
+struct Drift {
+  std::string figure;
+  std::size_t count = 0;                        ///< scans that both have with this figure
+  double mean = 0, deviation = 0, largest = 0;  ///< of new - old; the largest by its amount, with its sign
+  std::size_t row = 0;                          ///< of the largest
+};
+
+/// Scans whose status changed: row, old, new.
+struct StatusChange {
+  std::size_t row;
+  std::string before, after;
+};
+
+struct Comparison {
+  std::size_t common = 0;     ///< scans with the same content and settings
+  std::vector<Drift> drifts;  ///< of the figures that differ, in the order of the names
+  std::vector<StatusChange> changes;
+};
+
+/// `file`: a table.csv; scans are matched by content and settings. \throw Refusal broken_file
+Comparison compare(const Table& table, const std::string& file);
+
+}  // namespace tensegric_fit::batch

@@ -1,0 +1,202 @@
+#include "batch/manifest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "files/csv.hpp"
+#include "fit/command_line.hpp"
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using geometry::Refusal;
+using Json = nlohmann::json;
+
+enum class Kind { path, paths, word, words, flag };
+
+/// A path is relative to the manifest; a garment is one where it is no shipped garment's name.
+const std::map<std::string, Kind>& columns() {
+  static const std::map<std::string, Kind> all{
+      {"scan", Kind::paths},          {"mesh", Kind::path},
+      {"unit", Kind::word},           {"up", Kind::word},
+      {"garment", Kind::word},        {"ratio", Kind::words},
+      {"band", Kind::word},           {"templates", Kind::path},
+      {"tissue", Kind::path},         {"solver", Kind::word},
+      {"volume", Kind::word},         {"control_triangles", Kind::word},
+      {"body_triangles", Kind::word}, {"bust_only", Kind::flag},
+      {"twist", Kind::word},          {"lean", Kind::word}};
+  return all;
+}
+
+class Reader {
+ public:
+  explicit Reader(const std::string& file) : file_(file), folder_(fs::absolute(file).parent_path()) {}
+
+  std::vector<Job> operator()() {
+    std::ifstream stream(file_, std::ios::binary);
+    if (!stream) throw fault("cannot be read");
+    const std::string kind = fs::path(file_).extension();
+    if (kind == ".csv") {
+      read_csv(stream);
+    } else if (kind == ".jsonl") {
+      read_lines(stream);
+    } else {
+      throw fault("is neither .csv nor .jsonl");
+    }
+    if (jobs_.empty()) throw fault("has no row");
+    return std::move(jobs_);
+  }
+
+ private:
+  Refusal fault(const std::string& what) const {
+    return Refusal(geometry::refusal::kBrokenFile, "manifest " + file_ + ": " + what);
+  }
+  Refusal fault_here(const std::string& what) const { return fault(fmt::format("line {}: {}", line_, what)); }
+
+  void read_csv(std::istream& stream) {
+    std::vector<std::string> names, fields;
+    for (line_ = 1; files::read_csv_row(stream, fields, line_); ++line_) {
+      if (fields.size() == 1 && fields[0].empty()) continue;
+      if (names.empty()) {
+        names = fields;
+        check_names(names);
+        continue;
+      }
+      if (fields.size() != names.size())
+        throw fault_here(fmt::format("has {} fields, the first line {}", fields.size(), names.size()));
+      Job job;
+      for (std::size_t i = 0; i < names.size(); ++i) add(job, names[i], split(names[i], fields[i]));
+      take(std::move(job));
+    }
+  }
+
+  void check_names(const std::vector<std::string>& names) const {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      check_name(names[i]);
+      if (std::find(names.begin(), names.begin() + static_cast<long>(i), names[i]) !=
+          names.begin() + static_cast<long>(i))
+        throw fault_here("column '" + names[i] + "' is there twice");
+    }
+  }
+
+  void check_name(const std::string& name) const {
+    if (name != "name" && columns().count(name) == 0) throw fault_here("there is no column '" + name + "'");
+  }
+
+  static std::vector<std::string> split(const std::string& name, const std::string& field) {
+    if (field.empty()) return {};
+    const bool many =
+        name != "name" && (columns().at(name) == Kind::paths || columns().at(name) == Kind::words);
+    if (!many) return {field};
+    std::vector<std::string> parts;
+    std::stringstream stream(field);
+    for (std::string part; std::getline(stream, part, ';');) parts.push_back(part);
+    return parts;
+  }
+
+  void read_lines(std::istream& stream) {
+    line_ = 0;
+    for (std::string text; std::getline(stream, text);) {
+      ++line_;
+      if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
+      const Json object = Json::parse(text, nullptr, false);
+      if (!object.is_object()) throw fault_here("is no JSON object");
+      Job job;
+      for (const auto& [name, value] : object.items()) {
+        check_name(name);
+        add(job, name, words_of(name, value));
+      }
+      take(std::move(job));
+    }
+  }
+
+  std::vector<std::string> words_of(const std::string& name, const Json& value) const {
+    std::vector<std::string> words;
+    for (const Json& part : value.is_array() ? value : Json::array({value})) {
+      if (part.is_string()) {
+        words.push_back(part.get<std::string>());
+      } else if (part.is_number()) {
+        words.push_back(part.dump());
+      } else if (part.is_boolean()) {
+        words.emplace_back(part.get<bool>() ? "true" : "false");
+      } else {
+        throw fault_here("'" + name + "' is no text, number or list of them");
+      }
+    }
+    return words;
+  }
+
+  void add(Job& job, const std::string& name, std::vector<std::string> words) const {
+    if (words.empty()) return;
+    if (name == "name") {
+      job.name = words.front();
+      return;
+    }
+    const Kind kind = columns().at(name);
+    if (kind != Kind::paths && kind != Kind::words && words.size() != 1)
+      throw fault_here("'" + name + "' has several values");
+    if (kind == Kind::flag) {
+      if (words[0] == "false" || words[0] == "0") return;
+      if (words[0] != "true" && words[0] != "1") throw fault_here("'" + name + "' is neither true nor false");
+      words.clear();
+    }
+    const bool file = name == "garment" &&
+                      (words[0].find('/') != std::string::npos || fs::path(words[0]).extension() == ".yaml");
+    if (kind == Kind::path || kind == Kind::paths || file)
+      for (std::string& word : words) word = (folder_ / word).lexically_normal().string();
+    job.options[name] = std::move(words);
+  }
+
+  /// `fit` itself says what is wrong with the options of a row.
+  void take(Job job) {
+    const std::vector<std::string> arguments = job.arguments();
+    std::vector<const char*> words{"fit_batch"};
+    for (const std::string& argument : arguments) words.push_back(argument.c_str());
+    fit::CommandLine line;
+    std::ostringstream errors;
+    if (fit::parse(static_cast<int>(words.size()), words.data(), line, errors)) {
+      std::string text = errors.str();
+      throw fault_here(text.substr(0, text.find('\n')));
+    }
+    job.row = jobs_.size() + 1;
+    jobs_.push_back(std::move(job));
+  }
+
+  std::string file_;
+  fs::path folder_;
+  std::size_t line_ = 0;
+  std::vector<Job> jobs_;
+};
+
+}  // namespace
+
+std::vector<std::string> Job::inputs() const {
+  for (const char* kind : {"scan", "mesh"})
+    if (const auto found = options.find(kind); found != options.end()) return found->second;
+  return {};
+}
+
+std::vector<std::string> Job::arguments() const {
+  std::vector<std::string> words;
+  for (const auto& [column, values] : options) {
+    std::string option = "--" + column;
+    std::replace(option.begin(), option.end(), '_', '-');
+    if (values.empty()) words.push_back(option);
+    for (const std::string& value : values) words.push_back(option + "=" + value);
+  }
+  return words;
+}
+
+std::vector<Job> read_manifest(const std::string& file) {
+  return Reader(file)();
+}
+
+}  // namespace tensegric_fit::batch

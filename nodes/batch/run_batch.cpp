@@ -1,0 +1,202 @@
+#include "batch/run_batch.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+#include "batch/identity.hpp"
+#include "batch/manifest.hpp"
+#include "batch/shard_file.hpp"
+#include "fit/result_folder.hpp"
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::batch {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kPatience(200);  // how late an interruption may be seen
+constexpr double kTerminal = 1, kLog = 60;           // seconds between words of progress
+
+volatile std::sig_atomic_t interrupted = 0;
+
+bool is_unfinished(const Json& line) {
+  const std::string status = line.at("status");
+  return status == "crashed" || status == "timed_out" || status == "out_of_memory" || status == "failed";
+}
+
+class Progress {
+ public:
+  Progress(std::size_t all, bool quiet)
+      : all_(all),
+        quiet_(quiet),
+        terminal_(isatty(STDERR_FILENO) != 0),
+        start_(Clock::now()),
+        said_(start_) {}
+
+  void add(const std::string& status, bool computed) {
+    ++by_status_[status];
+    ++done_;
+    computed_ += computed ? 1 : 0;
+    say(false);
+  }
+
+  void say(bool now) {
+    const auto since = std::chrono::duration<double>(Clock::now() - said_).count();
+    if (quiet_ || (!now && since < (terminal_ ? kTerminal : kLog))) return;
+    said_ = Clock::now();
+    std::string text = fmt::format("{} of {}", done_, all_);
+    for (const auto& [status, count] : by_status_) text += fmt::format(", {} {}", count, status);
+    const double seconds = std::chrono::duration<double>(said_ - start_).count();
+    if (const double rate = static_cast<double>(computed_) / seconds; rate > 0)
+      text +=
+          fmt::format("; {:.2f} per s, {:.1f} min left", rate, static_cast<double>(all_ - done_) / rate / 60);
+    fmt::print(stderr, terminal_ ? "\r\033[K{}{}" : "{}{}", text, terminal_ && !now ? "" : "\n");
+  }
+
+ private:
+  std::size_t all_, done_ = 0, computed_ = 0;
+  bool quiet_, terminal_;
+  Clock::time_point start_, said_;
+  std::map<std::string, std::size_t> by_status_;
+};
+
+class Batch {
+ public:
+  explicit Batch(const BatchOptions& options)
+      : options_(options),
+        jobs_(read_manifest(options.manifest)),
+        file_(options.out, shard_name(options.shard, options.shards)),
+        pool_(options.workers, options.limits) {
+    write_description();
+    read_done();
+  }
+
+  int operator()() {
+    std::vector<const Job*> mine;
+    for (const Job& job : jobs_)
+      if ((job.row - 1) % options_.shards == options_.shard - 1) mine.push_back(&job);
+    Progress progress(mine.size(), options_.quiet);
+    for (auto next = mine.begin(); (next != mine.end() || pool_.is_busy()) && interrupted == 0;) {
+      if (next != mine.end() && pool_.has_idle()) {
+        begin(**next++, progress);
+        continue;
+      }
+      for (const Finished& finished : pool_.wait(kPatience)) keep(finished, progress);
+    }
+    progress.say(true);
+    return interrupted == 0 ? 0 : 130;
+  }
+
+ private:
+  /// For whoever merges: how many rows there are to be.
+  void write_description() const {
+    const Json description{{"rows", jobs_.size()},
+                           {"manifest", std::filesystem::path(options_.manifest).filename()},
+                           {"version", TENSEGRIC_FIT_VERSION},
+                           {"build", build_identity()}};
+    fit::write_json(std::filesystem::path(options_.out) / "batch.json", description);
+  }
+
+  void read_done() {
+    for_each_line(file_.path(), [this](const Json& line, std::size_t place) {
+      const std::string key = line.at("key");
+      if (options_.retry && is_unfinished(line)) return;
+      rows_.insert({line.at("row"), key});
+      if (!key.empty()) done_[key] = {line.at("status"), place};
+    });
+  }
+
+  void begin(const Job& job, Progress& progress) {
+    Identity identity;
+    try {
+      identity = identity_of(job, build_identity());
+    } catch (const geometry::Refusal& refusal) {  // without a key: the file may be there the next time
+      const Json reason{{"code", refusal.code()}, {"message", refusal.what()}};
+      if (rows_.insert({job.row, ""}).second)
+        file_.add(with_head(job, {}, {{"status", "refused"}, {"reason", reason}}));
+      progress.add("refused", false);
+      return;
+    }
+    if (const auto found = done_.find(identity.key); found != done_.end()) {
+      // The row itself from before, or the same scan and settings in another row.
+      if (rows_.insert({job.row, identity.key}).second) {
+        Json line = file_.line_at(found->second.place);
+        line.erase("cost");  // it took nothing
+        file_.add(with_head(job, identity, line));
+      }
+      progress.add(found->second.status, false);
+      return;
+    }
+    begun_[job.row] = {&job, identity};
+    pool_.give(job.row, job.arguments());
+  }
+
+  void keep(const Finished& finished, Progress& progress) {
+    const auto [job, identity] = begun_.at(finished.job);
+    begun_.erase(finished.job);
+    const std::string status = finished.line.at("status");
+    done_[identity.key] = {status, file_.add(with_head(*job, identity, finished.line))};
+    progress.add(status, true);
+  }
+
+  /// Whose line it is, before what became of it.
+  static Json with_head(const Job& job, const Identity& identity, const Json& line) {
+    Json settings = Json::object();
+    for (const auto& [name, values] : job.options)
+      if (name != "scan" && name != "mesh") settings[name] = values;
+    Json whole{{"row", job.row},
+               {"name", job.name},
+               {"key", identity.key},
+               {"subject", identity.subject},
+               {"kind", job.options.count("mesh") > 0 ? "mesh" : "scan"},
+               {"inputs", job.inputs()},
+               {"settings", std::move(settings)},
+               {"version", TENSEGRIC_FIT_VERSION},
+               {"build", build_identity()}};
+    for (const char* part : {"status", "reason", "result", "cost"})
+      if (line.contains(part)) whole[part] = line.at(part);
+    return whole;
+  }
+
+  const BatchOptions& options_;
+  std::vector<Job> jobs_;
+  ShardFile file_;
+  WorkerPool pool_;
+  struct Done {
+    std::string status;
+    std::size_t place;
+  };
+  std::unordered_map<std::string, Done> done_;          // by key
+  std::set<std::pair<std::size_t, std::string>> rows_;  // that have their line
+  std::map<std::size_t, std::pair<const Job*, Identity>> begun_;
+};
+
+}  // namespace
+
+std::string shard_name(std::size_t shard, std::size_t shards) {
+  return fmt::format("shard-{}-of-{}.jsonl", shard, shards);
+}
+
+int run_batch(const BatchOptions& options) {
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { interrupted = 1; });
+  try {
+    return Batch(options)();
+  } catch (const geometry::Refusal& refusal) {
+    fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());
+    return refusal.code() == geometry::refusal::kCannotWrite ? 1 : 3;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "fit_batch: {}\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace tensegric_fit::batch

@@ -1,0 +1,186 @@
+#include "batch/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "batch/shard_file.hpp"
+#include "files/csv.hpp"
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using geometry::Refusal;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kBroken = geometry::refusal::kBrokenFile;
+
+void add(const std::string& name, const Json& value, std::vector<Figure>& figures);
+
+void add_list(const std::string& name, const Json& list, std::vector<Figure>& figures) {
+  const auto all = [&list](auto is) { return !list.empty() && std::all_of(list.begin(), list.end(), is); };
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  if (list.size() == 3 && all([](const Json& v) { return v.is_number(); })) {
+    for (std::size_t i = 0; i < 3; ++i) add(name + "." + kAxes[i], list[i], figures);
+  } else if (list.size() == 2 && all([](const Json& v) { return v.is_number(); })) {
+    add(name + ".before", list[0], figures);
+    add(name + ".after", list[1], figures);
+  } else if (all([](const Json& v) { return v.is_object() && v.contains("name"); })) {
+    for (const Json& part : list) {
+      Json rest = part;
+      rest.erase("name");
+      add(name + "." + part["name"].get<std::string>(), rest, figures);
+    }
+  } else {
+    figures.emplace_back(name + ".count", static_cast<double>(list.size()));
+  }
+}
+
+void add(const std::string& name, const Json& value, std::vector<Figure>& figures) {
+  if (value.is_object()) {
+    for (const auto& [key, part] : value.items()) add(name.empty() ? key : name + "." + key, part, figures);
+  } else if (value.is_array()) {
+    add_list(name, value, figures);
+  } else if (value.is_number()) {
+    figures.emplace_back(name, value.get<double>());
+  } else if (value.is_boolean()) {
+    figures.emplace_back(name, value.get<bool>() ? 1.0 : 0.0);
+  } else if (value.is_string()) {
+    figures.emplace_back(name, value.get<std::string>());
+  }
+}
+
+/// batch.json and the lines of a folder; of several lines of a row the last counts.
+struct Folder {
+  Json description;
+  std::map<std::size_t, Json> lines;
+};
+
+Folder read_folder(const std::string& path) {
+  Folder folder;
+  std::ifstream stream(fs::path(path) / "batch.json");
+  folder.description = Json::parse(stream, nullptr, false);
+  if (!folder.description.is_object() || !folder.description.contains("rows"))
+    throw Refusal(kBroken, path + " has no batch.json: it is no folder of fit_batch");
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(path))
+    if (entry.path().extension() == ".jsonl") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const std::string& file : files)
+    for_each_line(file, [&folder](Json&& line, std::size_t) {
+      const std::size_t row = line.at("row");
+      folder.lines[row] = std::move(line);
+    });
+  return folder;
+}
+
+Json without_cost(Json line) {
+  line.erase("cost");
+  return line;
+}
+
+std::string text_of(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump();
+}
+
+std::string joined(const Json& list) {
+  std::string all;
+  for (const Json& part : list) all += (all.empty() ? "" : ";") + part.get<std::string>();
+  return all;
+}
+
+std::string text_of(const Figure& figure) {
+  if (const auto* text = std::get_if<std::string>(&figure.second)) return files::csv_field(*text);
+  return fmt::format("{}", std::get<double>(figure.second));
+}
+
+}  // namespace
+
+std::vector<Figure> figures_of(const Json& result) {
+  std::vector<Figure> figures;
+  add("", result, figures);
+  return figures;
+}
+
+Table read_table(std::vector<std::string> folders) {
+  std::sort(folders.begin(), folders.end());
+  folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
+  Table table;
+  for (const std::string& path : folders) {
+    Folder folder = read_folder(path);
+    const std::size_t rows = folder.description["rows"];
+    if (table.rows != 0 && rows != table.rows)
+      throw Refusal(kBroken,
+                    fmt::format("{} is of a manifest of {} rows, others of {}", path, rows, table.rows));
+    table.rows = rows;
+    for (auto& [row, line] : folder.lines) {
+      const auto [kept, fresh] = table.lines.try_emplace(row, line);
+      if (!fresh && without_cost(kept->second) != without_cost(line)) table.conflicts.push_back(row);
+    }
+  }
+  std::map<std::string, std::vector<std::size_t>> rows_of;
+  for (std::size_t row = 1; row <= table.rows; ++row) {
+    const auto found = table.lines.find(row);
+    if (found == table.lines.end()) {
+      table.missing.push_back(row);
+    } else if (const std::string key = found->second["key"]; !key.empty()) {
+      rows_of[key].push_back(row);
+    }
+  }
+  for (const auto& [key, rows] : rows_of)
+    if (rows.size() > 1) table.doubles[key] = rows;
+  return table;
+}
+
+std::string table_csv(const Table& table) {
+  std::vector<std::string> columns;
+  std::map<std::size_t, std::map<std::string, std::string>> cells;
+  std::set<std::string> known;
+  for (const auto& [row, line] : table.lines)
+    for (const Figure& figure : figures_of(line.value("result", Json::object()))) {
+      if (known.insert(figure.first).second) columns.push_back(figure.first);
+      cells[row][figure.first] = text_of(figure);
+    }
+  std::sort(columns.begin(), columns.end());
+  std::string text = "row,name,inputs,settings,subject,key,version,build,status,reason,message";
+  for (const std::string& column : columns) text += "," + files::csv_field(column);
+  text += "\n";
+  for (const auto& [row, line] : table.lines) {
+    const Json reason = line.value("reason", Json());
+    text += std::to_string(row);
+    for (const std::string& field :
+         {text_of(line["name"]), joined(line["inputs"]), line["settings"].dump(), text_of(line["subject"]),
+          text_of(line["key"]), text_of(line["version"]), text_of(line["build"]), text_of(line["status"]),
+          reason.is_object() ? text_of(reason["code"]) : "",
+          reason.is_object() ? text_of(reason["message"]) : ""})
+      text += "," + files::csv_field(field);
+    for (const std::string& column : columns) text += "," + cells[row][column];
+    text += "\n";
+  }
+  return text;
+}
+
+std::string costs_csv(const Table& table) {
+  constexpr const char* kStages[] = {"reconstruction", "body_model", "landmarks",
+                                     "control_mesh",   "tensegric",  "tffd"};
+  std::string text = "row,seconds,cpu_seconds,peak_MB";
+  for (const char* stage : kStages) text += std::string(",") + stage + "_ms";
+  text += "\n";
+  for (const auto& [row, line] : table.lines) {
+    const Json cost = line.value("cost", Json::object()), stages = cost.value("stages", Json::object());
+    text += std::to_string(row);
+    for (const char* name : {"seconds", "cpu_seconds", "peak_MB"})
+      text += "," + (cost.contains(name) ? fmt::format("{:.6g}", cost[name].get<double>()) : "");
+    for (const char* stage : kStages)
+      text += "," + (stages.contains(stage) ? fmt::format("{:.6g}", stages[stage].get<double>()) : "");
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace tensegric_fit::batch

@@ -1,0 +1,250 @@
+#!/usr/bin/env python3
+"""The program fit_batch: manifests, workers that crash or hang, kills, shards, merging.
+
+Usage: fit_batch_test.py FOLDER_OF_THE_PROGRAMS"""
+import csv
+import fcntl
+import json
+import os
+import pathlib
+import shutil
+import signal
+import sqlite3
+import stat
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAMS = pathlib.Path(sys.argv.pop())
+WOMEN = 2
+
+
+def fit_batch(*arguments):
+    return subprocess.run([PROGRAMS / "fit_batch", *map(str, arguments), "--quiet"], capture_output=True, text=True, check=False)
+
+
+def lines_of(folder):
+    return [json.loads(line) for file in sorted(folder.glob("*.jsonl")) for line in file.read_text().splitlines()]
+
+
+def without_cost(line):
+    return {key: value for key, value in line.items() if key != "cost"}
+
+
+def descendants(process):
+    """Process numbers of its children."""
+    return [int(n) for task in pathlib.Path(f"/proc/{process}/task").glob("*/children") for n in task.read_text().split()]
+
+
+def wait_until(true, seconds=60):
+    end = time.monotonic() + seconds
+    while not true():
+        if time.monotonic() > end:
+            raise AssertionError("waited in vain")
+        time.sleep(0.02)
+
+
+class FitBatch(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="fit_batch_test_"))
+        for n in range(1, WOMEN + 1):
+            subprocess.run([PROGRAMS / "virtual_booth", "--customer", str(n), "--out", cls.folder / f"w{n}"], check=True,
+                           stdout=subprocess.DEVNULL)
+        rows = [(f"woman {n}", f"w{n}/body.ply", "B1", "0.95") for n in range(1, WOMEN + 1)]
+        rows += [("again", "w1/body.ply", "B1", "0.95"), ("refused", "broken.ply", "", "")]
+        (cls.folder / "broken.ply").write_text("no mesh")
+        cls.rows = len(rows)
+        cls.manifest = cls.folder / "manifest.csv"
+        with open(cls.manifest, "w", encoding="utf-8", newline="") as file:
+            csv.writer(file).writerows([("name", "mesh", "garment", "ratio"), *rows])
+        cls.whole = cls.folder / "whole"
+        done = fit_batch(cls.manifest, "--out", cls.whole, "--jobs", 2)
+        assert done.returncode == 0, done.stderr
+        assert fit_batch("merge", cls.whole, "--out", cls.folder / "merged").returncode == 0
+        cls.table = (cls.folder / "merged/table.csv").read_bytes()
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def start(self, *arguments):
+        return subprocess.Popen([PROGRAMS / "fit_batch", *map(str, arguments), "--quiet"], stderr=subprocess.DEVNULL)
+
+    def merged(self, *folders):
+        """Exit code of the merger and the table."""
+        out = self.folder / "merged_again"
+        shutil.rmtree(out, ignore_errors=True)
+        code = fit_batch("merge", *folders, "--out", out).returncode
+        return code, (out / "table.csv").read_bytes()
+
+    def test_every_row_has_its_line(self):
+        lines = {line["name"]: line for line in lines_of(self.whole)}
+        self.assertEqual(len(lines), self.rows)
+        self.assertEqual(lines["refused"]["reason"]["code"], "broken_file")
+        for n in range(1, WOMEN + 1):
+            line = lines[f"woman {n}"]
+            self.assertEqual(line["status"], "ok")
+            self.assertEqual(line["result"]["solver"]["status"], "converged")
+            self.assertGreater(line["cost"]["peak_MB"], 1)
+        self.assertEqual(lines["again"]["key"], lines["woman 1"]["key"])
+        self.assertEqual(lines["again"]["result"], lines["woman 1"]["result"])
+
+    def test_figures_are_those_of_fit(self):
+        out = self.folder / "fit"
+        subprocess.run([PROGRAMS / "fit", "--mesh", self.folder / "w1/body.ply", "--garment", "B1", "--ratio", "0.95", "--out",
+                        out, "--quiet"], check=True)
+        report = json.loads((out / "report.json").read_text())
+        line = next(line for line in lines_of(self.whole) if line["name"] == "woman 1")
+        for part in ("girths", "heights", "landmarks", "confidence", "lines", "effects", "regions"):
+            self.assertEqual(line["result"][part], report[part], part)
+
+    def test_started_again_it_has_nothing_to_do(self):
+        before = lines_of(self.whole)
+        self.assertEqual(fit_batch(self.manifest, "--out", self.whole).returncode, 0)
+        self.assertEqual(lines_of(self.whole), before)
+
+    def test_killed_at_any_time_it_goes_on(self):
+        folder = self.folder / "killed"
+        for seconds in (0.3, 1.6):
+            process = self.start(self.manifest, "--out", folder, "--jobs", 2)
+            time.sleep(seconds)
+            process.kill()
+            process.wait()
+        shard = folder / "shard-1-of-1.jsonl"
+        with open(shard, "a", encoding="utf-8") as file:
+            file.write('{"row": 1, "torn')
+        self.assertEqual(fit_batch(self.manifest, "--out", folder).returncode, 0)
+        self.assertEqual(self.merged(folder), (0, self.table))
+
+    def test_one_worker_gives_the_same_bytes(self):
+        folder = self.folder / "alone"
+        self.assertEqual(fit_batch(self.manifest, "--out", folder, "--jobs", 1).returncode, 0)
+        self.assertEqual(self.merged(folder), (0, self.table))
+
+    def test_shards_make_the_whole_in_any_order(self):
+        folders = [self.folder / f"part{i}" for i in (1, 2)]
+        for i, folder in enumerate(folders, 1):
+            self.assertEqual(fit_batch(self.manifest, "--out", folder, "--shard", f"{i}/2").returncode, 0)
+        self.assertEqual(self.merged(*folders), (0, self.table))
+        self.assertEqual(self.merged(*reversed(folders)), (0, self.table))
+        code, _ = self.merged(folders[0])
+        self.assertEqual(code, 4)
+
+    def test_a_crash_takes_one_scan_with_it(self):
+        folder = self.folder / "crash"
+        process = self.start(self.manifest, "--out", folder, "--jobs", 1)
+        wait_until(lambda: descendants(process.pid))
+        time.sleep(0.2)
+        os.kill(descendants(process.pid)[0], signal.SIGSEGV)
+        self.assertEqual(process.wait(), 0)
+        lines = {line["row"]: line for line in lines_of(folder)}
+        crashed = [line for line in lines.values() if line["status"] == "crashed"]
+        self.assertEqual(len(lines), self.rows)
+        self.assertIn(len({line["key"] for line in crashed}), (1,))
+        self.assertIn("signal 11", crashed[0]["reason"]["message"])
+        self.assertEqual(fit_batch(self.manifest, "--out", folder, "--retry").returncode, 0)
+        self.assertEqual(self.merged(folder), (0, self.table))
+
+    def test_a_hang_takes_one_scan_with_it(self):
+        folder = self.folder / "hang"
+        process = self.start(self.manifest, "--out", folder, "--jobs", 1, "--time", 8)
+        wait_until(lambda: descendants(process.pid))
+        os.kill(descendants(process.pid)[0], signal.SIGSTOP)
+        self.assertEqual(process.wait(), 0)
+        self.assertTrue(any(line["status"] == "timed_out" for line in lines_of(folder)))
+        self.assertTrue(any(line["status"] == "ok" for line in lines_of(folder)))
+
+    def test_too_much_memory_takes_one_scan_with_it(self):
+        folder = self.folder / "memory"
+        self.assertEqual(fit_batch(self.manifest, "--out", folder, "--memory", 0.1).returncode, 0)
+        statuses = {line["status"] for line in lines_of(folder)}
+        self.assertTrue(statuses & {"out_of_memory", "crashed"}, statuses)
+
+    def test_two_at_once_on_one_shard_are_refused(self):
+        folder = self.folder / "both"
+        folder.mkdir()
+        with open(folder / "shard-1-of-1.jsonl", "w", encoding="utf-8") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            done = fit_batch(self.manifest, "--out", folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("another fit_batch", done.stderr)
+
+    def test_results_are_for_their_owner_only(self):
+        for file in [*self.whole.iterdir(), *(self.folder / "merged").iterdir()]:
+            self.assertEqual(stat.S_IMODE(file.stat().st_mode) & 0o077, 0, file)
+
+    def test_database_has_what_the_table_has(self):
+        with sqlite3.connect(self.folder / "merged/table.sqlite") as database:
+            rows = database.execute("SELECT row, status FROM runs ORDER BY row").fetchall()
+            bust = dict(database.execute("SELECT row, value FROM figures WHERE figure = 'girths.bust'"))
+        with open(self.folder / "merged/table.csv", encoding="utf-8", newline="") as file:
+            table = list(csv.DictReader(file))
+        self.assertEqual([(int(row["row"]), row["status"]) for row in table], rows)
+        self.assertEqual({int(row["row"]): float(row["girths.bust"]) for row in table if row["girths.bust"]}, bust)
+
+    def test_drift_against_another_version(self):
+        other = self.folder / "other.csv"
+        with open(self.folder / "merged/table.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        rows[1]["girths.bust"] = str(float(rows[1]["girths.bust"]) - 0.004)
+        rows[1]["status"] = "refused"
+        with open(other, "w", encoding="utf-8", newline="") as file:
+            writer = csv.DictWriter(file, rows[0])
+            writer.writeheader()
+            writer.writerows(rows)
+        out = self.folder / "drift"
+        self.assertEqual(fit_batch("merge", self.whole, "--out", out, "--against", other).returncode, 0)
+        page = (out / "index.html").read_text()
+        drifted = page[page.index("Against the other table"):page.index("<h2>Girths")]
+        self.assertIn("<td>girths.bust</td>", drifted)
+        self.assertIn("0.004", drifted)
+        self.assertNotIn("<td>girths.waist</td>", drifted)
+        self.assertIn("row 2: refused before, ok now", drifted)
+
+    def test_bad_manifests_are_refused_by_line(self):
+        cases = {
+            "scan,size\nw1/scan.ply,3\n": "line 1: there is no column 'size'",
+            "scan,scan\n": "line 1: column 'scan' is there twice",
+            "scan,ratio\nw1/scan.ply\n": "line 2: has 1 fields, the first line 2",
+            "scan,garment,ratio\nw1/scan.ply,B1,seven\n": "line 2: --ratio: 'seven' is not a number",
+            "scan,mesh\na.ply,b.ply\n": "line 2: --",
+            "name\nnobody\n": "line 2: --scan or --mesh",
+            "scan,bust_only\nw1/scan.ply,perhaps\n": "line 2: 'bust_only' is neither true nor false",
+            "": "has no row",
+            "scan\n": "has no row",
+        }
+        for text, message in cases.items():
+            manifest = self.folder / "bad.csv"
+            manifest.write_text(text)
+            done = fit_batch(manifest, "--out", self.folder / "bad")
+            self.assertEqual(done.returncode, 3, text)
+            self.assertIn(message, done.stderr, text)
+        manifest = self.folder / "bad.jsonl"
+        for text, message in {'{"scan": "w1/scan.ply"}\n[1]\n': "line 2: is no JSON object",
+                              '{"scan": {"a": 1}}\n': "line 1: 'scan' is no text",
+                              '{"colour": 1}\n': "line 1: there is no column 'colour'"}.items():
+            manifest.write_text(text)
+            done = fit_batch(manifest, "--out", self.folder / "bad")
+            self.assertEqual(done.returncode, 3, text)
+            self.assertIn(message, done.stderr, text)
+
+    def test_lines_of_json_read_like_rows(self):
+        manifest = self.folder / "manifest.jsonl"
+        with open(self.manifest, encoding="utf-8", newline="") as file:
+            for row in csv.DictReader(file):
+                cells = {key: value for key, value in row.items() if value}
+                if "ratio" in cells:
+                    cells["ratio"] = float(cells["ratio"])
+                with open(manifest, "a", encoding="utf-8") as lines:
+                    lines.write(json.dumps(cells) + "\n")
+        folder = self.folder / "json"
+        shutil.copytree(self.whole, folder)
+        self.assertEqual(fit_batch(manifest, "--out", folder).returncode, 0)
+        self.assertEqual(len(lines_of(folder)), self.rows)  # all were known
+
+
+if __name__ == "__main__":
+    unittest.main()
