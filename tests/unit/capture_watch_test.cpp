@@ -115,7 +115,6 @@ TEST_F(CaptureWatchTest, AStageThatIsDeadIsAnEarlyAnswer) {
   say("reconstruction", "done", "a", 14);
   say("landmarks", "working", "a", 25);
   EXPECT_EQ(code(capture, 30), "under way") << "what is over is not missed";
-  EXPECT_EQ(code(CaptureWatch({{}, 100, true, 0}, board_, kSlop, 25), 30), "under way");
   say("reconstruction", "waiting", "", 40);
   say("landmarks", "waiting", "", 40);
   CaptureWatch dressed({{}, 100, true, 0}, board_, kSlop, 30);
