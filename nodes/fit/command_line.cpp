@@ -120,6 +120,8 @@ std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, s
   app.add_flag("--bust-only", line.settings.reconstruction.bust_only,
                "Legs, hands and head of a scan come coarse, in less time: enough for a bust garment")
       ->excludes(mesh);
+  app.add_option("--customer", line.customer,
+                 "Your own id of her, for the report: `history` finds her by it");
   app.add_option("--out", line.out, "Folder for the results")->capture_default_str();
   auto* control = app.add_option("--control", line.control,
                                  "Control mesh CONTROL.ply for any shape; none: the shape simplified")

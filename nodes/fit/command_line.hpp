@@ -22,7 +22,7 @@ struct RatioRequest {
 struct CommandLine {
   std::vector<std::string> scans;  ///< of one person, in one frame
   mesh_files::Asked asked;         ///< unit and axes of scans or mesh
-  std::string mesh, garment, templates, tissue, control, fixed, out = "fit_out";
+  std::string mesh, garment, templates, tissue, control, customer, fixed, out = "fit_out";
   std::vector<RatioRequest> ratios;
   std::optional<tensegric::TensionLaw> band;
   geometry::Posture posture;

@@ -21,9 +21,11 @@ class Computation {
   // The chain: launch/pages/architecture.md. Refusals leave as exceptions.
   void operator()() {
     out_.settings = line_.settings;
+    out_.source.customer = line_.customer;
     load_body();
     if (line_.garment.empty() && !line_.is_shape()) return;  // measured only
     const tensegric::Garment garment = load_garment();
+    out_.source.garment = garment.name;
     if (const std::string tissue = tissue_file(); !tissue.empty()) take_tissue(tissue, out_.settings);
     if (line_.posture.twist != 0 || line_.posture.side_lean != 0)
       out_.settings.solver.bones = geometry::BoneFrames(out_.body.measures, line_.posture);

@@ -9,7 +9,8 @@ std::optional<int> parse(int argc, char** argv, CorrelateLine& line) {
       "How the body that `fit` simulated differs from a scan of the person in the real garment. Exit: 0 "
       "done, "
       "2 usage, 3 input refused, 1 the results cannot be written.");
-  app.add_option("--fit", line.fit, "Folder that `fit --garment` wrote")->required();
+  app.add_option("--fit", line.fit, "Folder that `fit --garment` wrote, or an export of the pipeline")
+      ->required();
   auto* worn = app.add_option("--worn", line.worn,
                               "Second scan, with the garment on: FILE.ply, .pcd or .bag, metres, any frame");
   auto* mesh = app.add_option("--mesh", line.mesh, "Body mesh WORN.ply, taken as it is instead of a scan");

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 const ResultNames kResults = {"correlate.json", "correlate.html", "distance.png",
                               "distance.ply",   "distance.csv",   "silhouettes.png"};
-const ResultNames kFitted = {"report.json", "body.ply", "deformed.ply", "control.ply"};
+const ResultNames kFitted = {kFitReport, kExportDocument, "body.ply", "deformed.ply", "control.ply"};
 
 class Run {
  public:

@@ -15,36 +15,54 @@ namespace refusal = geometry::refusal;
 using geometry::Refusal;
 using nlohmann::json;
 
-json read_report(const fs::path& path) {
+json read_json(const fs::path& path) {
   std::ifstream file(path);
-  if (!file)
-    throw Refusal(refusal::kBrokenFile, path.string() + ": cannot be read; is this a folder that fit wrote?");
-  try {
-    return json::parse(file);
-  } catch (const json::exception&) {
-    throw Refusal(refusal::kBrokenFile, path.string() + ": not JSON");
-  }
+  const json document = json::parse(file, nullptr, false);
+  if (document.is_discarded()) throw Refusal(refusal::kBrokenFile, path.string() + ": not JSON");
+  return document;
+}
+
+void add_lines(const json& lines, FittedFolder& fitted) {
+  for (const json& line : lines)
+    fitted.lines.push_back({line.at("name").get<std::string>(), line.at("request").get<double>(),
+                            line.at("ratio").get<double>()});
+}
+
+// What `fit` wrote.
+void read_report(const json& report, const std::string& folder, FittedFolder& fitted) {
+  if (report.at("status") != "ok")
+    throw Refusal(refusal::kNothingYet,
+                  folder + ": fit refused its scan: " + report.at("reason").at("message").get<std::string>());
+  if (!report.contains("lines"))
+    throw Refusal(refusal::kNothingYet,
+                  folder + ": fit measured a body without a garment: simulate one first");
+  fitted.scan = report.at("scan").at("file").get<std::string>();
+  add_lines(report.at("lines"), fitted);
+}
+
+// What the pipeline exported.
+void read_export(const json& document, FittedFolder& fitted) {
+  fitted.scan = "scan " + document.at("scan").at("scan_id").get<std::string>();
+  add_lines(document.at("garment").at("lines"), fitted);
 }
 
 }  // namespace
 
 FittedFolder read_fitted_folder(const std::string& folder) {
-  const fs::path root(folder);
-  const json report = read_report(root / "report.json");
+  const fs::path root(folder), report = root / kFitReport, document = root / kExportDocument;
   FittedFolder fitted;
+  const bool by_fit = fs::exists(report);
+  if (!by_fit && !fs::exists(document))
+    throw Refusal(refusal::kBrokenFile, folder + ": has neither " + kFitReport + ", as fit writes it, nor " +
+                                            kExportDocument + ", as an export has it");
   try {
-    if (report.at("status") != "ok")
-      throw Refusal(refusal::kNothingYet, folder + ": fit refused its scan: " +
-                                              report.at("reason").at("message").get<std::string>());
-    if (!report.contains("lines"))
-      throw Refusal(refusal::kNothingYet,
-                    folder + ": fit measured a body without a garment: simulate one first");
-    fitted.scan = report.at("scan").at("file").get<std::string>();
-    for (const json& line : report.at("lines"))
-      fitted.lines.push_back({line.at("name").get<std::string>(), line.at("request").get<double>(),
-                              line.at("ratio").get<double>()});
+    if (by_fit)
+      read_report(read_json(report), folder, fitted);
+    else
+      read_export(read_json(document), fitted);
   } catch (const json::exception&) {
-    throw Refusal(refusal::kBrokenFile, (root / "report.json").string() + ": not a report as fit writes it");
+    throw Refusal(refusal::kBrokenFile, (by_fit ? report : document).string() + ": not as " +
+                                            (by_fit ? "fit writes it" : "an export has it"));
   }
   fitted.rest = geometry::read_ply_mesh((root / "body.ply").string());
   geometry::TriangleMesh deformed = geometry::read_ply_mesh((root / "deformed.ply").string());

@@ -175,6 +175,8 @@ Json report_of(const Source& source, const Body& body, const Fitting* fitting, c
                     {"unit", source.reading.unit},
                     {"axes", axes_of(source.reading)},
                     {"body_from_scan", json_of(body.measures.body_from_scan)}};
+  if (!source.garment.empty()) report["garment"] = source.garment;
+  if (!source.customer.empty()) report["scan"]["customer"] = source.customer;
   report["status"] = "ok";
   report["reason"] = nullptr;
   report["stages"] = stages_of(times);

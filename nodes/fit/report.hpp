@@ -18,6 +18,8 @@ struct Source {
   std::size_t points = 0;
   std::vector<std::string> more = {};  ///< further files of the same scan
   mesh_files::Reading reading = {};    ///< of all of them
+  std::string customer = {};           ///< the shop's own id of her; empty: not said
+  std::string garment = {};            ///< its name
 };
 
 /// Body vertices whose area shrinks below this share are called over-constricted (P1 Fig. 8).

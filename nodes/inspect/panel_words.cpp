@@ -55,6 +55,11 @@ std::string exported(int files, const std::string& folder) {
   return fmt::format("Wrote {} files into {}", files, folder);
 }
 
+std::string customer_help(const std::string& source) {
+  return (source.empty() ? "" : "From " + source + ". ") +
+         "Your own id of her: type it and press Enter. It goes into exports, and `history` finds her by it.";
+}
+
 std::string not_exported(const std::string& message) {
   return sentence("Nothing was exported: " + message);
 }

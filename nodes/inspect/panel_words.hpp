@@ -12,7 +12,7 @@ namespace tensegric_fit::inspect::words {
 inline constexpr char kGarment[] = "&Garment", kPutOn[] = "&Put on", kUndo[] = "&Undo", kRedo[] = "R&edo",
                       kLinked[] = "&Both sides alike", kReset[] = "&Reset",
                       kCompare[] = "&Compare with the scan", kExport[] = "E&xport", kFolder[] = "&Folder",
-                      kBlendLabel[] = "&Scan to garment", kRegions[] = "Regions";
+                      kCustomer[] = "C&ustomer", kBlendLabel[] = "&Scan to garment", kRegions[] = "Regions";
 inline constexpr char kViewFront[] = "Front", kViewLeft[] = "Left", kViewBack[] = "Back",
                       kViewRight[] = "Right", kViewAll[] = "All", kViewFollows[] = "follows",
                       kViewHelp[] = "The view from there; All: her whole body, or where the garment is",
@@ -44,6 +44,8 @@ inline constexpr char kAsked[] = "Fitting ...",
 std::string solving(int iteration);
 std::string not_accepted(const std::string& message);
 std::string exported(int files, const std::string& folder);
+/// `source`: file that the scan came from, or empty.
+std::string customer_help(const std::string& source);
 std::string not_exported(const std::string& message);
 
 /// A fit that has ended: "B1: fits (12 ms)", or what is wrong with it.

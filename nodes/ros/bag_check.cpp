@@ -7,6 +7,7 @@
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
 #include <tensegric_fit/Garment.h>
+#include <tensegric_fit/ScanLabel.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
@@ -31,6 +32,7 @@ std::pair<std::string, std::string> version_of() {
 const std::map<std::string, std::string>& known_versions() {
   static const std::map<std::string, std::string> versions = {version_of<sensor_msgs::PointCloud2>(),
                                                               version_of<Garment>(),
+                                                              version_of<ScanLabel>(),
                                                               version_of<BodyModel>(),
                                                               version_of<TriangleMesh>(),
                                                               version_of<Landmarks>(),

@@ -47,10 +47,16 @@ void ExportDesk::keep(const LineForces::ConstPtr& forces) {
   forces_ = forces;
 }
 
+void ExportDesk::keep(const ScanLabel& label) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  labels_.add(label);
+}
+
 FittedScan ExportDesk::kept() {
   const std::lock_guard<std::mutex> lock(mutex_);
   FittedScan scan = fitted_;
   scan.forces = forces_;
+  if (scan.body) scan.label = labels_.of(scan.body->scan_id);
   return scan;
 }
 

@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "ros/export_fit.hpp"
+#include "ros/scan_labels.hpp"
 
 namespace tensegric_fit::node {
 
@@ -21,6 +22,8 @@ class ExportDesk {
   void keep(const FittedScan& scan);
   /// Exported with the fit that they belong to.
   void keep(const LineForces::ConstPtr& forces);
+  /// Exported with its scan.
+  void keep(const ScanLabel& label);
 
  private:
   FittedScan kept();
@@ -31,6 +34,7 @@ class ExportDesk {
   std::mutex mutex_;
   FittedScan fitted_;
   LineForces::ConstPtr forces_;
+  ScanLabels labels_;
   ros::CallbackQueue queue_;
   std::vector<ros::ServiceServer> services_;
   ros::AsyncSpinner spinner_;  // last: it uses all of the above

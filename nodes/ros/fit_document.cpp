@@ -152,6 +152,8 @@ std::string fit_json(const FitFigures& figures, const std::vector<std::string>& 
   document["scan"] = {{"scan_id", figures.scan.body->scan_id},
                       {"frame", figures.scan.body->header.frame_id},
                       {"body_from_scan", rows_of(figures.measures.body_from_scan)}};
+  if (!figures.scan.label.source.empty()) document["scan"]["source"] = figures.scan.label.source;
+  if (!figures.scan.label.customer.empty()) document["scan"]["customer"] = figures.scan.label.customer;
   document["garment"] = garment_of(figures.scan);
   document["solver"] = {{"name", fit.solver},
                         {"status", fit.status},

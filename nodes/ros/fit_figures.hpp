@@ -6,6 +6,7 @@
 #include <tensegric_fit/FitState.h>
 #include <tensegric_fit/Landmarks.h>
 #include <tensegric_fit/LineForces.h>
+#include <tensegric_fit/ScanLabel.h>
 #include <tensegric_fit/TriangleMesh.h>
 
 #include <optional>
@@ -30,6 +31,7 @@ struct FittedScan {
   DeformedMesh::ConstPtr deformed;
   std::vector<geometry::FitWarning> warnings = {};  ///< and notices
   LineForces::ConstPtr forces = nullptr;            ///< null: unknown
+  ScanLabel label = {};                             ///< whose it is, as far as anybody said
 };
 
 /// The same as core types, and what follows from it. Metres.

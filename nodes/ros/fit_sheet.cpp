@@ -143,6 +143,14 @@ std::string day_of(const std_msgs::Header& header) {
   return fmt::format(", {:04}-{:02}-{:02}", day.tm_year + 1900, day.tm_mon + 1, day.tm_mday);
 }
 
+/// Whose scan it is and where it came from, as far as that is known.
+std::string whose(const ScanLabel& label) {
+  std::string words;
+  if (!label.customer.empty()) words += " Customer " + label.customer + ".";
+  if (!label.source.empty()) words += " From " + label.source + ".";
+  return html_escaped(words);
+}
+
 /// In fit.glb's frame, m to the tenth of a millimetre.
 nlohmann::json points_of(const std::vector<Eigen::Vector3d>& points,
                          const Eigen::Isometry3d& body_from_scan) {
@@ -211,10 +219,11 @@ std::string fit_sheet(const FitFigures& figures, const std::vector<SheetPicture>
         "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
         html_escaped(picture.caption), files::base64(picture.png.bytes));
   const std::string footer = fmt::format(
-      "Scan {}{}. Made by tensegric_fit {}. Measurements after ISO 8559-1; they are those of a scan, not of "
-      "a "
+      "Scan {}{}.{} Made by tensegric_fit {}. Measurements after ISO 8559-1; they are those of a scan, not "
+      "of a "
       "medical device.",
-      html_escaped(figures.scan.body->scan_id), day_of(figures.scan.body->header), TENSEGRIC_FIT_VERSION);
+      html_escaped(figures.scan.body->scan_id), day_of(figures.scan.body->header), whose(figures.scan.label),
+      TENSEGRIC_FIT_VERSION);
   return files::filled_in(
       files::bytes_of(geometry::shipped_folder("page") + "/fit.html"),
       {{"title", "Garment " + html_escaped(figures.scan.fit->garment)},

@@ -29,6 +29,7 @@ Replay::Replay(ros::NodeHandle node, const Options& options)
     : options_(options),
       node_(node),
       scans_(node.advertise<sensor_msgs::PointCloud2>("scan/points", 1, true)),
+      labels_(node.advertise<ScanLabel>("scan/label", 16, true)),
       set_garment_(node.serviceClient<SetGarment>("set_garment")),
       diagnostics_in_(node.subscribe("/diagnostics", 100, &Replay::on_diagnostics, this)),
       body_frame_in_(node.subscribe("/tf_static", 100, &Replay::on_tf, this)) {
@@ -37,6 +38,7 @@ Replay::Replay(ros::NodeHandle node, const Options& options)
   keep<Landmarks>("body/landmarks", &Answer::landmarks);
   last_stage_ = "landmarks";
   if (options.measure_only) return;
+  worn_in_ = node_.subscribe<Garment>("garment", 10, [this](const Garment::ConstPtr& worn) { worn_ = worn; });
   keep<ControlMesh>("control/mesh", &Answer::control);
   keep<FitState>("control/deformed", &Answer::fit);
   keep<DeformedMesh>("body/deformed", &Answer::deformed);
@@ -99,6 +101,13 @@ bool Replay::answered() const {
          fact(last->second->status.front(), "scan_id") == scan_id_;
 }
 
+void Replay::write_input(const Garment& garment, const ros::Time& time, rosbag::Bag& out) const {
+  Garment asked = garment;
+  asked.header = {};
+  asked.header.stamp = time;  // not when it was asked for here: the same bag in, the same bag out
+  out.write("garment", time, asked);
+}
+
 void Replay::write_answer(const ros::Time& time, rosbag::Bag& out, bool whole) {
   if (whole) {
     write(out, "body/model", time, got_.model);
@@ -120,6 +129,8 @@ bool Replay::send(const sensor_msgs::PointCloud2& scan, const ros::Time& time, r
   refused_ = false;
   scans_.publish(scan);
   const bool ended = wait([this] { return answered(); });
+  if (worn_) write_input(*worn_, time, out);
+  out.write("scan/points", time, scan);
   if (got_.landmarks) wait([this] { return body_frame_ != nullptr; }, kFramePatience);
   write_answer(time, out, true);
   ROS_INFO("replay: scan %s %s", scan_id_.c_str(),
@@ -127,6 +138,11 @@ bool Replay::send(const sensor_msgs::PointCloud2& scan, const ros::Time& time, r
            : refused_ ? "refused"
                       : "went through");
   return ended;
+}
+
+void Replay::send(const ScanLabel& label, const ros::Time& time, rosbag::Bag& out) {
+  labels_.publish(label);
+  out.write("scan/label", time, label);
 }
 
 bool Replay::send(const Garment& garment, const ros::Time& time, rosbag::Bag& out) {
@@ -142,6 +158,7 @@ bool Replay::send(const Garment& garment, const ros::Time& time, rosbag::Bag& ou
     return false;
   }
   if (!on_scan) return true;
+  write_input(garment, time, out);
   const bool ended = wait([this] { return answered(); });
   write_answer(time, out, false);
   ROS_INFO("replay: garment '%s' %s", garment.name.c_str(), ended ? "worn" : "TIMED OUT");

@@ -7,6 +7,7 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/Garment.h>
+#include <tensegric_fit/ScanLabel.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <functional>
@@ -30,11 +31,14 @@ class Replay {
   /// Waits until the whole chain is there. Names the topics that nobody serves; empty: none.
   std::vector<std::string> wait_for_chain();
 
-  /// Each writes what comes out to `out`, at `time`. False: it took too long, or was not understood; a
-  /// refusal is an answer, and goes to /diagnostics in `out`.
+  /// Each writes what goes in and what comes out to `out`, at `time`, so that `out` can be replayed, too.
+  /// False: it took too long, or was not understood; a refusal is an answer, and goes to /diagnostics in
+  /// `out`.
   bool send(const sensor_msgs::PointCloud2& scan, const ros::Time& time, rosbag::Bag& out);
   /// To be worn from now on, and on the scan before, if it went through.
   bool send(const Garment& garment, const ros::Time& time, rosbag::Bag& out);
+  /// Scans keep their ids, and labels their scans. Nothing answers.
+  void send(const ScanLabel& label, const ros::Time& time, rosbag::Bag& out);
 
  private:
   struct Answer : FittedScan {
@@ -47,19 +51,21 @@ class Replay {
   bool wait(const std::function<bool()>& condition) const { return wait(condition, options_.timeout); }
   bool wait(const std::function<bool()>& condition, double seconds) const;
   bool answered() const;
+  void write_input(const Garment& garment, const ros::Time& time, rosbag::Bag& out) const;
   void write_answer(const ros::Time& time, rosbag::Bag& out, bool whole);
 
   const Options options_;
   ros::NodeHandle node_;
-  ros::Publisher scans_;
+  ros::Publisher scans_, labels_;
   ros::ServiceClient set_garment_;
   std::vector<ros::Subscriber> subscribers_;
-  ros::Subscriber diagnostics_in_, body_frame_in_;
+  ros::Subscriber diagnostics_in_, body_frame_in_, worn_in_;
 
   std::string scan_id_, last_stage_;
   ros::Time scan_stamp_;
   Answer got_;
   tf2_msgs::TFMessage::ConstPtr body_frame_;
+  Garment::ConstPtr worn_;  // as the chain says
   bool refused_ = false;
   std::map<std::string, diagnostic_msgs::DiagnosticArray::ConstPtr> diagnostics_;  // newest of each stage
 };

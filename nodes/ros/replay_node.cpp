@@ -58,6 +58,7 @@ int run(const Setup& setup) {
       ++sent;
       lost += !replay.send(*scan, message.getTime(), out);
     }
+    if (const auto label = message.instantiate<ScanLabel>()) replay.send(*label, message.getTime(), out);
     if (const auto garment = message.instantiate<Garment>())
       lost += !replay.send(*garment, message.getTime(), out);
   }

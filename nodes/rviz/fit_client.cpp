@@ -24,7 +24,8 @@ void FitClient::listen(const char* topic, std::function<void(const Message&)> Fi
 }
 
 FitClient::FitClient()
-    : wear_(node_.serviceClient<SetGarment>("set_garment")),
+    : labels_(node_.advertise<ScanLabel>("scan/label", 4, true)),
+      wear_(node_.serviceClient<SetGarment>("set_garment")),
       reset_(node_.serviceClient<std_srvs::Trigger>("reset")),
       export_(node_.serviceClient<ExportFit>("export_fit")) {
   listen("garment", &FitClient::on_garment);
@@ -35,6 +36,7 @@ FitClient::FitClient()
   listen("body/mesh", &FitClient::on_body);
   listen("body/landmarks", &FitClient::on_landmarks);
   listen("control/mesh", &FitClient::on_control);
+  listen("scan/label", &FitClient::on_label);
   const boost::function<void(const diagnostic_msgs::DiagnosticArray::ConstPtr&)> diagnostics =
       [this](const diagnostic_msgs::DiagnosticArray::ConstPtr& array) {
         for (const auto& status : array->status) on_diagnostics(status);
@@ -95,6 +97,10 @@ void FitClient::wear(const SetGarment::Request& request) {
     if (!wear_.exists() || !wear_.call(call)) return report(on_worn, false, words::kPipelineNotRunning);
     report(on_worn, call.response.accepted, call.response.message);
   });
+}
+
+void FitClient::label(const ScanLabel& label) {
+  labels_.publish(label);
 }
 
 void FitClient::reset() {

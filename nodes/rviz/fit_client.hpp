@@ -19,6 +19,7 @@
 #include <tensegric_fit/Garment.h>
 #include <tensegric_fit/Landmarks.h>
 #include <tensegric_fit/LineForces.h>
+#include <tensegric_fit/ScanLabel.h>
 #include <tensegric_fit/SetGarment.h>
 #include <tensegric_fit/TriangleMesh.h>
 #endif
@@ -38,6 +39,8 @@ class FitClient : public QObject {
   void reset();
   /// Of that scan's fit and no other's.
   void export_to(const std::string& folder, const std::string& scan_id);
+  /// Whose the scan is.
+  void label(const ScanLabel& label);
   /// Whether a garment or a reset waits for its answer.
   bool is_asking();
 
@@ -50,6 +53,7 @@ class FitClient : public QObject {
   std::function<void(const TriangleMesh&)> on_body;
   std::function<void(const Landmarks&)> on_landmarks;
   std::function<void(const ControlMesh&)> on_control;
+  std::function<void(const ScanLabel&)> on_label;
   std::function<void(const diagnostic_msgs::DiagnosticStatus&)> on_diagnostics;
   /// What the pipeline said to a call: whether it did it, and a sentence.
   std::function<void(bool done, const std::string&words)> on_worn, on_exported;
@@ -65,6 +69,7 @@ class FitClient : public QObject {
 
   ros::NodeHandle node_;
   std::vector<ros::Subscriber> subscribers_;
+  ros::Publisher labels_;
   ros::ServiceClient wear_, reset_, export_;
 
   std::mutex mutex_;

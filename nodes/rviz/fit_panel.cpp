@@ -71,6 +71,7 @@ void FitPanel::onInitialize() {
     control_ = control;
     show_outcome();
   };
+  client_->on_label = [this](const ScanLabel& label) { take_label(label); };
   client_->on_diagnostics = [this](const auto& status) { take_diagnostics(status); };
   client_->on_worn = [this](bool done, const std::string& words) { take_answer(done, words); };
   client_->on_exported = [this](bool done, const std::string& words) {
@@ -239,6 +240,19 @@ void FitPanel::take_warnings(const FitWarnings& warnings) {
   show_outcome();
 }
 
+void FitPanel::take_label(const ScanLabel& label) {
+  labels_.add(label);
+  show_whose();
+}
+
+void FitPanel::show_whose() {
+  const ScanLabel label = labels_.of(body_.scan_id());
+  customer_->setEnabled(!body_.empty());
+  customer_->setPlaceholderText(text(label.source));
+  customer_->setToolTip(text(words::customer_help(label.source)));
+  if (!customer_->isModified()) customer_->setText(text(label.customer));
+}
+
 void FitPanel::show_warnings(std::vector<std::string> messages) {
   for (const FitWarning& warning : warnings_.warnings) messages.push_back(warning.message);
   const std::string words = words::warnings(messages);
@@ -258,6 +272,8 @@ void FitPanel::take_body(const TriangleMesh& body) {
   try {
     body_.take_body(body.scan_id, node::mesh_in(body));
     new_girths_ = true;
+    customer_->setModified(false);  // what is typed is of the body that was shown
+    show_whose();
   } catch (const geometry::Refusal& refusal) {
     answer(refusal.what());
   }

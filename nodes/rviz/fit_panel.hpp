@@ -22,6 +22,7 @@
 #include "inspect/body_view.hpp"
 #include "inspect/fit_session.hpp"
 #include "inspect/pipeline_watch.hpp"
+#include "ros/scan_labels.hpp"
 #include "rviz/fit_client.hpp"
 #include "rviz/girth_table.hpp"
 #include "rviz/line_row.hpp"
@@ -67,6 +68,7 @@ class FitPanel : public rviz::Panel {
   void set_display(const char* property, const QVariant& value);
   void enable_display(bool on);
   void start_export();
+  void say_whose();
 
   // What the pipeline says.
   void take_garment(const Garment& garment);
@@ -76,6 +78,7 @@ class FitPanel : public rviz::Panel {
   void take_landmarks(const Landmarks& landmarks);
   void take_deformed(const DeformedMesh& deformed);
   void take_warnings(const FitWarnings& warnings);
+  void take_label(const ScanLabel& label);
   void take_diagnostics(const diagnostic_msgs::DiagnosticStatus& status);
   void take_answer(bool done, const std::string& words);
 
@@ -85,6 +88,7 @@ class FitPanel : public rviz::Panel {
   std::string lack_of(const LineResult& line) const;      // "" where the line holds
   void show_lines();
   void show_girths();
+  void show_whose();
   void follow_view();
   void show_state();
   void show_age(const PipelineWatch::State& state);
@@ -100,6 +104,7 @@ class FitPanel : public rviz::Panel {
   LineForces forces_;
   FitWarnings warnings_;  // of the last that has ended, or the one before
   ControlMesh control_;
+  node::ScanLabels labels_;
   BodyView body_;
   std::string measured_scan_, measured_frame_;
   geometry::BodyMeasures measures_;
@@ -121,7 +126,7 @@ class FitPanel : public rviz::Panel {
   QSlider* blend_;
   ViewRow* view_;
   GirthTable* table_;
-  QLineEdit* folder_;
+  QLineEdit *customer_, *folder_;
   std::unique_ptr<FitClient> client_;  // last: it calls all of the above
 };
 

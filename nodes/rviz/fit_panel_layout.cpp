@@ -23,6 +23,7 @@ namespace tensegric_fit::inspect {
 namespace {
 
 constexpr int kWidth = 430;        // pixels
+constexpr int kLongestName = 60;   // letters of a customer id
 constexpr float kStepBack = 1.7F;  // of the camera, to see two bodies in place of one
 constexpr char kWarning[] = "color: #b2182b; font-weight: bold";
 constexpr char kDisplay[] = "tensegric_fit/BodyMesh";
@@ -155,6 +156,16 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
 }
 
 void FitPanel::build_export(QVBoxLayout* layout) {
+  auto* whose = new QHBoxLayout;
+  auto* name = new QLabel(words::kCustomer);
+  customer_ = new QLineEdit;
+  customer_->setMaxLength(kLongestName);
+  customer_->setEnabled(false);
+  name->setBuddy(customer_);
+  whose->addWidget(name);
+  whose->addWidget(customer_, 1);
+  layout->addLayout(whose);
+  connect(customer_, &QLineEdit::editingFinished, this, &FitPanel::say_whose);
   auto* row = new QHBoxLayout;
   auto* label = new QLabel(words::kFolder);
   folder_ = new QLineEdit(QDir::home().filePath("tensegric_fit_exports"));
@@ -281,6 +292,15 @@ void FitPanel::start_export() {
   export_->setEnabled(false);
   answer("");
   client_->export_to(QDir(folder).filePath(name).toStdString(), body_.scan_id());
+}
+
+void FitPanel::say_whose() {
+  if (!customer_->isModified() || customer_->text().trimmed().isEmpty() || body_.empty()) return;
+  customer_->setModified(false);
+  ScanLabel label;
+  label.scan_id = body_.scan_id();
+  label.customer = customer_->text().trimmed().toStdString();
+  client_->label(label);
 }
 
 void FitPanel::load(const rviz::Config& config) {

@@ -1,6 +1,9 @@
-/// scan_player: publishes the scans of a file, of a bag, or of a folder that is watched, on scan/points.
+/// scan_player: publishes the scans of a file, of a bag, or of a folder that is watched, on scan/points, and
+/// on scan/label where they come from.
 #include <fmt/format.h>
 #include <pcl_conversions/pcl_conversions.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include <algorithm>
@@ -12,8 +15,10 @@
 
 #include "ros/parameters.hpp"
 #include "ros/run_node.hpp"
+#include "ros/scan_labels.hpp"
 #include "ros/scan_tag.hpp"
 #include "ros/stage.hpp"
+#include "scan_files/customer_name.hpp"
 #include "scan_files/scan_bag.hpp"
 #include "scan_files/scan_file.hpp"
 #include "scan_files/scan_folder.hpp"
@@ -28,6 +33,7 @@ struct Setup {
   std::string file, frame_id;
   double rate, interval, settle;
   bool existing;
+  std::regex customer;                    // in the names of files
   std::vector<std::string> played_files;  // what this node played before it was respawned
 };
 
@@ -39,6 +45,7 @@ Setup setup_from(Parameters parameters) {
   setup.interval = parameters.number("interval", 10, {0, 86400});
   setup.settle = parameters.number("settle", 1, {0.1, 3600});
   setup.existing = parameters.flag("existing", false);
+  setup.customer = scan_files::customer_pattern(parameters.text("customer_pattern", ""));
   setup.played_files = parameters.texts("played_files");
   parameters.check_all_known();
   if (!fs::exists(setup.file))
@@ -50,13 +57,38 @@ Setup setup_from(Parameters parameters) {
   return setup;
 }
 
-std::vector<PointCloud2::ConstPtr> scans_in(const std::string& path) {
-  if (fs::path(path).extension() == ".bag") return scan_files::read_bag_scans(path);
+/// What is known of it before it is stamped anew.
+struct FileScan {
+  PointCloud2::ConstPtr points;
+  ScanLabel label;
+};
+
+std::vector<FileScan> scans_in_bag(const std::string& path, const ScanLabel& label) {
+  ScanLabels labels;
+  const rosbag::Bag bag(path);
+  for (const rosbag::MessageInstance& message :
+       rosbag::View(bag, rosbag::TypeQuery(ros::message_traits::datatype<ScanLabel>())))
+    if (const auto known = message.instantiate<ScanLabel>()) labels.add(*known);
+  std::vector<FileScan> scans;
+  for (const PointCloud2::ConstPtr& points : scan_files::read_bag_scans(path)) {
+    ScanLabel own = labels.of(tag_of(*points).scan_id);
+    own.source = label.source;
+    if (own.customer.empty()) own.customer = label.customer;
+    scans.push_back({points, own});
+  }
+  return scans;
+}
+
+std::vector<FileScan> scans_in(const std::string& path, const std::regex& customer) {
+  ScanLabel label;
+  label.source = fs::path(path).filename();
+  label.customer = scan_files::customer_in(path, customer);
+  if (fs::path(path).extension() == ".bag") return scans_in_bag(path, label);
   scan_files::ScanFile file = scan_files::read_scan_file(path);
   scan_files::apply(scan_files::reading_of({file}, {}), file.cloud);
   const auto scan = boost::make_shared<PointCloud2>();
   pcl_conversions::moveFromPCL(file.cloud, *scan);
-  return {scan};
+  return {{scan, label}};
 }
 
 class ScanPlayer {
@@ -66,6 +98,7 @@ class ScanPlayer {
         node_(node),
         private_node_(private_node),
         publisher_(advertised()),
+        labels_(advertised_labels()),
         stage_("scan_player", node) {
     if (fs::is_directory(setup_.file)) {
       folder_.emplace(setup_.file, setup_.settle);
@@ -90,10 +123,11 @@ class ScanPlayer {
     if (order.scan_id == published_) {
       publisher_.shutdown();
       publisher_ = advertised();
+      labels_.shutdown();
+      labels_ = advertised_labels();
       published_.clear();
-      if (!busy_) scans_.clear();  // else they are another file's
-      at_ = 0;
-      done.removed.push_back("the latched scan/points");
+      if (!busy_) drop_published();  // else the scans read last are being replaced
+      done.removed.push_back("the latched scan/points and scan/label");
     }
     if (order.scan_file) {
       std::error_code error;
@@ -108,13 +142,23 @@ class ScanPlayer {
 
  private:
   ros::Publisher advertised() { return node_.advertise<PointCloud2>("scan/points", 1, true); }
+  ros::Publisher advertised_labels() { return node_.advertise<ScanLabel>("scan/label", 4, true); }
+
+  void drop_published() {
+    if (setup_.rate > 0) {
+      scans_.clear();  // nor is it played over again
+      at_ = 0;
+    } else if (at_ > 0) {
+      scans_[at_ - 1] = {};
+    }
+  }
 
   void go_on() {
     if (folder_) look();
     if (busy_ || ros::SteadyTime::now().toSec() < next_) return;
     if (setup_.rate > 0 && at_ == scans_.size()) at_ = 0;
     if (at_ < scans_.size())
-      publish(*scans_[at_++]);
+      publish(scans_[at_++]);
     else if (!files_.empty())
       read(files_.front());
   }
@@ -144,7 +188,7 @@ class ScanPlayer {
     stage_.begin(path);
     stage_.post(path, [this, path]() -> Stage::Result {
       try {
-        const std::vector<PointCloud2::ConstPtr> scans = scans_in(path);
+        const std::vector<FileScan> scans = scans_in(path, setup_.customer);
         return {[this, scans] {
                   scans_ = scans;
                   at_ = 0;
@@ -158,22 +202,28 @@ class ScanPlayer {
     });
   }
 
-  void publish(PointCloud2 scan) {
+  void publish(const FileScan& file) {
+    PointCloud2 scan = *file.points;
     scan.header.stamp = ros::Time::now();
     scan.header.frame_id = setup_.frame_id;
+    ScanLabel label = file.label;
+    const ScanTag tag = tag_of(scan);
+    label.header = tag.header;
+    label.scan_id = tag.scan_id;
+    labels_.publish(label);
     publisher_.publish(scan);
-    published_ = tag_of(scan).scan_id;
+    published_ = label.scan_id;
     sources_[published_] = playing_;
     next_ = ros::SteadyTime::now().toSec() + (setup_.rate > 0 ? 1 / setup_.rate : setup_.interval);
-    ROS_INFO("scan_player: scan %s", tag_of(scan).scan_id.c_str());
+    ROS_INFO("scan_player: scan %s", label.scan_id.c_str());
   }
 
   const Setup setup_;
   ros::NodeHandle node_, private_node_;
-  ros::Publisher publisher_;
+  ros::Publisher publisher_, labels_;
   std::optional<scan_files::ScanFolder> folder_;
   std::deque<std::string> files_;               // complete, to be read
-  std::vector<PointCloud2::ConstPtr> scans_;    // of the file read last; the worker's while busy
+  std::vector<FileScan> scans_;                 // of the file read last; the worker's while busy
   std::string playing_, published_;             // a path; a scan_id
   std::map<std::string, std::string> sources_;  // scan_id -> path
   std::size_t at_ = 0;                          // of the next one

@@ -26,7 +26,10 @@ class TffdNode {
                     node.subscribe("control/deformed", 8, &TffdNode::on<FitState>, this, kPrompt),
                     node.subscribe<LineForces>(
                         "control/forces", 4,
-                        [this](const LineForces::ConstPtr& forces) { exports_.keep(forces); }, {}, kPrompt)};
+                        [this](const LineForces::ConstPtr& forces) { exports_.keep(forces); }, {}, kPrompt),
+                    node.subscribe<ScanLabel>("scan/label", 16, [this](const ScanLabel::ConstPtr& label) {
+                      exports_.keep(*label);
+                    })};
   }
 
  private:

@@ -6,6 +6,7 @@
 #include <ros/this_node.h>
 #include <signal.h>
 #include <tensegric_fit/CaptureAction.h>
+#include <tensegric_fit/ScanLabel.h>
 #include <xmlrpcpp/XmlRpcClient.h>
 
 #include <algorithm>
@@ -247,6 +248,9 @@ class WatchedFolderTest : public testing::Test {
     const boost::function<void(const sensor_msgs::PointCloud2::ConstPtr&)> on_scan =
         [this](const sensor_msgs::PointCloud2::ConstPtr& scan) { points_.push_back(scan->width); };
     scan_ = node.subscribe<sensor_msgs::PointCloud2>("scan/points", 8, on_scan);
+    const boost::function<void(const ScanLabel::ConstPtr&)> on_label =
+        [this](const ScanLabel::ConstPtr& label) { labels_[label->source] = *label; };
+    label_ = node.subscribe<ScanLabel>("scan/label", 8, on_label);
     said_ = node.subscribe("/diagnostics", 100, &WatchedFolderTest::on_diagnostics, this);
     ASSERT_TRUE(wait_for([this] { return scan_.getNumPublishers() == 1 && !facts_.empty(); }));
     listen(0.5);  // what is latched
@@ -276,9 +280,10 @@ class WatchedFolderTest : public testing::Test {
   }
 
   inline static const fs::path inbox_ = TENSEGRIC_FIT_INBOX;
-  std::vector<std::uint32_t> points_;  // of each scan that came
+  std::vector<std::uint32_t> points_;        // of each scan that came
+  std::map<std::string, ScanLabel> labels_;  // by file
   std::map<std::string, std::string> facts_;
-  ros::Subscriber scan_, said_;
+  ros::Subscriber scan_, label_, said_;
 };
 
 TEST_F(WatchedFolderTest, NewCompleteFilesArePlayedOnceEachAndABrokenOneIsRefusedByName) {
@@ -294,8 +299,14 @@ TEST_F(WatchedFolderTest, NewCompleteFilesArePlayedOnceEachAndABrokenOneIsRefuse
   write(inbox_ / "next.part", ply(42));
   fs::rename(inbox_ / "next.part", inbox_ / "next.ply");
   ASSERT_TRUE(played({40, 42}));
+  write(inbox_ / "4711_left.ply", ply(44));
+  ASSERT_TRUE(played({40, 42, 44}));
+  EXPECT_TRUE(wait_for([this] { return labels_.count("4711_left.ply") != 0; }));
+  EXPECT_EQ(labels_["4711_left.ply"].customer, "4711");
+  EXPECT_EQ(labels_["next.ply"].customer, "");
+  EXPECT_EQ(labels_["next.ply"].scan_id.size(), labels_["4711_left.ply"].scan_id.size());
   listen(1);  // for any that come twice
-  EXPECT_EQ(points_.size(), 2u);
+  EXPECT_EQ(points_.size(), 3u);
 }
 
 TEST_F(WatchedFolderTest, APlayerThatWasKilledGoesOnWhereItWas) {

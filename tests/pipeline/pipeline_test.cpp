@@ -7,6 +7,7 @@
 #include <tensegric_fit/ExportFit.h>
 #include <tensegric_fit/Forget.h>
 #include <tensegric_fit/Garment.h>
+#include <tensegric_fit/ScanLabel.h>
 #include <tensegric_fit/SetGarment.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include "chain_client.hpp"
@@ -304,6 +306,13 @@ TEST_F(PipelineTest, AnExportIsWholeNeverOverwrittenAndDeletedByScan) {
   ASSERT_TRUE(ros::service::call("export_fit", request));
   EXPECT_EQ(request.response.code, "nothing_yet");
   request.request.scan_id = scan_id_;
+  ScanLabel label;  // a shop's program says whose scan it was
+  label.scan_id = scan_id_;
+  label.customer = "4711";
+  ros::Publisher labels = ros::NodeHandle().advertise<ScanLabel>("scan/label", 1, true);
+  labels.publish(label);
+  EXPECT_TRUE(wait_for([&] { return labels.getNumSubscribers() > 0; }));
+  listen(0.5);
   ASSERT_TRUE(ros::service::call("export_fit", request));
   EXPECT_TRUE(request.response.exported) << request.response.message;
   EXPECT_EQ(request.response.files.size(), 11u);
@@ -311,6 +320,9 @@ TEST_F(PipelineTest, AnExportIsWholeNeverOverwrittenAndDeletedByScan) {
   const std::string validate = "/usr/bin/python3 -m jsonschema -i '" + (folder / "fit.json").string() +
                                "' '" TENSEGRIC_FIT_SOURCE_DIR "/launch/schemas/fit.schema.json'";
   EXPECT_EQ(std::system(validate.c_str()), 0);
+  std::ifstream document(folder / "fit.json");
+  const std::string text{std::istreambuf_iterator<char>(document), {}};
+  EXPECT_NE(text.find("\"customer\": \"4711\""), std::string::npos);
 
   ASSERT_TRUE(ros::service::call("export_fit", request));
   EXPECT_FALSE(request.response.exported);

@@ -1,6 +1,8 @@
 #include "case.hpp"
 
 #include <fmt/format.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,10 +79,24 @@ Garment read_garment(const YAML::Node& node, const std::string& where) {
   return garment;
 }
 
+std::vector<Garment> garments_in(const std::string& path) {
+  std::vector<Garment> garments;
+  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  rosbag::View view(bag, rosbag::TypeQuery(ros::message_traits::datatype<Garment>()));
+  for (const rosbag::MessageInstance& message : view)
+    if (const auto garment = message.instantiate<Garment>()) garments.push_back(*garment);
+  return garments;
+}
+
 void read_garments(const YAML::Node& root, Case& read) {
   const std::string where = read.file + ": garments";
   if (!root["garments"]) return;
-  if (!root["garments"].IsSequence()) throw Refusal(kBadCase, where + ": must be a list");
+  if (root["garments"].IsScalar() && root["garments"].Scalar() == "recorded" && !read.bag.empty()) {
+    read.own_garments = true;
+    read.garments = garments_in(read.bag);
+    return;
+  }
+  if (!root["garments"].IsSequence()) throw Refusal(kBadCase, where + ": must be a list, or 'recorded'");
   for (const YAML::Node& node : root["garments"]) {
     read.garments.push_back(read_garment(node, where));
     if (read.garments.size() > 1) read.garments.back().name += fmt::format(" #{}", read.garments.size());

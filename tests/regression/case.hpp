@@ -45,17 +45,20 @@ struct Case {
   Recipe booth;
   YAML::Node pipeline;            ///< parameters by stage, over those of launch/config/pipeline.yaml
   std::vector<Garment> garments;  ///< worn one after the other; none: measured only. No two have one name
+  bool own_garments = false;      ///< the bag has them
   std::vector<Expectation> expectations;
   std::vector<Update> updates;  ///< oldest first
 
   bool measure_only() const { return garments.empty(); }
+  /// What comes is a cloud a sensor, and is assembled first.
+  bool sensors() const { return booth.sensors || (pipeline["assembler"] && !bag.empty()); }
 };
 
 /// Keys: about, booth or bag, scene (bust, hips, bust+hips; measure), pipeline, garments (names of shipped
-/// garments, or maps of name, ratio, ratios, stiffness), expect (names of files in cases/expect with further
-/// metrics), metrics (name: {expected or golden, tolerance, reason}), updates (a reason, or {date, commit,
-/// reason, values: {metric: [old, new]}}). \throw Refusal bad_case naming file and key; bad_garment,
-/// unknown_line
+/// garments, or maps of name, ratio, ratios, stiffness; or the word `recorded`: those of the bag), expect
+/// (names of files in cases/expect with further metrics), metrics (name: {expected or golden, tolerance,
+/// reason}), updates (a reason, or {date, commit, reason, values: {metric: [old, new]}}). \throw Refusal
+/// bad_case naming file and key; bad_garment, unknown_line
 Case load_case(const std::string& file);
 
 /// All cases of a folder by name, or only those named. \throw Refusal bad_case: no such case

@@ -34,7 +34,7 @@ constexpr double kMoreMilliseconds = 1500, kTimesAsLong = 2;
 YAML::Node pipeline_of(const Case& asked) {
   const std::string config = TENSEGRIC_FIT_LAUNCH "/config/";
   YAML::Node pipeline = geometry::load_yaml_map(config + "pipeline.yaml", kBadCase);
-  if (asked.booth.sensors)
+  if (asked.sensors())
     pipeline["assembler"] = geometry::load_yaml_map(config + "booth.yaml", kBadCase)["assembler"];
   for (const auto& stage : asked.pipeline)
     for (const auto& parameter : stage.second)
@@ -44,9 +44,12 @@ YAML::Node pipeline_of(const Case& asked) {
 
 // The first garment stands before the scan, the others after it.
 void add_garments(const std::string& path, const std::vector<Garment>& garments) {
+  if (garments.empty()) return;
+  const auto [begin, end] = times_of(path);
   rosbag::Bag bag(path, rosbag::bagmode::Append);
   for (std::size_t i = 0; i < garments.size(); ++i)
-    bag.write("/garment", kScanTime + ros::Duration(i == 0 ? -1.0 : static_cast<double>(i)), garments[i]);
+    bag.write("/garment", i == 0 ? begin - ros::Duration(1) : end + ros::Duration(static_cast<double>(i)),
+              garments[i]);
 }
 
 std::string scan_id_in(const std::string& path) {
@@ -72,12 +75,13 @@ class CaseRun {
       }
     } else {
       fs::copy_file(asked.bag, bag_, fs::copy_options::overwrite_existing);
+      if (asked.sensors()) fs::copy_file(asked.bag, sensors_bag_, fs::copy_options::overwrite_existing);
     }
-    add_garments(bag_, asked.garments);
+    add_garments(bag_, own_garments());
   }
 
   Outcome run() {
-    const bool sensors = outcome_.asked.booth.sensors;
+    const bool sensors = outcome_.asked.sensors();
     ReplayInput input{sensors ? sensors_bag_ : bag_, pipeline_, outcome_.asked.measure_only(), folder_};
     std::future<std::string> launched;
     if (options_.replay)
@@ -90,7 +94,7 @@ class CaseRun {
     if (sensors && (scan = assembled(input))) {
       input.bag = folder_ + "/assembled_scan.bag";
       rosbag::Bag(input.bag, rosbag::bagmode::Write).write("/scan/points", kScanTime, *scan);
-      add_garments(input.bag, outcome_.asked.garments);
+      add_garments(input.bag, outcome_.asked.garments);  // the recorder kept the scan alone
       fault += launch_replay(input);
     }
     Recording recording;
@@ -101,6 +105,11 @@ class CaseRun {
   }
 
  private:
+  // What is not in the bag already.
+  std::vector<Garment> own_garments() const {
+    return outcome_.asked.own_garments ? std::vector<Garment>() : outcome_.asked.garments;
+  }
+
   void run_bag_runner(bool measure_only) {
     std::string fault;
     try {
@@ -113,6 +122,8 @@ class CaseRun {
       fault = error.what();
     }
     add_verdict("bag", outcome_.recording, fault);
+    fs::copy_file(bag_, result_bag_, fs::copy_options::overwrite_existing);
+    append(outcome_.recording, result_bag_);
   }
 
   void judge_replay(const Recording& recording, const std::string& fault) {
@@ -140,7 +151,8 @@ class CaseRun {
   }
 
   const HarnessOptions options_;
-  const std::string folder_, bag_ = folder_ + "/scan.bag", sensors_bag_ = folder_ + "/sensors.bag";
+  const std::string folder_, bag_ = folder_ + "/scan.bag", sensors_bag_ = folder_ + "/sensors.bag",
+                             result_bag_ = folder_ + "/result.bag";
   const YAML::Node pipeline_;
   std::optional<Customer> customer_;
   Outcome outcome_;

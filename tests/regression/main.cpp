@@ -6,9 +6,11 @@
 #include <fstream>
 #include <iostream>
 
+#include "compare.hpp"
 #include "geometry/status.hpp"
 #include "golden.hpp"
 #include "golden_shape.hpp"
+#include "record.hpp"
 #include "report.hpp"
 
 namespace {
@@ -23,6 +25,8 @@ struct CommandLine {
   std::string cases = TENSEGRIC_FIT_CASES, runner = "both", out = "regression_out", reason;
   int repeat = 1;
   bool update = false;
+  regression::RecordRequest record;
+  std::string one, other;  // to be compared
 };
 
 void say(const regression::Outcome& outcome) {
@@ -83,6 +87,37 @@ int run(const CommandLine& line) {
   return holds ? 0 : kFails;
 }
 
+int record(CommandLine line) {
+  line.record.cases = line.cases;
+  regression::write_case_input(line.record);
+  regression::HarnessOptions options;
+  options.replay = false;
+  options.folder = line.out;
+  const regression::Outcome outcome = regression::add_everything_found(line.record, options);
+  std::cout << fmt::format(
+      "{}: {} values recorded{}\nscan: {}\nPrune the values, then: regression --cases {} {}\n",
+      outcome.asked.file, outcome.asked.expectations.size(),
+      outcome.recording.refusal.empty()
+          ? ""
+          : fmt::format("; {} refuses the scan: {}", outcome.recording.refused_by, outcome.recording.refusal),
+      outcome.asked.bag, line.cases, outcome.asked.name);
+  return 0;
+}
+
+int compare(const CommandLine& line) {
+  const auto comparisons = regression::compare_runs(line.one, line.other);
+  bool same = true;
+  for (const regression::RunComparison& comparison : comparisons) {
+    std::cout << regression::to_text(comparison);
+    same = same && comparison.same();
+  }
+  fs::create_directories(line.out);
+  write(fs::path(line.out) / "differences.jsonl", regression::differences_json(comparisons));
+  write(fs::path(line.out) / "compare.html", regression::differences_page(comparisons));
+  std::cout << (fs::path(line.out) / "compare.html").string() << '\n';
+  return same ? 0 : kFails;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -105,6 +140,24 @@ int main(int argc, char** argv) {
   auto* reason = app.add_option("--reason", line.reason, "why they are replaced; kept in the case files");
   update->needs(reason);
   reason->needs(update);
+  auto* record_it = app.add_subcommand("record", "Makes a case from a bag, with everything that is found");
+  record_it->add_option("BAG", line.record.bag, "a scan, or clouds of all sensors; its garments are worn")
+      ->required();
+  record_it->add_option("--name", line.record.name, "of the case")->required();
+  record_it->add_option("--about", line.record.about, "a sentence for people");
+  record_it->add_option("--garment", line.record.garments,
+                        "worn in place of the bag's, one after the other; none: measure only");
+  record_it->add_option("--scan", line.record.scan, "which of several scans")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  auto* compare_them =
+      app.add_subcommand("compare",
+                         "Says where two runs differ: which topic, which field, where on the body. "
+                         "Exit: 0 the same, 1 they differ");
+  compare_them->add_option("ONE", line.one, "a bag with what came out, or a folder of --out")->required();
+  compare_them->add_option("OTHER", line.other, "the same of another run, parameter or version")->required();
+  for (CLI::App* command : {record_it, compare_them}) command->fallthrough();
+  app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);
     if (line.update && (line.names.empty() || line.reason.empty()))
@@ -115,6 +168,8 @@ int main(int argc, char** argv) {
   }
   if (line.update) line.runner = "bag";
   try {
+    if (record_it->parsed()) return record(line);
+    if (compare_them->parsed()) return compare(line);
     return run(line);
   } catch (const geometry::Refusal& refusal) {
     std::cerr << "regression: " << refusal.code() << ": " << refusal.what() << '\n';

@@ -50,7 +50,10 @@ template <typename Message>
 void keep(const rosbag::MessageInstance& instance, const std::string& scan_id,
           std::vector<boost::shared_ptr<const Message>>& messages) {
   const boost::shared_ptr<const Message> message = instance.instantiate<Message>();
-  if (message && message->scan_id == scan_id) messages.push_back(message);
+  if (!message || message->scan_id != scan_id) return;
+  if constexpr (std::is_same_v<Message, FitState> || std::is_same_v<Message, DeformedMesh>)
+    if (message->status == FitState::SOLVING) return;
+  messages.push_back(message);
 }
 
 template <typename Message>
@@ -76,6 +79,23 @@ void keep(const diagnostic_msgs::DiagnosticStatus& status, Recording& recording)
 
 }  // namespace
 
+std::string chain_topic(const std::string& topic) {
+  const std::string slashed = topic.front() == '/' ? topic : "/" + topic;
+  for (const std::string& known : kChainTopics) {
+    const std::string ending = known.front() == '/' ? known : "/" + known;
+    if (slashed.size() >= ending.size() &&
+        slashed.compare(slashed.size() - ending.size(), ending.size(), ending) == 0)
+      return known;
+  }
+  return "";
+}
+
+std::pair<ros::Time, ros::Time> times_of(const std::string& path) {
+  const rosbag::Bag bag(path);
+  rosbag::View view(bag);
+  return {view.getBeginTime(), view.getEndTime()};
+}
+
 std::map<std::string, std::string> hashes_of(const Recording& recording) {
   std::map<std::string, std::string> hashes;
   if (recording.scan) hashes["scan/points"] = hash_of<sensor_msgs::PointCloud2>({recording.scan});
@@ -95,7 +115,7 @@ Recording recording_in(const std::string& path, const std::string& scan_id) {
   const rosbag::Bag bag(path);
   rosbag::View view(bag);
   for (const rosbag::MessageInstance& message : view) {
-    const std::string& topic = message.getTopic();
+    const std::string topic = chain_topic(message.getTopic());
     if (topic == "body/model") keep(message, scan_id, recording.model);
     if (topic == "body/mesh") keep(message, scan_id, recording.body);
     if (topic == "body/landmarks") keep(message, scan_id, recording.landmarks);
@@ -108,6 +128,24 @@ Recording recording_in(const std::string& path, const std::string& scan_id) {
       for (const diagnostic_msgs::DiagnosticStatus& status : diagnostics->status) keep(status, recording);
   }
   return recording;
+}
+
+void append(const Recording& recording, const std::string& path) {
+  const ros::Time time = times_of(path).second + ros::Duration(1);
+  rosbag::Bag bag(path, rosbag::bagmode::Append);
+  const auto write = [&](const std::string& topic, const auto& message) {
+    if (message) bag.write(topic, time, *message);
+  };
+  write("scan/points", recording.scan);
+  write("body/model", recording.model);
+  write("body/mesh", recording.body);
+  write("body/landmarks", recording.landmarks);
+  write("/tf_static", recording.body_frame);
+  write("control/mesh", recording.control);
+  for (std::size_t i = 0; i < recording.fits.size(); ++i) {
+    write("control/deformed", recording.fits[i]);
+    if (i < recording.deformed.size()) write("body/deformed", recording.deformed[i]);
+  }
 }
 
 }  // namespace tensegric_fit::regression

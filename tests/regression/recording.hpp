@@ -12,11 +12,24 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tensegric/solver.hpp"
 
 namespace tensegric_fit::regression {
+
+/// What travels through the chain, in its order.
+inline const std::string kChainTopics[] = {
+    "scan/points",    "scan/label",    "garment",         "body/model",       "body/mesh",
+    "body/landmarks", "/tf_static",    "control/mesh",    "control/deformed", "control/forces",
+    "body/deformed",  "body/warnings", "worn/correlation"};
+
+/// The name that the chain gives a topic of any namespace; empty: it is none of the chain's.
+std::string chain_topic(const std::string& topic);
+
+/// When a bag's first and last message were recorded. \throw rosbag::BagException
+std::pair<ros::Time, ros::Time> times_of(const std::string& bag);
 
 struct Recording {
   std::string scan_id;
@@ -38,7 +51,11 @@ struct Recording {
 /// not the chain's: header.seq, which the transport counts, and the time that a fit took.
 std::map<std::string, std::string> hashes_of(const Recording& recording);
 
-/// From a bag that the replay node has written, what belongs to that scan. \throw rosbag::BagException
+/// From a bag with what came out of a chain, what belongs to that scan; progress of fits is left out. \throw
+/// rosbag::BagException
 Recording recording_in(const std::string& bag, const std::string& scan_id);
+
+/// Writes what came out behind what is in the bag, as the replay node does. \throw rosbag::BagException
+void append(const Recording& recording, const std::string& bag);
 
 }  // namespace tensegric_fit::regression

@@ -15,6 +15,9 @@ std::string junit_xml(const std::vector<Outcome>& outcomes);
 /// what nothing is expected of has no expectation.
 std::string json_lines(const std::vector<Outcome>& outcomes);
 
+/// The top of a page that needs no network, with its title; `verdict` is markup.
+std::string page_begin(const std::string& title, const std::string& verdict);
+
 /// One page that needs no network: the verdict first, then each case with pictures and tables.
 std::string html_page(const std::vector<Outcome>& outcomes);
 

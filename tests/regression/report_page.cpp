@@ -132,17 +132,21 @@ std::string overview_of(const std::vector<Outcome>& outcomes) {
 
 }  // namespace
 
+std::string page_begin(const std::string& title, const std::string& verdict) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport "
+      "content=\"width=device-width\"><title>{0}</title><style>{1}</style></head>\n<body>\n<h1>{0}: "
+      "{2}</h1>\n",
+      title, kStyle, verdict);
+}
+
 std::string html_page(const std::vector<Outcome>& outcomes) {
   const auto failing = std::count_if(outcomes.begin(), outcomes.end(),
                                      [](const Outcome& outcome) { return !outcome.holds(); });
   const std::string verdict =
       failing == 0 ? fmt::format("<span class=good>all {} cases hold</span>", outcomes.size())
                    : fmt::format("<span class=bad>{} of {} cases fail</span>", failing, outcomes.size());
-  std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport "
-      "content=\"width=device-width\"><title>Regression</title><style>{}</style></head>\n<body>\n"
-      "<h1>Regression: {}</h1>\n",
-      kStyle, verdict);
+  std::string html = page_begin("Regression", verdict);
   html += overview_of(outcomes);
   for (const Outcome& outcome : outcomes) html += section_of(outcome);
   return html + "</body></html>\n";

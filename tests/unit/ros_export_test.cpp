@@ -16,6 +16,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "fit/fitted_folder.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/status.hpp"
 #include "ros/body_messages.hpp"
@@ -150,6 +151,25 @@ class ExportFitTest : public testing::Test {
   const fs::path root_ = fs::temp_directory_path() / "tensegric_fit_export_test";
   FittedScan scan_;
 };
+
+TEST_F(ExportFitTest, CorrelateReadsItAgain) {
+  const fs::path folder = root_ / "one";
+  export_fit(scan_, folder, kWhole);
+  const fit::FittedFolder fitted = fit::read_fitted_folder(folder);
+  EXPECT_EQ(fitted.scan, "scan 1.000000000-00000001");
+  EXPECT_EQ(fitted.rest.triangles.size(), scan_.body->triangles.size() / 3);
+  EXPECT_NEAR(fitted.deformed.at(0).x(), 0.9 * fitted.rest.vertices.at(0).x(), 1e-7);  // float32
+  EXPECT_EQ(fitted.control.vertices.size(), 3u);
+  ASSERT_EQ(fitted.lines.size(), 1u);
+  EXPECT_EQ(fitted.lines[0].name, "chest");
+  EXPECT_EQ(fitted.lines[0].request, 0.9);
+  for (const char* text : {"{}", "[", "{\"scan\": {\"scan_id\": 1}}"}) {
+    std::ofstream(folder / "fit.json") << text;
+    EXPECT_THROW(fit::read_fitted_folder(folder), geometry::Refusal) << text;
+  }
+  fs::remove(folder / "fit.json");
+  EXPECT_THROW(fit::read_fitted_folder(folder), geometry::Refusal);
+}
 
 TEST_F(ExportFitTest, WritesMeshesMeasuresPicturesAndParameters) {
   const fs::path folder = root_ / "one";

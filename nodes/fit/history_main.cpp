@@ -1,0 +1,68 @@
+/// history: a customer's earlier scans and fits, to be opened and compared.
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+
+#include "fit/history.hpp"
+#include "geometry/status.hpp"
+
+namespace {
+
+using namespace tensegric_fit;
+
+int run(const std::vector<std::string>& folders, const std::string& customer,
+        const std::vector<std::size_t>& pair, const std::string& out) {
+  const std::vector<fit::Visit> visits = fit::find_visits(folders, customer);
+  if (customer.empty()) {
+    std::cout << fit::customers_text(visits);
+    return 0;
+  }
+  if (visits.empty()) {
+    std::cerr << "history: no visit of customer " << customer << '\n';
+    return 1;
+  }
+  const std::size_t from = pair.empty() ? 1 : pair[0], to = pair.empty() ? visits.size() : pair[1];
+  if (from < 1 || to < 1 || from > visits.size() || to > visits.size()) {
+    std::cerr << "history: --compare: there are visits 1 to " << visits.size() << '\n';
+    return 2;
+  }
+  std::cout << fit::visits_text(visits, from - 1, to - 1);
+  if (out.empty()) return 0;
+  const std::string page = fit::visits_page(visits, from - 1, to - 1, out);
+  std::ofstream file(out);
+  file << page;
+  file.close();
+  if (!file) throw std::runtime_error(out + ": cannot be written");
+  std::cout << out << '\n';
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::string> folders;
+  std::string customer, out;
+  std::vector<std::size_t> pair;
+  CLI::App app(
+      "A customer's earlier scans and fits, from the folders that exports and `fit --customer` wrote. Exit: "
+      "0 done, "
+      "1 there is none or the page cannot be written, 2 usage, 3 a folder is refused.");
+  app.add_option("DIR", folders, "Folders that hold them, at any depth")->required();
+  app.add_option("--customer", customer, "The shop's own id; none: who was here");
+  app.add_option("--compare", pair, "Two visits by number: first and last where not said")->expected(2);
+  app.add_option("--out", out, "Page.html with tables, outlines and links");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    return run(folders, customer, pair, out);
+  } catch (const geometry::Refusal& refusal) {
+    std::cerr << "history: " << refusal.code() << ": " << refusal.what() << '\n';
+    return 3;
+  } catch (const std::exception& error) {
+    std::cerr << "history: " << error.what() << '\n';
+    return 1;
+  }
+}
