@@ -129,6 +129,29 @@ std::string CaptureWatch::warnings() const {
   return words;
 }
 
+// A stage that has yet to work for this capture, and will not. Nothing else would end the wait but the
+// timeout.
+std::optional<CaptureEnd> CaptureWatch::dead_stage(double now) const {
+  std::vector<std::string> needed;
+  if (scan_id_.empty() && board_.find(kAssembler.stage) != nullptr) needed.push_back(kAssembler.stage);
+  for (int i = 0; i < (goal_.with_fit ? kAll : kMeasuring); ++i) {
+    const StageReport* report = board_.find(kChain[i].stage);
+    const bool is_over =
+        !scan_id_.empty() && report != nullptr && report->scan_id == scan_id_ && report->state == "done";
+    if (!is_over) needed.push_back(kChain[i].stage);
+  }
+  for (const std::string& stage : needed) {
+    const double silent = board_.silent_seconds(stage, start_, now);
+    if (silent > StageBoard::kGone)
+      return CaptureEnd{
+          geometry::refusal::kDeadStage,
+          fmt::format("{} {}: start it, then capture again", stage,
+                      board_.find(stage) == nullptr ? "is not running"
+                                                    : fmt::format("is dead: silent for {:.0f} s", silent))};
+  }
+  return std::nullopt;
+}
+
 std::optional<CaptureEnd> CaptureWatch::end(double now) const {
   if (refused_) return refused_;
   if (!scan_id_.empty()) {
@@ -142,6 +165,7 @@ std::optional<CaptureEnd> CaptureWatch::end(double now) const {
       return CaptureEnd{geometry::refusal::kMissingSensor,
                         fmt::format("scan {} is without {}", scan_id_, fmt::join(missing(), ", "))};
   }
+  if (const std::optional<CaptureEnd> dead = dead_stage(now)) return dead;
   if (now - start_ < goal_.timeout) return std::nullopt;
   return CaptureEnd{missing().empty() ? geometry::refusal::kTimedOut : geometry::refusal::kMissingSensor,
                     fmt::format("{:g} s were not enough: {}", goal_.timeout, waiting_for(now))};

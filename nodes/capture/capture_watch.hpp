@@ -56,6 +56,7 @@ class CaptureWatch {
   std::string stage() const;
   std::string waiting_for(double now) const;
   bool is_complete() const;
+  std::optional<CaptureEnd> dead_stage(double now) const;
   std::string warnings() const;
 
   const CaptureGoal goal_;

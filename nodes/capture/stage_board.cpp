@@ -23,6 +23,11 @@ double StageBoard::working_seconds(const std::string& stage, double now) const {
   return heard->second.report.working_seconds + now - heard->second.at;
 }
 
+double StageBoard::silent_seconds(const std::string& stage, double since, double now) const {
+  const auto heard = stages_.find(stage);
+  return now - (heard == stages_.end() ? since : heard->second.at);
+}
+
 std::string StageBoard::trouble(double now) const {
   std::string words;
   for (const auto& [stage, heard] : stages_) {

@@ -23,6 +23,7 @@ class StageBoard {
  public:
   static constexpr double kSilent = 3.5;  ///< s without a report: dead
   static constexpr double kSlow = 10;     ///< s on one piece of work
+  static constexpr double kGone = 10;     ///< s without a report: not one that is just being started again
 
   /// True where the stage has just said no to something: not for a report that says so again.
   bool report(const std::string& stage, const StageReport& report, double now);
@@ -32,6 +33,9 @@ class StageBoard {
 
   /// For how long it has been at the work at hand, s; 0 where it is at none.
   double working_seconds(const std::string& stage, double now) const;
+
+  /// For how long it has said nothing, s; since `since` where it never did.
+  double silent_seconds(const std::string& stage, double since, double now) const;
 
   /// Sentences about stages that are slow, and that were heard and are silent now; empty where all is well.
   std::string trouble(double now) const;

@@ -11,9 +11,21 @@ namespace {
 constexpr std::array<const char*, 5> kStages{"reconstruction", "landmarks", "control_mesh", "tensegric",
                                              "tffd"};
 
+constexpr std::array<const char*, 2> kBooth{"assembler", "scan_player"};  // before the chain, where there are
+
+bool said_no(const StageReport& report) {
+  return report.state == "refused" || report.state == "failed";
+}
+
 }  // namespace
 
 void PipelineWatch::hear(const StageReport& report, double now) {
+  const auto before = stages_.find(report.stage);
+  if (before != stages_.end() && !said_no(report) && !report.last_error.empty() &&
+      report.last_error != before->second.report.last_error) {
+    dropped_ = report;
+    dropped_at_ = now;
+  }
   stages_[report.stage] = {report, now};
 }
 
@@ -33,7 +45,7 @@ PipelineWatch::State PipelineWatch::state(double now) const {
       continue;
     }
     const StageReport& report = found->second.report;
-    if (report.state == "refused" || report.state == "failed") {
+    if (said_no(report)) {
       if (!state.trouble) state.words = words::stage_refused(stage, report.message);
       state.trouble = true;
     } else if (report.state == "working") {
@@ -43,8 +55,38 @@ PipelineWatch::State PipelineWatch::state(double now) const {
       ++state.done;
     }
   }
+  look_at_booth(now, state);
   if (state.words.empty()) state.words = state.done == state.all ? words::kReady : words::kWaitsForScan;
+  if (!state.trouble && !state.working) add_warnings(state);
   return state;
+}
+
+void PipelineWatch::look_at_booth(double now, State& state) const {
+  std::string words;
+  for (const char* stage : kBooth) {
+    const auto found = stages_.find(stage);
+    if (found == stages_.end() || !words.empty()) continue;
+    if (now - found->second.at > kSilence)
+      words = words::silent(stage);
+    else if (said_no(found->second.report))
+      words = words::stage_refused(stage, found->second.report.message);
+  }
+  if (words.empty() && now - dropped_at_ < kNews)
+    words = words::stage_refused(dropped_.stage, dropped_.last_error);
+  if (words.empty() || state.trouble) return;
+  state.words = words;
+  state.trouble = true;
+}
+
+// Of the scan that is shown; what garments are warned of has a place of its own.
+void PipelineWatch::add_warnings(State& state) const {
+  for (const char* stage : {"scan_player", "assembler", "reconstruction", "landmarks", "control_mesh"}) {
+    const auto found = stages_.find(stage);
+    if (found == stages_.end() || !found->second.report.warns) continue;
+    const StageReport& report = found->second.report;
+    const bool of_booth = std::find(kBooth.begin(), kBooth.end(), std::string(stage)) != kBooth.end();
+    if (of_booth || report.scan_id == state.newest_scan) state.words += " " + report.message;
+  }
 }
 
 }  // namespace tensegric_fit::inspect

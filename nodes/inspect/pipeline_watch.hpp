@@ -8,16 +8,20 @@ namespace tensegric_fit::inspect {
 
 /// Words of a stage on /diagnostics.
 struct StageReport {
-  std::string stage;    ///< reconstruction, landmarks, control_mesh, tensegric, tffd
+  std::string stage;    ///< reconstruction, landmarks, control_mesh, tensegric, tffd; assembler, scan_player
   std::string state;    ///< waiting, working, done, superseded, refused, failed
   std::string message;  ///< a sentence
   std::string scan_id;
+  bool warns = false;           ///< it is done, and `message` says what is not as it should be
+  std::string last_error = {};  ///< a sentence: what it refused last, or dropped without a change of state
 };
 
 class PipelineWatch {
  public:
   /// Seconds of silence after which a stage counts as dead: each speaks once a second.
   static constexpr double kSilence = 3;
+  /// Seconds for which something that a stage dropped is shown.
+  static constexpr double kNews = 30;
 
   /// `now` in seconds of any steady clock.
   void hear(const StageReport& report, double now);
@@ -37,7 +41,12 @@ class PipelineWatch {
     StageReport report;
     double at;
   };
+  void look_at_booth(double now, State& state) const;
+  void add_warnings(State& state) const;
+
   std::map<std::string, Heard> stages_;
+  StageReport dropped_;  // the last that a stage named without a change of state
+  double dropped_at_ = -kNews;
 };
 
 }  // namespace tensegric_fit::inspect

@@ -52,12 +52,31 @@ reconstruction::Anatomy shipped_anatomy() {
           registrar.standing()};
 }
 
-std::string lacks_of(const std_msgs::Header& header) {
+namespace {
+
+// Frames of the same booth: those of one namespace.
+std::vector<std::string> beside(const std::string& frame, const std::vector<std::string>& known) {
+  const auto prefix = [](const std::string& name) { return name.substr(0, name.rfind('/') + 1); };
+  std::vector<std::string> own;
+  for (const std::string& other : known)
+    if (prefix(other) == prefix(frame)) own.push_back(other);
+  std::sort(own.begin(), own.end());
+  return own;
+}
+
+}  // namespace
+
+std::string lacks_of(const std_msgs::Header& header, const std::vector<std::string>& known) {
   std::string words;
   if (header.stamp.isZero())
     words = "no_stamp: the scan says not when it was seen; let the driver stamp it, or equal scans are one. ";
   if (header.frame_id.empty())
     words += "no_frame: the scan names no frame and is taken to be in 'scan'; set the driver's frame_id. ";
+  const std::vector<std::string> own = beside(header.frame_id, known);
+  if (!header.frame_id.empty() && !own.empty() &&
+      !std::binary_search(own.begin(), own.end(), header.frame_id))
+    words += fmt::format("unknown_frame: tf does not know '{}', only {}; is the driver's frame_id misspelt? ",
+                         header.frame_id, fmt::join(own, ", "));
   if (!words.empty()) words.pop_back();
   return words;
 }

@@ -21,9 +21,10 @@ reconstruction::Options reconstruction_options(Parameters& parameters);
 /// The shipped body model, loaded now. \throw Refusal broken_file
 reconstruction::Anatomy shipped_anatomy();
 
-/// What a scan's header lacks, named (`no_stamp`, `no_frame`), with what to do about it; "" where nothing.
-/// The scan is taken all the same.
-std::string lacks_of(const std_msgs::Header& header);
+/// What a scan's header lacks, named (`no_stamp`, `no_frame`, `unknown_frame`), with what to do about it; ""
+/// where nothing. `known`: frames of tf; of a booth that has none of its own in there nothing is said. The
+/// scan is taken all the same.
+std::string lacks_of(const std_msgs::Header& header, const std::vector<std::string>& known = {});
 
 class ReconstructionHandler {
  public:

@@ -1,4 +1,6 @@
 /// scan/points -> body/model, body/mesh
+#include <tf2_ros/transform_listener.h>
+
 #include "reconstruction/reconstruction_handler.hpp"
 #include "ros/display.hpp"
 #include "ros/markers.hpp"
@@ -29,8 +31,14 @@ class ReconstructionNode {
                 mesh_.publish(output.mesh);
                 show(output.result, output.mesh->header);
               },
-              output.facts, lacks_of(scan->header)};
+              output.facts, lacks_of(scan->header, frames())};
     });
+  }
+
+  std::vector<std::string> frames() const {
+    std::vector<std::string> names;
+    transforms_._getFrameStrings(names);
+    return names;
   }
 
   void show(const std::shared_ptr<const reconstruction::Reconstruction>& result,
@@ -49,6 +57,8 @@ class ReconstructionNode {
   const ReconstructionHandler handler_;
   ros::Publisher model_, mesh_;
   Display display_;
+  tf2_ros::Buffer transforms_;
+  tf2_ros::TransformListener listener_{transforms_};
   ros::Subscriber scan_;
   Stage stage_;  // last: its worker uses all of the above
 };

@@ -41,7 +41,7 @@ struct BagCheck {
 
 /// Names of findings that hinder: no_file, broken_bag, unindexed_bag, empty_bag, other_version, wrong_topic,
 /// no_scan, wrong_type, stamps_backwards, bad_scan, lost_latched; of others: gap, no_stamp, no_frame,
-/// many_frames, no_tf, not_finite, no_model. Never throws for what is in the bag.
+/// many_frames, sensors, no_tf, not_finite, no_model. Never throws for what is in the bag.
 BagCheck check_bag(const std::string& path);
 
 /// A page of text for people, the verdict first.

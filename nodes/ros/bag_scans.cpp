@@ -80,8 +80,8 @@ void ScanChecker::check_points(const std::string& topic, const sensor_msgs::Poin
     found.points = points.size();
     found.not_finite = points.empty() ? 0 : static_cast<double>(bad) / static_cast<double>(points.size());
     const std::size_t finite = points.size() - static_cast<std::size_t>(bad);
-    if (finite < kFewPoints)
-      find(is_scan_topic(topic), "bad_scan",
+    if (finite < kFewPoints && is_scan_topic(topic))  // a sensor of many may see little
+      find(true, "bad_scan",
            fmt::format("{}: scan {} has {} finite points of {}", topic, found.scan_id, finite, points.size()),
            fmt::format("a body takes {} and more", kFewPoints));
     else if (found.not_finite > kManyNotFinite)
@@ -106,6 +106,15 @@ void ScanChecker::finish() {
                                      [](const auto& entry) { return is_scan_topic(entry.first); });
   if (frames_of_.empty())
     find(true, "no_scan", "no sensor_msgs/PointCloud2 is in the bag", "record the booth's scans");
+  else if (!has_scans && frames_of_.size() > 1)
+    find(false, "sensors",
+         fmt::format("no {}, but clouds on {} topics, as of the sensors of a booth: {} ...", kScanTopic,
+                     frames_of_.size(), frames_of_.begin()->first),
+         "the assembler joins them: roslaunch tensegric_fit booth.launch assemble:=true file:=BAG "
+         "sensors:=YOUR.yaml, "
+         "with their topics in YOUR.yaml as in launch/config/booth.yaml; a plain rosbag play needs "
+         "--keep-alive, or "
+         "may lose its last messages");
   else if (!has_scans)
     find(true, "wrong_topic",
          fmt::format("no topic is called {}; clouds are on {}", kScanTopic, frames_of_.begin()->first),

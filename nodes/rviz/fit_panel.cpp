@@ -314,7 +314,9 @@ void FitPanel::take_diagnostics(const diagnostic_msgs::DiagnosticStatus& status)
   for (const auto& pair : status.values) {
     if (pair.key == "state") report.state = pair.value;
     if (pair.key == "scan_id") report.scan_id = pair.value;
+    if (pair.key == "last_error_message") report.last_error = pair.value;
   }
+  report.warns = report.state == "done" && status.level == diagnostic_msgs::DiagnosticStatus::WARN;
   watch_.hear(report, seconds(Clock::now()));
 }
 

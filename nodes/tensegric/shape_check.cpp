@@ -44,11 +44,15 @@ TriangleChange triangle_change(const Model& model, const Positions& x) {
 std::string shape_note(const Model& model, const Positions& x) {
   const TriangleChange change = triangle_change(model, x);
   std::string note;
-  if (change.below_half > 0)
-    note = std::to_string(change.below_half) + " control triangles are compressed below half their area.";
   if (change.turned_over > 0)
-    note +=
-        (note.empty() ? "" : " ") + std::to_string(change.turned_over) + " control triangles turned over.";
+    note = "The shape folds over itself and is not to be trusted: loosen the garment. (Details: " +
+           std::to_string(change.turned_over) + " control triangles turned over.)";
+  if (change.below_half > 0)
+    note += std::string(note.empty() ? "" : " ") +
+            "In places skin would be pressed to less than half its area: loosen the line that pulls most, or "
+            "take a "
+            "softer band. (Details: " +
+            std::to_string(change.below_half) + " control triangles below half.)";
   return note;
 }
 

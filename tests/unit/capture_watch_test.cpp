@@ -100,6 +100,28 @@ TEST_F(CaptureWatchTest, OutOfTimeItNamesWhatIsMissing) {
             std::string::npos);
 }
 
+TEST_F(CaptureWatchTest, AStageThatIsDeadIsAnEarlyAnswer) {
+  const CaptureGoal patient{{}, 100, false, 0};
+  CaptureWatch capture(patient, board_, kSlop, 0);
+  say("reconstruction", "waiting", "", 9);
+  say("landmarks", "waiting", "", 2);
+  EXPECT_EQ(code(capture, 12), "under way") << "it may just be started again";
+  EXPECT_EQ(code(capture, 12.1), "dead_stage");
+  EXPECT_NE(capture.end(12.1)->message.find("landmarks is dead: silent for 10 s"), std::string::npos);
+  say("landmarks", "waiting", "", 12.5);
+  EXPECT_EQ(code(capture, 13), "under way") << "it was started again";
+
+  capture.add_scan("a", kSecond);
+  say("reconstruction", "done", "a", 14);
+  say("landmarks", "working", "a", 25);
+  EXPECT_EQ(code(capture, 30), "under way") << "what is over is not missed";
+  say("reconstruction", "waiting", "", 40);
+  say("landmarks", "waiting", "", 40);
+  CaptureWatch dressed({{}, 100, true, 0}, board_, kSlop, 30);
+  EXPECT_EQ(code(dressed, 41), "dead_stage") << "nobody heard of control_mesh";
+  EXPECT_NE(dressed.end(41)->message.find("control_mesh is not running"), std::string::npos);
+}
+
 TEST_F(CaptureWatchTest, ARefusalOfTheScanIsTheAnswer) {
   say("landmarks", "refused", "before", 0, "not_a_body");
   CaptureWatch capture = watch();

@@ -50,6 +50,43 @@ TEST(PipelineWatch, NamesTheStageThatDied) {
   EXPECT_EQ(watch.state(60).words, words::kPipelineNotRunning);
 }
 
+TEST(PipelineWatch, WhatTheBoothNamesIsSaidToo) {
+  PipelineWatch watch;
+  all_say(watch, "done", 0);
+  watch.hear({"assembler", "refused", "late_cloud: played again", "9.0"}, 0);
+  EXPECT_TRUE(watch.state(0).trouble);
+  EXPECT_NE(watch.state(0).words.find("played again"), std::string::npos);
+  watch.hear({"assembler", "done", "11 of 12 sensors came in time", "9.0", true}, 1);
+  EXPECT_FALSE(watch.state(1).trouble);
+  EXPECT_NE(watch.state(1).words.find("11 of 12 sensors"), std::string::npos);
+  EXPECT_EQ(watch.state(1).words.find(words::kReady), 0u);
+}
+
+TEST(PipelineWatch, WhatIsDroppedIsNewsForAWhile) {
+  PipelineWatch watch;
+  const auto player = [](const std::string& error) {
+    return StageReport{"scan_player", "done", "done", "a.ply", false, error};
+  };
+  all_say(watch, "done", 0);
+  watch.hear(player("old.txt: no scan"), 0);  // of before the panel listened
+  EXPECT_EQ(watch.state(0).words, words::kReady);
+  watch.hear(player("notes.txt: no scan"), 1);
+  EXPECT_NE(watch.state(1).words.find("notes.txt"), std::string::npos);
+  EXPECT_TRUE(watch.state(1).trouble);
+  all_say(watch, "done", 1.1 + PipelineWatch::kNews);
+  watch.hear(player("notes.txt: no scan"), 1.1 + PipelineWatch::kNews);
+  EXPECT_EQ(watch.state(1.1 + PipelineWatch::kNews).words, words::kReady);
+}
+
+TEST(PipelineWatch, WarningsOfTheScanThatIsShownAreSaidAndOfNoOther) {
+  PipelineWatch watch;
+  all_say(watch, "done", 0);
+  watch.hear({"reconstruction", "done", "no_stamp: let the driver stamp it", "one", true}, 0);
+  EXPECT_NE(watch.state(0).words.find("no_stamp"), std::string::npos);
+  watch.hear({"landmarks", "done", "of the scan before", "zero", true}, 0);
+  EXPECT_EQ(watch.state(0).words.find("of the scan before"), std::string::npos);
+}
+
 TEST(PipelineWatch, SaysWhatWasRefused) {
   PipelineWatch watch;
   all_say(watch, "done", 0);

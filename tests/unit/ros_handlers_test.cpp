@@ -45,6 +45,10 @@ TEST(ReconstructionHandler, NamesWhatAHeaderLacks) {
   EXPECT_EQ(lacks_of(header).find("no_frame"), std::string::npos);
   header.stamp = ros::Time(1);
   EXPECT_EQ(lacks_of(header), "");
+  const std::string frame = header.frame_id;
+  EXPECT_EQ(lacks_of(header, {"floor", frame}), "");
+  EXPECT_EQ(lacks_of(header, {"floor", "body"}).rfind("unknown_frame: ", 0), 0u);
+  EXPECT_EQ(lacks_of(header, {"booth_2/booth"}), "") << "another booth's";
 }
 
 TEST(Parameters, FromAFileAreReadAndCheckedLikeThoseOfANode) {

@@ -140,6 +140,8 @@ TEST_F(ScanFileTest, ABagOfAllSensorsHasTheirClouds) {
   }
   EXPECT_EQ(clouds, 2);
   EXPECT_EQ(poses, 2);
+  rosbag::View all(bag);
+  EXPECT_EQ(all.getEndTime(), ros::Time(7)) << "rosbag play loses what is last: no cloud is";
   // None of them is the scan.
   EXPECT_EQ(refusal_of(file("sensors.bag")), geometry::refusal::kBadOption);
 }
