@@ -52,10 +52,10 @@ class AssemblerNode {
  private:
   ros::Publisher advertised() { return node_.advertise<sensor_msgs::PointCloud2>("scan/points", 1, true); }
 
-  void publish(const sensor_msgs::PointCloud2& scan) {
+  void publish(const sensor_msgs::PointCloud2::ConstPtr& scan) {
     const std::lock_guard<std::mutex> lock(publishing_);
     scan_.publish(scan);
-    published_ = tag_of(scan).scan_id;
+    published_ = tag_of(*scan).scan_id;
   }
 
   void on_cloud(int sensor, const sensor_msgs::PointCloud2& message) {
