@@ -18,5 +18,7 @@ else
   set +u
   # shellcheck disable=SC1091
   source "$root/build/devel/setup.bash"
+  export ROS_HOSTNAME=localhost  # the master, too: launch/pages/privacy.md
+  umask 077
   roslaunch tensegric_fit demo.launch bag:="$demo/booth/scan.bag"
 fi

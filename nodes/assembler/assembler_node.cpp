@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <mutex>
+
 #include "assembler/assembler_handler.hpp"
 #include "ros/run_node.hpp"
+#include "ros/scan_tag.hpp"
 #include "ros/stage.hpp"
 
 namespace tensegric_fit::node {
@@ -20,9 +23,10 @@ std::string id_of(std::uint64_t stamp) {
 class AssemblerNode {
  public:
   AssemblerNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
-      : handler_(Parameters(private_node)),
+      : node_(node),
+        handler_(Parameters(private_node)),
         listener_(transforms_),
-        scan_(node.advertise<sensor_msgs::PointCloud2>("scan/points", 1, true)),
+        scan_(advertised()),
         stage_("assembler", node) {
     constexpr int kQueue = 4;
     const std::vector<std::string>& topics = handler_.setup().sensors;
@@ -35,7 +39,25 @@ class AssemblerNode {
                                   [this](const ros::WallTimerEvent&) { hand_on(); });
   }
 
+  /// What sensors latch would be assembled again, did this node begin anew.
+  void forget(const ForgetOrder& order, ForgetAnswer& done) {
+    const std::lock_guard<std::mutex> lock(publishing_);
+    if (published_ != order.scan_id) return;
+    scan_.shutdown();
+    scan_ = advertised();
+    published_.clear();
+    done.removed = {"the latched scan/points"};
+  }
+
  private:
+  ros::Publisher advertised() { return node_.advertise<sensor_msgs::PointCloud2>("scan/points", 1, true); }
+
+  void publish(const sensor_msgs::PointCloud2::ConstPtr& scan) {
+    const std::lock_guard<std::mutex> lock(publishing_);
+    scan_.publish(scan);
+    published_ = tag_of(*scan).scan_id;
+  }
+
   void on_cloud(int sensor, const sensor_msgs::PointCloud2& message) {
     try {
       handler_.add(sensor, message, ros::SteadyTime::now().toSec());
@@ -64,7 +86,7 @@ class AssemblerNode {
       stage_.post(scan_id, [this, capture, warning]() -> Stage::Result {
         wait_for_transforms(*capture);
         const AssemblerHandler::Output output = handler_.handle(*capture, transforms_);
-        return {[this, output] { scan_.publish(output.scan); }, output.facts, warning};
+        return {[this, output] { publish(output.scan); }, output.facts, warning};
       });
     }
   }
@@ -79,10 +101,13 @@ class AssemblerNode {
         ros::WallDuration(0.01).sleep();
   }
 
+  ros::NodeHandle node_;
   AssemblerHandler handler_;
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_;
+  std::mutex publishing_;  // guards the next two
   ros::Publisher scan_;
+  std::string published_;
   std::vector<ros::Subscriber> sensors_;
   ros::WallTimer clock_;
   Stage stage_;  // last: its worker uses all of the above

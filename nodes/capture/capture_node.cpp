@@ -7,6 +7,7 @@
 #include "capture/booth_trigger.hpp"
 #include "capture/capture_handler.hpp"
 #include "geometry/status.hpp"
+#include "ros/held_scan.hpp"
 #include "ros/log_words.hpp"
 #include "ros/run_node.hpp"
 
@@ -43,6 +44,8 @@ class CaptureNode {
  private:
   void on_goal() {
     goal_ = server_.acceptNewGoal();
+    HeldScan::of_process().clear();  // with the customer before
+    HeldScan::of_process().work(true);
     handler_.begin(*goal_, now());
     for (const std::string& sensor : goal_->sensors) listen_to(sensor);
     deformed_ = goal_->with_fit ? node_.subscribe("body/deformed", 4, &CaptureNode::on_deformed, this)
@@ -51,6 +54,7 @@ class CaptureNode {
 
   void on_preempt() {
     handler_.stop();
+    HeldScan::of_process().work(false);
     if (!server_.isNewGoalAvailable()) server_.setPreempted();  // else the new goal takes its place
   }
 
@@ -90,6 +94,8 @@ class CaptureNode {
 
   void finish(const CaptureResult& result) {
     deformed_.shutdown();
+    HeldScan::of_process().work(false);
+    HeldScan::of_process().publish(result.scan_id);
     ROS_INFO("capture: scan %s: %s %s", result.scan_id.c_str(),
              result.measured ? "measured" : result.code.c_str(), without_figures(result.message).c_str());
     if (result.measured)

@@ -166,4 +166,23 @@ void write_whole_file(const std::string& path, const std::string& bytes) {
   }
 }
 
+std::optional<std::string> bytes_of_plain_file(const std::string& path, std::size_t most) {
+  try {
+    const Descriptor file(path, O_RDONLY | O_NONBLOCK);  // a pipe would not be opened before it has a writer
+    struct stat status {};
+    if (fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode) ||
+        static_cast<std::size_t>(status.st_size) > most)
+      return std::nullopt;
+    std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
+    std::size_t done = 0;
+    for (ssize_t count = 1; count > 0 && done < bytes.size();
+         done += static_cast<std::size_t>(std::max<ssize_t>(count, 0)))
+      count = read(file.number(), bytes.data() + done, bytes.size() - done);
+    bytes.resize(done);
+    return bytes;
+  } catch (const fs::filesystem_error&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace tensegric_fit::files

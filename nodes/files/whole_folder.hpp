@@ -1,6 +1,8 @@
 /// Folders and files that are written atomically, complete or not at all, and readable by their owner only.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,5 +29,8 @@ void delete_whole_folder(const std::string& folder);
 
 /// Replaces what has that name, a link as well. \throw Refusal cannot_write
 void write_whole_file(const std::string& path, const std::string& bytes);
+
+/// What is in a file of `most` bytes at most; nothing of a link, a pipe, a larger file, or none.
+std::optional<std::string> bytes_of_plain_file(const std::string& path, std::size_t most);
 
 }  // namespace tensegric_fit::files

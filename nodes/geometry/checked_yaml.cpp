@@ -1,15 +1,48 @@
 #include "geometry/checked_yaml.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <set>
 #include <string_view>
 
 namespace tensegric_fit::geometry {
 
+namespace {
+
+constexpr std::uintmax_t kLargest = 8 << 20;  // bytes; a template of thousands of nodes has one million
+constexpr int kMostNodes = 1'000'000;         // with each alias counted as what it stands for
+constexpr int kDeepest = 64;
+
+/// A few lines of aliases of aliases can stand for more than any memory holds, or for themselves.
+class NodeCount {
+ public:
+  bool is_too_much(const YAML::Node& node, int depth = 0) {
+    if (depth > kDeepest || ++count_ > kMostNodes) return true;
+    if (node.IsSequence())
+      return std::any_of(node.begin(), node.end(),
+                         [&](const auto& entry) { return is_too_much(entry, depth + 1); });
+    return node.IsMap() && std::any_of(node.begin(), node.end(), [&](const auto& entry) {
+             return is_too_much(entry.first, depth + 1) || is_too_much(entry.second, depth + 1);
+           });
+  }
+
+ private:
+  int count_ = 0;
+};
+
+}  // namespace
+
 YAML::Node load_yaml_map(const std::string& path, const std::string& code) {
+  std::error_code error_code;
+  if (!std::filesystem::is_regular_file(path, error_code)) throw Refusal(code, path + ": cannot be read");
+  if (std::filesystem::file_size(path, error_code) > kLargest)
+    throw Refusal(code, path + ": is larger than 8 MB");
   YAML::Node root;
   try {
     root = YAML::LoadFile(path);
+    if (NodeCount().is_too_much(root))
+      throw Refusal(code, path + ": has more than a million entries, or is nested too deeply");
   } catch (const YAML::BadFile&) {
     throw Refusal(code, path + ": cannot be read");
   } catch (const YAML::Exception& error) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "geometry/status.hpp"
+#include "ros/export_folders.hpp"
 #include "ros/log_words.hpp"
 
 namespace tensegric_fit::node {
@@ -27,7 +28,8 @@ bool answered(Response& response, const Work& work) {
 
 }  // namespace
 
-ExportDesk::ExportDesk(const ros::NodeHandle& node) : spinner_(1, &queue_) {
+ExportDesk::ExportDesk(const ros::NodeHandle& node, ExportOptions options)
+    : options_(std::move(options)), spinner_(1, &queue_) {
   ros::NodeHandle own(node);
   own.setCallbackQueue(&queue_);
   services_ = {own.advertiseService("export_fit", &ExportDesk::on_export, this),
@@ -66,7 +68,7 @@ bool ExportDesk::on_export(ExportFit::Request& request, ExportFit::Response& res
       throw geometry::Refusal(
           geometry::refusal::kNothingYet,
           fmt::format("no fit of scan {} is at hand, but one of {}", request.scan_id, scan.body->scan_id));
-    response.files = export_fit(scan, request.directory);
+    response.files = export_fit(scan, request.directory, options_);
     response.message = "wrote scan " + scan.body->scan_id + ", garment " + scan.fit->garment;
   });
   return true;

@@ -16,7 +16,7 @@ namespace tensegric_fit::node {
 /// Serves in a thread of its own: writing pictures and files holds nothing else up.
 class ExportDesk {
  public:
-  explicit ExportDesk(const ros::NodeHandle& node);
+  ExportDesk(const ros::NodeHandle& node, ExportOptions options);
 
   /// What is exported from now on.
   void keep(const FittedScan& scan);
@@ -30,6 +30,7 @@ class ExportDesk {
   bool on_export(ExportFit::Request& request, ExportFit::Response& response);
   bool on_delete(DeleteExport::Request& request, DeleteExport::Response& response);
 
+  const ExportOptions options_;
   std::mutex mutex_;
   FittedScan fitted_;
   LineForces::ConstPtr forces_;

@@ -3,32 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
 #include "files/whole_folder.hpp"
 #include "geometry/ply.hpp"
-#include "geometry/status.hpp"
 #include "inspect/fit_model.hpp"
 #include "inspect/fit_pictures.hpp"
+#include "ros/export_folders.hpp"
 #include "ros/fit_document.hpp"
 #include "ros/fit_sheet.hpp"
 #include "ros/flat.hpp"
+#include "ros/headless.hpp"
+#include "ros/sealed.hpp"
 
 namespace tensegric_fit::node {
 namespace {
 
-namespace fs = std::filesystem;
 using files::FileContent;
-using geometry::Refusal;
-
-constexpr std::array<const char*, 11> kFiles = {
-    kFitDocument, "measurements.csv", "body.ply",       "deformed.ply", "control.ply", "control_deformed.ply",
-    "front.png",  "side.png",         "distortion.png", "fit.glb",      "fit.html"};
 
 FileContent png(const std::string& name, const cv::Mat& picture) {
   std::vector<unsigned char> bytes;
@@ -85,7 +77,7 @@ std::vector<FileContent> contents_of(const FitFigures& figures) {
                     side = png("side.png", inspect::side_picture(scene)),
                     distortion = png("distortion.png", inspect::distortion_picture(scene)),
                     model{"fit.glb", inspect::fit_glb(model_of(figures))};
-  return {{kFitDocument, fit_json(figures, {kFiles.begin(), kFiles.end()})},
+  return {{kFitDocument, fit_json(figures, {kExportFiles.begin(), kExportFiles.end()})},
           {"measurements.csv", measurements_csv(figures)},
           {"body.ply", geometry::ply_bytes(figures.body)},
           {"deformed.ply", geometry::ply_bytes(deformed, inspect::distortion_colours(figures.distortion))},
@@ -104,59 +96,26 @@ std::vector<FileContent> contents_of(const FitFigures& figures) {
                                  model)}};
 }
 
-/// The folder's scan, where it is an export.
-std::optional<std::string> exported_scan(const fs::path& folder) {
-  if (fs::symlink_status(folder).type() != fs::file_type::directory) return std::nullopt;
-  std::ifstream file(folder / kFitDocument);
-  return scan_id_in({std::istreambuf_iterator<char>(file), {}});
-}
-
-void check_nothing_else_in(const fs::path& folder) {
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (!entry.is_regular_file() || std::find(kFiles.begin(), kFiles.end(), name) == kFiles.end())
-      throw Refusal(
-          geometry::refusal::kBadOption,
-          fmt::format("'{}' is no part of an export: its folder was not deleted", entry.path().string()));
-  }
-}
-
-std::vector<fs::path> exports_of(const fs::path& directory, const std::string& scan_id) {
-  std::vector<fs::path> folders;
-  if (exported_scan(directory) == scan_id) return {directory};
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory))
-    if (exported_scan(entry.path()) == scan_id) folders.push_back(entry.path());
-  std::sort(folders.begin(), folders.end());
-  return folders;
-}
-
 }  // namespace
 
-std::vector<std::string> export_fit(const FittedScan& scan, const std::string& directory) {
-  files::check_new_folder(directory);
-  return files::write_whole_folder(directory, contents_of(figures_of(scan)));
+ExportOptions export_options(Parameters& parameters) {
+  ExportOptions options;
+  options.with_head = parameters.flag("with_head", options.with_head);
+  options.age_recipient = parameters.text("age_recipient", "");
+  if (!options.age_recipient.empty()) check_recipient(options.age_recipient);
+  return options;
 }
 
-std::vector<std::string> delete_exports(const std::string& directory, const std::string& scan_id) {
-  fs::path place = fs::path(directory).lexically_normal();
-  if (!place.has_filename()) place = place.parent_path();  // a slash at the end
-  if (!place.is_absolute() || scan_id.empty())
-    throw Refusal(geometry::refusal::kBadOption, "which scan is to be deleted from which absolute path?");
-  std::vector<std::string> gone;
-  try {
-    for (const fs::path& folder : exports_of(place, scan_id)) {
-      check_nothing_else_in(folder);
-      files::delete_whole_folder(folder);
-      gone.push_back(folder);
-    }
-  } catch (const fs::filesystem_error& error) {
-    throw Refusal(geometry::refusal::kCannotWrite,
-                  fmt::format("'{}' cannot be looked at: {}", place.string(), error.code().message()));
-  }
-  if (gone.empty())
-    throw Refusal(geometry::refusal::kNothingYet,
-                  fmt::format("no export of scan {} in '{}'", scan_id, place.string()));
-  return gone;
+std::vector<std::string> export_fit(const FittedScan& scan, const std::string& directory,
+                                    const ExportOptions& options) {
+  files::check_new_folder(directory);
+  FitFigures figures = figures_of(scan);
+  if (!options.with_head) figures = headless(std::move(figures));
+  std::vector<FileContent> contents = contents_of(figures);
+  if (!options.age_recipient.empty())
+    contents = {{kSealedDocument, sealed_json(scan.body->scan_id)},
+                {kSealedFile, sealed(contents, options.age_recipient)}};
+  return files::write_whole_folder(directory, contents);
 }
 
 }  // namespace tensegric_fit::node

@@ -17,7 +17,7 @@ namespace {
 using geometry::ChangedMeasure;
 using nlohmann::ordered_json;
 
-constexpr char kFormat[] = "tensegric_fit/fit";
+constexpr char kFormat[] = "tensegric_fit/fit", kSealedFormat[] = "tensegric_fit/sealed";
 constexpr int kVersion = 1;  // of the schema; counts up when a field changes its meaning or goes
 
 /// To the micrometre.
@@ -162,6 +162,7 @@ std::string fit_json(const FitFigures& figures, const std::vector<std::string>& 
                         {"residual", fit.residual}};
   document["posture"] = {{"twist_rad", fit.twist}, {"side_lean_rad", fit.side_lean}};
   document["body"] = body_of(figures);
+  document["body"]["head"] = figures.head;
   document["volumes"] = volumes_of(figures.scan);
   document["distortion"] = {{"min", *tightest}, {"max", *loosest}};
   document["warnings"] = warnings_of(figures, true);
@@ -171,12 +172,19 @@ std::string fit_json(const FitFigures& figures, const std::vector<std::string>& 
   return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::optional<std::string> scan_id_in(const std::string& fit_json) {
-  const nlohmann::json document = nlohmann::json::parse(fit_json, nullptr, false);
-  if (!document.is_object() || document.value("format", nlohmann::json()) != kFormat) return std::nullopt;
+std::optional<std::string> scan_id_in(const std::string& text) {
+  const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
+  if (!document.is_object() || !document.contains("format")) return std::nullopt;
+  if (document["format"] != kFormat && document["format"] != kSealedFormat) return std::nullopt;
   const nlohmann::json scan = document.value("scan", nlohmann::json());
   const nlohmann::json id = scan.is_object() ? scan.value("scan_id", nlohmann::json()) : nlohmann::json();
   return id.is_string() ? std::optional<std::string>(id) : std::nullopt;
+}
+
+std::string sealed_json(const std::string& scan_id) {
+  const ordered_json document = {
+      {"format", kSealedFormat}, {"version", kVersion}, {"scan", {{"scan_id", scan_id}}}};
+  return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string measurements_csv(const FitFigures& figures) {

@@ -10,12 +10,16 @@
 namespace tensegric_fit::node {
 
 inline constexpr char kFitDocument[] = "fit.json";
+inline constexpr char kSealedDocument[] = "sealed.json";  ///< beside an encrypted export
 
 /// `files`: names of the files beside it.
 std::string fit_json(const FitFigures& figures, const std::vector<std::string>& files);
 
-/// Which scan a fit.json is of; nothing where the text is no fit.json.
-std::optional<std::string> scan_id_in(const std::string& fit_json);
+/// Says only which scan an encrypted export is of, so that it can be deleted.
+std::string sealed_json(const std::string& scan_id);
+
+/// Which scan a fit.json or sealed.json is of; nothing where the text is neither.
+std::optional<std::string> scan_id_in(const std::string& document);
 
 /// A row a height and girth, millimetres.
 std::string measurements_csv(const FitFigures& figures);

@@ -45,6 +45,7 @@ struct FitFigures {
   geometry::BodyMeasures measures;
   std::vector<geometry::ChangedMeasure> heights, girths;
   std::vector<inspect::BraSize> sizes;         ///< bra_sizes of the body before
+  bool head = true;                            ///< false: `body` and what goes with it have none
   std::optional<inspect::BraSize> size_after;  ///< of the girths with the garment on
 };
 

@@ -5,11 +5,39 @@
 
 #include <exception>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "files/owner_only.hpp"
 #include "geometry/status.hpp"
+#include "ros/forgetter.hpp"
+#include "ros/held_scan.hpp"
 
 namespace tensegric_fit::node {
+
+/// Whether a node forgets a scan by a function of its own, because it is not to begin anew.
+template <typename Node, typename = void>
+struct Forgets : std::false_type {};
+template <typename Node>
+struct Forgets<Node, std::void_t<decltype(std::declval<Node&>().forget(std::declval<const ForgetOrder&>(),
+                                                                       std::declval<ForgetAnswer&>()))>>
+    : std::true_type {};
+
+/// One life of a node, whose end is also that of all that it holds and latches. True: it forgets a scan and
+/// is to begin anew.
+template <typename Node>
+bool serve_node(Forgetter& forgetter) {
+  ros::NodeHandle private_node("~");
+  HeldScan::of_process().clear();
+  Node node(ros::NodeHandle{}, private_node);
+  if constexpr (Forgets<Node>::value)
+    return forgetter.serve(
+        [&node](const ForgetOrder& order, ForgetAnswer& done) { node.forget(order, done); });
+  else if (!forgetter.serve())
+    return false;
+  private_node.deleteParam("worn");
+  return true;
+}
 
 /// Exit codes: 0 shut down, 1 an error nobody foresaw, 2 a parameter or file of its own was refused.
 template <typename Node>
@@ -17,8 +45,9 @@ int run_node(int argc, char** argv, const std::string& name) {
   files::owner_only();
   ros::init(argc, argv, name);
   try {
-    Node node(ros::NodeHandle{}, ros::NodeHandle{"~"});
-    ros::spin();
+    const ros::NodeHandle running;  // ROS shuts down with the last one
+    Forgetter forgetter{ros::NodeHandle{}};
+    while (serve_node<Node>(forgetter)) forgetter.let_go();
     return 0;
   } catch (const geometry::Refusal& refusal) {
     ROS_FATAL("%s: %s: %s", name.c_str(), refusal.code().c_str(), refusal.what());

@@ -7,6 +7,7 @@
 
 #include <chrono>
 
+#include "ros/held_scan.hpp"
 #include "ros/log_words.hpp"
 
 namespace tensegric_fit::node {
@@ -54,8 +55,10 @@ Stage::~Stage() {
 }
 
 void Stage::begin(const std::string& scan_id) {
+  if (HeldScan::of_process().is_forgotten(scan_id)) return;
   std::lock_guard<std::mutex> lock(mutex_);
   newest_scan_ = scan_id;
+  HeldScan::of_process().begin(scan_id);
 }
 
 void Stage::post(const std::string& scan_id, Work work) {
@@ -67,6 +70,7 @@ void Stage::post_passing(const std::string& scan_id, Work work) {
 }
 
 void Stage::put(Job job) {
+  if (HeldScan::of_process().is_forgotten(job.scan_id)) return;
   {
     std::lock_guard<std::mutex> lock(mutex_);
     waiting_ = std::move(job);
@@ -108,7 +112,9 @@ void Stage::serve() {
       job = std::move(*waiting_);
       waiting_.reset();
     }
+    HeldScan::of_process().work(true);
     run(job);
+    HeldScan::of_process().work(false);
   }
 }
 
@@ -136,7 +142,10 @@ void Stage::run(const Job& job) {
 
 void Stage::finish(const Job& job, const Result& result, double milliseconds) {
   const bool dropped = !result.publish || superseded(job.scan_id);
-  if (!dropped) result.publish();
+  if (!dropped) {
+    result.publish();
+    HeldScan::of_process().publish(job.scan_id);
+  }
   if (job.passing) return;
   std::lock_guard<std::mutex> lock(report_mutex_);
   state_.word = dropped ? "superseded" : "done";

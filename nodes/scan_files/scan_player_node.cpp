@@ -10,6 +10,7 @@
 #include <atomic>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <optional>
 
 #include "ros/parameters.hpp"
@@ -94,9 +95,10 @@ class ScanPlayer {
  public:
   ScanPlayer(ros::NodeHandle node, const ros::NodeHandle& private_node)
       : setup_(setup_from(Parameters(private_node))),
+        node_(node),
         private_node_(private_node),
-        publisher_(node.advertise<PointCloud2>("scan/points", 1, true)),
-        labels_(node.advertise<ScanLabel>("scan/label", 4, true)),
+        publisher_(advertised()),
+        labels_(advertised_labels()),
         stage_("scan_player", node) {
     if (fs::is_directory(setup_.file)) {
       folder_.emplace(setup_.file, setup_.settle);
@@ -114,7 +116,43 @@ class ScanPlayer {
     clock_ = node.createWallTimer(ros::WallDuration(tick), [this](const ros::WallTimerEvent&) { go_on(); });
   }
 
+  /// It would play its files again, did it begin anew.
+  void forget(const ForgetOrder& order, ForgetAnswer& done) {
+    const auto source = sources_.find(order.scan_id);
+    if (source == sources_.end()) return;
+    if (order.scan_id == published_) {
+      publisher_.shutdown();
+      publisher_ = advertised();
+      labels_.shutdown();
+      labels_ = advertised_labels();
+      published_.clear();
+      if (!busy_) drop_published();  // else the scans read last are being replaced
+      done.removed.push_back("the latched scan/points and scan/label");
+    }
+    if (order.scan_file) {
+      std::error_code error;
+      if (fs::symlink_status(source->second, error).type() == fs::file_type::regular &&
+          fs::remove(source->second, error))
+        done.removed.push_back("the file " + source->second);
+      else
+        done.failed.push_back("the file " + source->second + " was not deleted");
+    }
+    sources_.erase(source);
+  }
+
  private:
+  ros::Publisher advertised() { return node_.advertise<PointCloud2>("scan/points", 1, true); }
+  ros::Publisher advertised_labels() { return node_.advertise<ScanLabel>("scan/label", 4, true); }
+
+  void drop_published() {
+    if (setup_.rate > 0) {
+      scans_.clear();  // nor is it played over again
+      at_ = 0;
+    } else if (at_ > 0) {
+      scans_[at_ - 1] = {};
+    }
+  }
+
   void go_on() {
     if (folder_) look();
     if (busy_ || ros::SteadyTime::now().toSec() < next_) return;
@@ -146,6 +184,7 @@ class ScanPlayer {
   void read(const std::string path) {
     files_.pop_front();
     busy_ = true;
+    playing_ = path;
     stage_.begin(path);
     stage_.post(path, [this, path]() -> Stage::Result {
       try {
@@ -173,18 +212,22 @@ class ScanPlayer {
     label.scan_id = tag.scan_id;
     labels_.publish(label);
     publisher_.publish(scan);
+    published_ = label.scan_id;
+    sources_[published_] = playing_;
     next_ = ros::SteadyTime::now().toSec() + (setup_.rate > 0 ? 1 / setup_.rate : setup_.interval);
     ROS_INFO("scan_player: scan %s", label.scan_id.c_str());
   }
 
   const Setup setup_;
-  ros::NodeHandle private_node_;
+  ros::NodeHandle node_, private_node_;
   ros::Publisher publisher_, labels_;
   std::optional<scan_files::ScanFolder> folder_;
-  std::deque<std::string> files_;  // complete, to be read
-  std::vector<FileScan> scans_;    // of the file read last; the worker's while busy
-  std::size_t at_ = 0;             // of the next one
-  double next_ = 0;                // when it may go, seconds of the steady clock
+  std::deque<std::string> files_;               // complete, to be read
+  std::vector<FileScan> scans_;                 // of the file read last; the worker's while busy
+  std::string playing_, published_;             // a path; a scan_id
+  std::map<std::string, std::string> sources_;  // scan_id -> path
+  std::size_t at_ = 0;                          // of the next one
+  double next_ = 0;                             // when it may go, seconds of the steady clock
   std::atomic<bool> busy_{false};
   ros::WallTimer clock_;
   Stage stage_;  // last: its worker uses all of the above

@@ -64,6 +64,7 @@ TffdHandler::TffdHandler(Parameters parameters) {
                            : tffd::Precision::reference;
   options_.truncation = parameters.number("truncation", options_.truncation, tffd::kTruncation);
   hold_.least_pull = parameters.number("least_pull", hold_.least_pull, tffd::kLeastPull);
+  exports_ = export_options(parameters);
   parameters.check_all_known();
   tffd::check_options(options_);
 }

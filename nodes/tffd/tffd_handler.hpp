@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "geometry/posture.hpp"
+#include "ros/export_fit.hpp"
 #include "ros/facts.hpp"
 #include "ros/fit_figures.hpp"
 #include "ros/parameters.hpp"
@@ -41,6 +42,8 @@ class TffdHandler {
     return join_.add(message);
   }
 
+  const ExportOptions& exports() const { return exports_; }
+
   struct Output {
     FittedScan scan;  ///< `deformed` and `warnings` are what is new
     std::shared_ptr<const BoundBody> bound;
@@ -52,6 +55,7 @@ class TffdHandler {
 
  private:
   tffd::Options options_;
+  ExportOptions exports_;
   tffd::HoldOptions hold_;
   Join join_;
   std::shared_ptr<const BoundBody> bound_;

@@ -18,7 +18,7 @@ class TffdNode {
         passing_(node.advertise<DeformedMesh>("body/deformed", 1)),
         warnings_(node.advertise<FitWarnings>("body/warnings", 1, true)),
         display_(private_node),
-        exports_(node),
+        exports_(node, handler_.exports()),
         stage_("tffd", node) {
     subscribers_ = {node.subscribe("body/mesh", 2, &TffdNode::on_body, this, kPrompt),
                     node.subscribe("body/landmarks", 2, &TffdNode::on<Landmarks>, this, kPrompt),

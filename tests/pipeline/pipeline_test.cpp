@@ -5,6 +5,7 @@
 #include <std_srvs/Trigger.h>
 #include <tensegric_fit/DeleteExport.h>
 #include <tensegric_fit/ExportFit.h>
+#include <tensegric_fit/Forget.h>
 #include <tensegric_fit/Garment.h>
 #include <tensegric_fit/ScanLabel.h>
 #include <tensegric_fit/SetGarment.h>
@@ -394,6 +395,48 @@ TEST_F(PipelineTest, TheSameScanTwiceIsFittedTwice) {
   EXPECT_EQ(count_of(client_->bodies, again), 1);
   EXPECT_EQ(count_of(client_->fits, again), 1);
   EXPECT_EQ(count_of(client_->deformed, again), 1);
+}
+
+TEST_F(PipelineTest, AForgottenScanIsNowhereAndTheNextOneIsFitted) {
+  const fs::path folder = fs::path(TENSEGRIC_FIT_SCANS) / "forgotten";
+  fs::remove_all(folder);
+  const std::string a = client_->fit(booth_scan("a"));
+  ASSERT_NE(a, "");
+  ExportFit request;
+  request.request.directory = folder / "one";
+  ASSERT_TRUE(ros::service::call("export_fit", request));
+  ASSERT_TRUE(request.response.exported) << request.response.message;
+
+  Forget order;
+  order.request.scan_id = "of another customer";
+  ASSERT_TRUE(ros::service::call("forget", order));
+  EXPECT_TRUE(order.response.removed.empty());
+  order.request.scan_id = a;
+  order.request.folders = {folder};
+  ASSERT_TRUE(ros::service::call("forget", order));
+  EXPECT_TRUE(order.response.complete) << order.response.not_reached.front();
+  std::string removed, not_reached;
+  for (const std::string& line : order.response.removed) removed += line + "\n";
+  for (const std::string& line : order.response.not_reached) not_reached += line + "\n";
+  for (const char* node :
+       {"/reconstruction:", "/landmarks:", "/control_mesh:", "/tensegric:", "/tffd:", "export "})
+    EXPECT_NE(removed.find(node), std::string::npos) << node << " is not in\n" << removed;
+  EXPECT_NE(not_reached.find("/pipeline_test: what it keeps"), std::string::npos) << not_reached;
+  EXPECT_FALSE(fs::exists(folder / "one"));
+
+  ChainClient late;
+  ASSERT_TRUE(late.ready());
+  listen(2);
+  EXPECT_EQ(count_of(late.models, a), 0);
+  EXPECT_EQ(count_of(late.bodies, a), 0);
+  EXPECT_EQ(count_of(late.landmarks, a), 0);
+  EXPECT_EQ(count_of(late.controls, a), 0);
+  EXPECT_EQ(count_of(late.fits, a), 0);
+  EXPECT_EQ(count_of(late.forces, a), 0);
+  EXPECT_EQ(count_of(late.deformed, a), 0);
+  ASSERT_TRUE(ros::service::call("export_fit", request));
+  EXPECT_EQ(request.response.code, "nothing_yet");
+  EXPECT_NE(late.fit(booth_scan("b")), "");
 }
 
 }  // namespace

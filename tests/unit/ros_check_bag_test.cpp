@@ -126,7 +126,7 @@ TEST_F(CheckBagTest, SensorsOfABoothGoThroughTheAssembler) {
     for (const char* sensor : {"0", "1", "2"})
       write_scan(bag, 10, scan_at(10, 300), "/sensors/" + std::string(sensor) + "/points");
   };
-  EXPECT_EQ(found_in(sensors), Names{"sensors"});
+  EXPECT_EQ(found_in(sensors), Names{"note sensors"});
   EXPECT_TRUE(check_.can_be_replayed());
   EXPECT_NE(check_.findings[0].advice.find("assemble:=true"), std::string::npos);
   EXPECT_EQ(check_.findings[0].advice.find(":=/scan/points"), std::string::npos)

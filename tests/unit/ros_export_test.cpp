@@ -1,8 +1,11 @@
 /// The export of a fit, without a master.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <tensegric_fit/GarmentLine.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -18,6 +21,8 @@
 #include "geometry/status.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/export_fit.hpp"
+#include "ros/export_folders.hpp"
+#include "ros/sealed.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -25,6 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+const ExportOptions kWhole{true};
 constexpr double kPi = 3.14159265358979323846;
 
 /// A trunk: a tube of 0.15 m, open above and below.
@@ -76,6 +82,7 @@ class ExportFitTest : public testing::Test {
     measures.girths = {{"bust", 0.942, 0.9, "", 0.004}, {"underbust", 0.75, 0.4, "hair, <b>long</b>"}};
     measures.heights = {{"bust", 1.2, 0.9, ""}, {"stature", 1.7, 1, ""}};
     measures.loops = {loop_at("bust", 1.21)};
+    measures.loops.push_back(loop_at("neck", 1.329));
     measures.missing = {{"neck", "no head"}};
 
     const auto fit = boost::make_shared<FitState>();
@@ -125,7 +132,7 @@ class ExportFitTest : public testing::Test {
 
   std::string refused(const FittedScan& scan, const std::string& directory) const {
     try {
-      export_fit(scan, directory);
+      export_fit(scan, directory, kWhole);
     } catch (const geometry::Refusal& refusal) {
       return refusal.code();
     }
@@ -147,7 +154,7 @@ class ExportFitTest : public testing::Test {
 
 TEST_F(ExportFitTest, CorrelateReadsItAgain) {
   const fs::path folder = root_ / "one";
-  export_fit(scan_, folder);
+  export_fit(scan_, folder, kWhole);
   const fit::FittedFolder fitted = fit::read_fitted_folder(folder);
   EXPECT_EQ(fitted.scan, "scan 1.000000000-00000001");
   EXPECT_EQ(fitted.rest.triangles.size(), scan_.body->triangles.size() / 3);
@@ -166,7 +173,7 @@ TEST_F(ExportFitTest, CorrelateReadsItAgain) {
 
 TEST_F(ExportFitTest, WritesMeshesMeasuresPicturesAndParameters) {
   const fs::path folder = root_ / "one";
-  EXPECT_EQ(export_fit(scan_, folder).size(), 11u);
+  EXPECT_EQ(export_fit(scan_, folder, kWhole).size(), 11u);
   const geometry::TriangleMesh deformed = geometry::read_ply_mesh(folder / "deformed.ply");
   EXPECT_EQ(deformed.triangles, geometry::read_ply_mesh(folder / "body.ply").triangles);
   EXPECT_NEAR(deformed.vertices.at(0).x(), 0.135, 1e-7);  // float32
@@ -192,7 +199,7 @@ TEST_F(ExportFitTest, WritesMeshesMeasuresPicturesAndParameters) {
 }
 
 TEST_F(ExportFitTest, TheDocumentIsWhatItsSchemaSays) {
-  export_fit(scan_, root_ / "one");
+  export_fit(scan_, root_ / "one", kWhole);
   EXPECT_TRUE(is_valid(root_ / "one" / "fit.json"));
   const json good = json::parse(text_of(root_ / "one" / "fit.json"));
   const auto accepts = [&](const json::json_pointer& where, const json& value) {
@@ -221,7 +228,7 @@ TEST_F(ExportFitTest, TheMakerLearnsHowEachBandResists) {
   fit->lines[2].table_tension = {0, 3};
   FittedScan scan = scan_;
   scan.fit = fit;
-  export_fit(scan, root_ / "one");
+  export_fit(scan, root_ / "one", kWhole);
   EXPECT_TRUE(is_valid(root_ / "one" / "fit.json"));
   const json lines = json::parse(text_of(root_ / "one" / "fit.json"))["garment"]["lines"];
   EXPECT_EQ(lines[0]["law"], "rigid");
@@ -240,19 +247,19 @@ TEST_F(ExportFitTest, ForcesAreWrittenWhereTheyAreOfThisFit) {
   forces->newtons = {12.5};
   forces->kilopascals = {1.25};
   scan_.forces = forces;
-  export_fit(scan_, root_ / "one");
+  export_fit(scan_, root_ / "one", kWhole);
   EXPECT_TRUE(is_valid(root_ / "one" / "fit.json"));
   json line = json::parse(text_of(root_ / "one" / "fit.json"))["garment"]["lines"][0];
   EXPECT_EQ(line["tension_N"], 12.5);
   EXPECT_EQ(line["pressure_kPa"], 1.25);
   forces->tension[0] += 0.1;
-  export_fit(scan_, root_ / "other");
+  export_fit(scan_, root_ / "other", kWhole);
   line = json::parse(text_of(root_ / "other" / "fit.json"))["garment"]["lines"][0];
   EXPECT_FALSE(line.contains("tension_N"));
 }
 
 TEST_F(ExportFitTest, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
-  export_fit(scan_, root_ / "one");
+  export_fit(scan_, root_ / "one", kWhole);
   const std::string page = text_of(root_ / "one" / "fit.html");
   EXPECT_NE(page.find("<td>bust girth, cm</td><td>94.2</td><td>84.8</td><td>-9.4</td>"), std::string::npos);
   EXPECT_NE(page.find("<td>lift of the bust, mm</td><td></td><td></td><td>+0</td>"), std::string::npos);
@@ -277,6 +284,120 @@ TEST_F(ExportFitTest, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
             "height,stature,1700.0,1700.0,1.00,,\r\n"
             "girth,bust,942.0,847.8,0.90,4.0,\r\n"
             "girth,underbust,750.0,,0.40,,\"hair, <b>long</b>\"\r\n");
+}
+
+TEST_F(ExportFitTest, TheHeadIsCutOffJustAboveTheTapeOfTheNeck) {
+  export_fit(scan_, root_ / "whole", kWhole);
+  const fs::path folder = root_ / "one";
+  export_fit(scan_, folder, {});
+  const geometry::TriangleMesh whole = geometry::read_ply_mesh(root_ / "whole" / "body.ply"),
+                               body = geometry::read_ply_mesh(folder / "body.ply"),
+                               deformed = geometry::read_ply_mesh(folder / "deformed.ply");
+  EXPECT_NEAR(geometry::bounding_box(whole.vertices)[1].z(), 1.4, 1e-6);
+  EXPECT_NEAR(geometry::bounding_box(body.vertices)[1].z(), 1.339, 1e-6);
+  EXPECT_NEAR(geometry::bounding_box(deformed.vertices)[1].z(), 1.339, 1e-6);
+  EXPECT_EQ(body.triangles, deformed.triangles);
+  ASSERT_EQ(body.vertices.size(), deformed.vertices.size());
+  for (std::size_t v = 0; v < body.vertices.size(); ++v)  // the tube at nine tenths of its width, cut or not
+    EXPECT_LT((deformed.vertices[v] - Eigen::Vector3d(0.9, 0.9, 1).asDiagonal() * body.vertices[v]).norm(),
+              1e-6);
+  const auto rims = [](const geometry::TriangleMesh& mesh) {
+    const auto edges = geometry::edges_of(mesh);
+    return std::count_if(edges.begin(), edges.end(),
+                         [](const geometry::Edge& edge) { return edge.right < 0; });
+  };
+  EXPECT_EQ(rims(whole), 120);
+  EXPECT_EQ(rims(body), 60) << "the cut is closed, the tube's lower end stays open";
+  const json fit = json::parse(text_of(folder / "fit.json"));
+  EXPECT_EQ(fit["body"]["head"], false);
+  EXPECT_EQ(fit["body"]["heights"][1]["before_mm"], 1700);  // stature
+  EXPECT_TRUE(is_valid(folder / "fit.json"));
+  EXPECT_LT(fs::file_size(folder / "fit.glb"), fs::file_size(root_ / "whole" / "fit.glb"));
+}
+
+TEST_F(ExportFitTest, WithoutANeckNothingIsExportedButOnRequest) {
+  const auto landmarks = boost::make_shared<Landmarks>(*scan_.landmarks);
+  landmarks->loops.clear();
+  scan_.landmarks = landmarks;
+  try {
+    export_fit(scan_, root_ / "one", {});
+    FAIL();
+  } catch (const geometry::Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), "missing_part:neck");
+  }
+  EXPECT_FALSE(fs::exists(root_ / "one"));
+  EXPECT_EQ(export_fit(scan_, root_ / "one", kWhole).size(), 11u);
+}
+
+TEST_F(ExportFitTest, AnEncryptedExportIsReadWithItsKeyAlone) {
+  if (std::system("command -v age-keygen > /dev/null") != 0) GTEST_SKIP() << "age is not installed";
+  fs::create_directories(root_);
+  const std::string key = (root_ / "key").string(), out = (root_ / "out").string();
+  ASSERT_EQ(
+      std::system(
+          ("age-keygen -o " + key + " 2> /dev/null && age-keygen -y " + key + " > " + key + ".pub").c_str()),
+      0);
+  std::string recipient = text_of(key + ".pub");
+  recipient.pop_back();  // end of the line
+  EXPECT_NO_THROW(check_recipient(recipient));
+  for (const std::string& bad : {std::string("age1short"), "-o/etc/passwd" + recipient, recipient + "\n"})
+    EXPECT_THROW(check_recipient(bad), geometry::Refusal) << bad;
+
+  const fs::path folder = root_ / "exports" / "one";
+  EXPECT_EQ(export_fit(scan_, folder, {true, recipient}).size(), 2u);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2) << "nothing else";
+  EXPECT_EQ(json::parse(text_of(folder / "sealed.json")).size(), 3u);
+  fs::create_directories(out);
+  ASSERT_EQ(
+      std::system(
+          ("age -d -i " + key + " " + (folder / "fit.tar.age").string() + " | tar -x -C " + out).c_str()),
+      0);
+  export_fit(scan_, root_ / "plain", kWhole);
+  for (const auto& entry : fs::directory_iterator(root_ / "plain"))
+    EXPECT_EQ(text_of(entry.path()), text_of(fs::path(out) / entry.path().filename())) << entry.path();
+  EXPECT_EQ(delete_exports(root_ / "exports", scan_.body->scan_id), std::vector<std::string>{folder});
+}
+
+TEST_F(ExportFitTest, OldExportsGoAndNothingElse) {
+  for (const char* name : {"old", "new", "spoilt"}) export_fit(scan_, root_ / name, kWhole);
+  std::ofstream(root_ / "spoilt" / "precious") << "mine";
+  fs::create_directories(root_ / "no_export");
+  fs::create_directory_symlink(root_ / "new", root_ / "link");
+  const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(24 * 31);
+  for (const char* name : {"old", "spoilt"}) fs::last_write_time(root_ / name / "fit.json", long_ago);
+  std::vector<std::string> left;
+  EXPECT_TRUE(delete_old_exports(root_, 32, left).empty());
+  EXPECT_TRUE(left.empty());
+  EXPECT_EQ(delete_old_exports(root_, 30, left), std::vector<std::string>{root_ / "old"});
+  EXPECT_EQ(left.size(), 1u) << "the spoilt one";
+  for (const char* name : {"new", "spoilt", "no_export"}) EXPECT_TRUE(fs::exists(root_ / name)) << name;
+  left.clear();
+  EXPECT_TRUE(delete_old_exports(root_ / "nowhere", 30, left).empty());
+  EXPECT_EQ(left.size(), 1u);
+}
+
+TEST_F(ExportFitTest, AFolderMadeToHarmIsLeftAlone) {
+  const std::string id = scan_.body->scan_id;
+  export_fit(scan_, root_ / "one", kWhole);
+  fs::rename(root_ / "one" / "fit.json", root_ / "aside.json");
+  const auto is_left_alone = [&] {
+    return not_deleted(root_, id) == "nothing_yet" && fs::exists(root_ / "one");
+  };
+  fs::create_symlink(root_ / "aside.json", root_ / "one" / "fit.json");
+  EXPECT_TRUE(is_left_alone()) << "a document that is a link";
+  fs::remove(root_ / "one" / "fit.json");
+  ASSERT_EQ(mkfifo((root_ / "one" / "fit.json").c_str(), 0600), 0);
+  EXPECT_TRUE(is_left_alone()) << "a pipe that nobody writes to";
+  fs::remove(root_ / "one" / "fit.json");
+  std::ofstream(root_ / "one" / "fit.json") << std::string(1 << 20, '[');
+  EXPECT_TRUE(is_left_alone()) << "a document that is nested too deeply";
+  fs::resize_file(root_ / "one" / "fit.json", std::uintmax_t{1} << 40);
+  EXPECT_TRUE(is_left_alone()) << "a document of a terabyte";
+  fs::rename(root_ / "aside.json", root_ / "one" / "fit.json");
+  fs::remove(root_ / "one" / "body.ply");
+  fs::create_symlink("/etc/passwd", root_ / "one" / "body.ply");
+  EXPECT_EQ(not_deleted(root_, id), "bad_option") << "a link in place of a file of ours";
+  EXPECT_TRUE(fs::exists(root_ / "one"));
 }
 
 /// A picture of the page as headless Chromium shows it, opened at that address.
@@ -308,7 +429,7 @@ double difference(const cv::Mat& a, const cv::Mat& b) {
 
 TEST_F(ExportFitTest, TheBodyInThePageTurnsAndChanges) {
   if (std::system("command -v chromium > /dev/null") != 0) GTEST_SKIP() << "chromium is not installed";
-  export_fit(scan_, root_ / "one");
+  export_fit(scan_, root_ / "one", kWhole);
   const fs::path page = root_ / "one" / "fit.html";
   const cv::Mat worn = shown(page, "share=100");
   ASSERT_FALSE(worn.empty());
@@ -342,8 +463,8 @@ TEST_F(ExportFitTest, WhatDoesNotFitTogetherOrIsNoNumberIsNotExported) {
 
 TEST_F(ExportFitTest, ExportsAreDeletedByScanAndNothingElseIs) {
   const std::string id = scan_.body->scan_id;
-  for (const char* name : {"one", "two"}) export_fit(scan_, root_ / name);
-  export_fit(fitted("3.000000000-00000003"), root_ / "other");
+  for (const char* name : {"one", "two"}) export_fit(scan_, root_ / name, kWhole);
+  export_fit(fitted("3.000000000-00000003"), root_ / "other", kWhole);
   fs::create_directories(root_ / "no_export");
   std::ofstream(root_ / "no_export" / "fit.json") << R"({"scan": {"scan_id": ")" << id << "\"}}";
   fs::create_directories(root_ / "elsewhere");

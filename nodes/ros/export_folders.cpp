@@ -1,0 +1,112 @@
+#include "ros/export_folders.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include "files/whole_folder.hpp"
+#include "geometry/status.hpp"
+#include "ros/sealed.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+namespace fs = std::filesystem;
+using geometry::Refusal;
+
+constexpr std::size_t kLargestDocument = 16 << 20;  // bytes; ours have some 20 kB
+
+/// What marks a folder as an export of ours.
+struct Mark {
+  std::string scan_id;
+  fs::file_time_type written;
+};
+
+std::optional<Mark> mark_in(const fs::path& folder) {
+  if (fs::symlink_status(folder).type() != fs::file_type::directory) return std::nullopt;
+  for (const char* name : {kFitDocument, kSealedDocument}) {
+    const std::optional<std::string> text = files::bytes_of_plain_file(folder / name, kLargestDocument);
+    const std::optional<std::string> scan_id = text ? scan_id_in(*text) : std::nullopt;
+    if (scan_id) return Mark{*scan_id, fs::last_write_time(folder / name)};
+  }
+  return std::nullopt;
+}
+
+bool is_of_an_export(const std::string& file) {
+  return file == kSealedDocument || file == kSealedFile ||
+         std::find(kExportFiles.begin(), kExportFiles.end(), file) != kExportFiles.end();
+}
+
+void check_nothing_else_in(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.symlink_status().type() != fs::file_type::regular ||
+        !is_of_an_export(entry.path().filename().string()))
+      throw Refusal(
+          geometry::refusal::kBadOption,
+          fmt::format("'{}' is no part of an export: its folder was not deleted", entry.path().string()));
+}
+
+void delete_export(const fs::path& folder) {
+  check_nothing_else_in(folder);
+  files::delete_whole_folder(folder);
+}
+
+std::vector<fs::path> exports_of(const fs::path& directory, const std::string& scan_id) {
+  const auto is_of_scan = [&](const fs::path& folder) {
+    const std::optional<Mark> mark = mark_in(folder);
+    return mark && mark->scan_id == scan_id;
+  };
+  if (is_of_scan(directory)) return {directory};
+  std::vector<fs::path> folders;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory))
+    if (is_of_scan(entry.path())) folders.push_back(entry.path());
+  std::sort(folders.begin(), folders.end());
+  return folders;
+}
+
+}  // namespace
+
+std::vector<std::string> delete_exports(const std::string& directory, const std::string& scan_id) {
+  fs::path place = fs::path(directory).lexically_normal();
+  if (!place.has_filename()) place = place.parent_path();  // a slash at the end
+  if (!place.is_absolute() || scan_id.empty())
+    throw Refusal(geometry::refusal::kBadOption, "which scan is to be deleted from which absolute path?");
+  std::vector<std::string> gone;
+  try {
+    for (const fs::path& folder : exports_of(place, scan_id)) {
+      delete_export(folder);
+      gone.push_back(folder);
+    }
+  } catch (const fs::filesystem_error& error) {
+    throw Refusal(geometry::refusal::kCannotWrite,
+                  fmt::format("'{}' cannot be looked at: {}", place.string(), error.code().message()));
+  }
+  if (gone.empty())
+    throw Refusal(geometry::refusal::kNothingYet,
+                  fmt::format("no export of scan {} in '{}'", scan_id, place.string()));
+  return gone;
+}
+
+std::vector<std::string> delete_old_exports(const std::string& directory, double days,
+                                            std::vector<std::string>& left) {
+  using Days = std::chrono::duration<double, std::ratio<86400>>;
+  std::vector<std::string> gone;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory, error)) {
+    try {
+      const std::optional<Mark> mark = mark_in(entry.path());
+      if (!mark || Days(fs::file_time_type::clock::now() - mark->written).count() <= days) continue;
+      delete_export(entry.path());
+      gone.push_back(entry.path());
+    } catch (const std::exception& failure) {
+      left.emplace_back(failure.what());
+    }
+  }
+  if (error) left.push_back(fmt::format("'{}' cannot be looked at: {}", directory, error.message()));
+  return gone;
+}
+
+}  // namespace tensegric_fit::node

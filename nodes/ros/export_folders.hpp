@@ -1,0 +1,28 @@
+/// Exports on the disk: which there are, and their end.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "ros/fit_document.hpp"
+
+namespace tensegric_fit::node {
+
+/// Of an export that is not encrypted.
+inline constexpr std::array<const char*, 11> kExportFiles = {
+    kFitDocument, "measurements.csv", "body.ply",       "deformed.ply", "control.ply", "control_deformed.ply",
+    "front.png",  "side.png",         "distortion.png", "fit.glb",      "fit.html"};
+
+/// Deletes the exports of that scan: `directory` itself, or the folders in it. What is no export, or holds
+/// anything else, is left alone; links are not followed. Returns the folders that are gone. \throw Refusal
+/// bad_option: a relative path, or no scan; nothing_yet: there is no export of it; cannot_write
+std::vector<std::string> delete_exports(const std::string& directory, const std::string& scan_id);
+
+/// Deletes the exports in `directory` whose document was written more than `days` ago. Returns
+/// the folders that are gone; what could not be deleted
+/// stays and is added to `left`, in words.
+std::vector<std::string> delete_old_exports(const std::string& directory, double days,
+                                            std::vector<std::string>& left);
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,74 @@
+/// forget: one scan, everywhere in a running booth, or in folders where none runs.
+#include <fmt/format.h>
+#include <ros/ros.h>
+#include <tensegric_fit/Forget.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "geometry/status.hpp"
+#include "ros/export_folders.hpp"
+
+namespace {
+
+using tensegric_fit::Forget;
+
+constexpr int kDone = 0, kNotEverywhere = 1, kUsage = 2, kRefused = 3;
+
+int said(const Forget::Response& response) {
+  fmt::print("{}\n", response.message);
+  for (const std::string& line : response.removed) fmt::print("removed: {}\n", line);
+  for (const std::string& line : response.not_reached) fmt::print("not reached: {}\n", line);
+  return !response.code.empty() ? kRefused : response.complete ? kDone : kNotEverywhere;
+}
+
+/// Without nodes: the exports in the folders.
+Forget::Response forget_exports(const Forget::Request& request) {
+  Forget::Response response;
+  response.complete = true;
+  response.message = "no booth is running: looked for exports only";
+  for (const std::string& folder : request.folders) {
+    try {
+      for (const std::string& gone : tensegric_fit::node::delete_exports(folder, request.scan_id))
+        response.removed.push_back("export " + gone);
+    } catch (const tensegric_fit::geometry::Refusal& refusal) {
+      if (refusal.code() == tensegric_fit::geometry::refusal::kNothingYet) continue;
+      response.complete = false;
+      response.not_reached.emplace_back(refusal.what());
+    }
+  }
+  return response;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "forget", ros::init_options::AnonymousName | ros::init_options::NoRosout);
+  Forget::Request request;
+  bool scan_file = false;
+  CLI::App app(
+      "Forgets one scan: what nodes hold of it, and its exports.\nExit: 0 done, 1 not everywhere, 2 usage, 3 "
+      "refused.");
+  app.add_option("scan_id", request.scan_id, "as reports, exports and /diagnostics give it")->required();
+  app.add_option("--folder", request.folders,
+                 "exports, or a folder that they lie in; beside those of the node vault");
+  app.add_flag("--scan-file", scan_file, "delete also the file that it was played from");
+  CLI11_PARSE(app, argc, argv);
+  request.scan_file = scan_file;
+  for (std::string& folder : request.folders) folder = std::filesystem::absolute(folder).string();
+  if (!ros::master::check()) {
+    if (request.folders.empty()) {
+      fmt::print(stderr, "no booth is running, and no --folder is given\n");
+      return kUsage;
+    }
+    return said(forget_exports(request));
+  }
+  Forget::Response response;
+  ros::NodeHandle node;
+  if (!node.serviceClient<Forget>("forget").call(request, response)) {
+    fmt::print(stderr, "the service '{}' does not answer: is the node vault running?\n",
+               node.resolveName("forget"));
+    return kRefused;
+  }
+  return said(response);
+}

@@ -1,0 +1,152 @@
+#include "ros/forget_desk.hpp"
+
+#include <fmt/format.h>
+#include <tensegric_fit/ForgetOrder.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "geometry/status.hpp"
+#include "ros/export_folders.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+using Names = std::set<std::string>;
+
+constexpr std::chrono::seconds kPatience(15);  // a stage that works on the next scan ends that first
+const ros::WallDuration kDay(86400);
+const geometry::Range kRetention{0, 36500};
+
+/// Nodes that subscribe to a topic, as the master has it.
+Names subscribers_of(const std::string& topic) {
+  XmlRpc::XmlRpcValue request, response, state;
+  request[0] = ros::this_node::getName();
+  Names names;
+  if (!ros::master::execute("getSystemState", request, response, state, false)) return names;
+  XmlRpc::XmlRpcValue& topics = state[1];  // publishers, subscribers, services
+  for (int t = 0; t < topics.size(); ++t) {
+    if (static_cast<std::string>(topics[t][0]) != topic) continue;
+    for (int i = 0; i < topics[t][1].size(); ++i) names.insert(topics[t][1][i]);
+  }
+  return names;
+}
+
+}  // namespace
+
+VaultOptions vault_options(Parameters parameters) {
+  VaultOptions options;
+  options.folders = parameters.texts("folders");
+  options.retention_days = parameters.number("retention_days", options.retention_days, kRetention);
+  parameters.check_all_known();
+  for (const std::string& folder : options.folders)
+    if (!std::filesystem::path(folder).is_absolute())
+      throw geometry::Refusal(geometry::refusal::kBadOption,
+                              fmt::format("parameter 'folders': '{}' is not an absolute path", folder));
+  if (options.retention_days > 0 && options.folders.empty())
+    throw geometry::Refusal(geometry::refusal::kBadOption,
+                            "parameter 'retention_days': 'folders' does not say where exports lie");
+  return options;
+}
+
+ForgetDesk::ForgetDesk(ros::NodeHandle node, const ros::NodeHandle& private_node)
+    : node_(node),
+      options_(vault_options(Parameters(private_node))),
+      orders_(node.advertise<ForgetOrder>("forget/order", 4)),
+      spinner_(1, &queue_) {
+  answers_in_ =
+      node.subscribe<ForgetAnswer>("forget/answer", 64, [this](const ForgetAnswer::ConstPtr& answer) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        answers_[answer->node] = *answer;
+        answered_.notify_all();
+      });
+  if (options_.retention_days > 0) {
+    delete_old();
+    daily_ = node.createWallTimer(kDay, [this](const ros::WallTimerEvent&) { delete_old(); });
+  }
+  ros::NodeHandle own(node);
+  own.setCallbackQueue(&queue_);
+  service_ = own.advertiseService("forget", &ForgetDesk::on_forget, this);
+  spinner_.start();
+}
+
+void ForgetDesk::delete_old() const {
+  std::vector<std::string> left;
+  std::size_t gone = 0;
+  for (const std::string& folder : options_.folders)
+    if (std::filesystem::exists(folder))
+      gone += delete_old_exports(folder, options_.retention_days, left).size();
+  if (gone > 0) ROS_INFO("vault: exports were deleted, as they were old");
+  if (!left.empty())
+    ROS_WARN("vault: old exports could not be deleted, see %s", options_.folders.front().c_str());
+}
+
+Names ForgetDesk::order(std::uint8_t step, const Forget::Request& request, Forget::Response& response) {
+  ForgetOrder order;
+  order.step = step;
+  order.scan_id = request.scan_id;
+  order.scan_file = request.scan_file;
+  Names silent = subscribers_of(node_.resolveName("forget/order"));
+  std::unique_lock<std::mutex> lock(mutex_);
+  answers_.clear();
+  orders_.publish(order);
+  if (step == ForgetOrder::GO_ON) return {};
+  const auto all = [&] {
+    return std::all_of(silent.begin(), silent.end(), [&](const std::string& node) {
+      const auto answer = answers_.find(node);
+      return answer != answers_.end() && answer->second.scan_id == request.scan_id;
+    });
+  };
+  answered_.wait_for(lock, kPatience, all);
+  for (const auto& [node, answer] : answers_) {
+    if (answer.scan_id != request.scan_id) continue;
+    silent.erase(node);
+    for (const std::string& line : answer.removed) response.removed.push_back(node + ": " + line);
+    for (const std::string& line : answer.failed) response.not_reached.push_back(node + ": " + line);
+  }
+  return silent;
+}
+
+void ForgetDesk::delete_exports_of(const std::string& scan_id, const std::vector<std::string>& folders,
+                                   Forget::Response& response) const {
+  for (const std::string& folder : folders) {
+    if (!std::filesystem::exists(folder)) continue;  // there was no export so far
+    try {
+      for (const std::string& gone : delete_exports(folder, scan_id))
+        response.removed.push_back("export " + gone);
+    } catch (const geometry::Refusal& refusal) {
+      if (refusal.code() != geometry::refusal::kNothingYet) response.not_reached.emplace_back(refusal.what());
+    }
+  }
+}
+
+bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response) {
+  if (request.scan_id.empty()) {
+    response.code = geometry::refusal::kBadOption;
+    response.message = "which scan is to be forgotten?";
+    return true;
+  }
+  const Names asked = subscribers_of(node_.resolveName("forget/order"));
+  const Names silent = order(ForgetOrder::LET_GO, request, response);
+  order(ForgetOrder::GO_ON, request, response);
+  for (const std::string& node : silent) response.not_reached.push_back(node + ": did not answer");
+  std::vector<std::string> folders = options_.folders;
+  folders.insert(folders.end(), request.folders.begin(), request.folders.end());
+  delete_exports_of(request.scan_id, folders, response);
+  response.complete = response.not_reached.empty();
+  response.message = fmt::format("scan {}: {}{}", request.scan_id,
+                                 response.removed.empty() ? "nothing of it was found" : "forgotten",
+                                 response.complete ? "" : ", but not everywhere");
+  for (const char* topic : {"scan/points", "body/mesh", "body/model", "body/landmarks", "body/deformed",
+                            "control/mesh", "control/deformed", "worn/points", "worn/correlation"})
+    for (const std::string& node : subscribers_of(node_.resolveName(topic)))
+      if (asked.count(node) == 0)
+        response.not_reached.push_back(node + ": what it keeps or shows of " + topic);
+  if (!request.scan_file) response.not_reached.emplace_back("the file that it was played from, where it was");
+  response.not_reached.emplace_back(
+      "bags, copies of exports, results of fit, other machines, backups, swap, blocks of the disk that are "
+      "free");
+  return true;
+}
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,54 @@
+/// The service forget, and the end of exports that are old.
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <tensegric_fit/Forget.h>
+#include <tensegric_fit/ForgetAnswer.h>
+
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ros/parameters.hpp"
+
+namespace tensegric_fit::node {
+
+struct VaultOptions {
+  std::vector<std::string> folders;  ///< absolute paths that exports lie in
+  double retention_days = 0;         ///< that they are kept; 0: until they are deleted
+};
+
+/// \throw Refusal bad_option, naming the parameter
+VaultOptions vault_options(Parameters parameters);
+
+/// Serves in a thread of its own; answers of nodes come by the main thread.
+class ForgetDesk {
+ public:
+  ForgetDesk(ros::NodeHandle node, const ros::NodeHandle& private_node);
+
+ private:
+  bool on_forget(Forget::Request& request, Forget::Response& response);
+  /// Orders it and waits for all. Returns the nodes that did not answer in time.
+  std::set<std::string> order(std::uint8_t step, const Forget::Request& request, Forget::Response& response);
+  void delete_exports_of(const std::string& scan_id, const std::vector<std::string>& folders,
+                         Forget::Response& response) const;
+  void delete_old() const;
+
+  ros::NodeHandle node_;
+  const VaultOptions options_;
+  ros::Publisher orders_;
+  ros::Subscriber answers_in_;
+  ros::WallTimer daily_;
+  std::mutex mutex_;  // guards answers_
+  std::condition_variable answered_;
+  std::map<std::string, ForgetAnswer> answers_;  // of nodes, to the order given last
+  ros::CallbackQueue queue_;
+  ros::ServiceServer service_;
+  ros::AsyncSpinner spinner_;  // last: it uses all of the above
+};
+
+}  // namespace tensegric_fit::node

@@ -1,0 +1,67 @@
+#include "ros/forgetter.hpp"
+
+#include <malloc.h>
+#include <ros/callback_queue.h>
+
+#include "ros/held_scan.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+const ros::WallDuration kTick(0.05), kPatience(10);  // who ordered it may be gone
+
+}  // namespace
+
+Forgetter::Forgetter(ros::NodeHandle node)
+    : answers_(node.advertise<ForgetAnswer>("forget/answer", 4)),
+      orders_(node.subscribe<ForgetOrder>(
+          "forget/order", 4, [this](const ForgetOrder::ConstPtr& order) { on_order(*order); })) {}
+
+void Forgetter::on_order(const ForgetOrder& order) {
+  go_on_ = order.step == ForgetOrder::GO_ON;
+  if (go_on_) return;
+  HeldScan::of_process().forget(order.scan_id);
+  if (forget_) {
+    ForgetAnswer done;
+    forget_(order, done);
+    answer(order, done);
+  } else if (HeldScan::of_process().holds(order.scan_id)) {
+    order_ = order;
+  } else {
+    answer(order, {});
+  }
+}
+
+void Forgetter::answer(const ForgetOrder& order, ForgetAnswer answer) {
+  answer.node = ros::this_node::getName();
+  answer.scan_id = order.scan_id;
+  answer.step = order.step;
+  answers_.publish(answer);
+}
+
+bool Forgetter::serve(const Forget& forget) {
+  forget_ = forget;
+  while (ros::ok()) {
+    ros::getGlobalCallbackQueue()->callAvailable(kTick);
+    if (!order_ || HeldScan::of_process().works_on_other(order_->scan_id)) continue;
+    if (HeldScan::of_process().holds(order_->scan_id)) return true;
+    ForgetAnswer done;  // what it worked on has taken the place of it
+    done.removed = {"replaced by a newer scan"};
+    answer(*order_, done);
+    order_.reset();
+  }
+  return false;
+}
+
+void Forgetter::let_go() {
+  malloc_trim(0);  // back to the system, which clears memory before others get it
+  ForgetAnswer done;
+  done.removed = {"what it held, and its latched messages"};
+  answer(*order_, done);
+  order_.reset();
+  for (const ros::WallTime end = ros::WallTime::now() + kPatience;
+       ros::ok() && !go_on_ && ros::WallTime::now() < end;)
+    ros::getGlobalCallbackQueue()->callAvailable(kTick);
+}
+
+}  // namespace tensegric_fit::node

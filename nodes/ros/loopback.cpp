@@ -1,0 +1,33 @@
+// roscpp binds its XML-RPC server to all addresses, ROS_HOSTNAME or not (that of topics it does not): others
+// in the network could shut nodes down or send them to publishers of their own. It has no setting for that,
+// so the call itself is ours in programs that link this library.
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+/// As roscpp decides it for topics.
+bool is_for_this_machine_only() {
+  if (const char* name = std::getenv("ROS_HOSTNAME")) return std::strcmp(name, "localhost") == 0;
+  const char* address = std::getenv("ROS_IP");
+  return address != nullptr && std::strncmp(address, "127.", 4) == 0;
+}
+
+}  // namespace
+
+extern "C" int bind(int socket, const sockaddr* address, socklen_t length) noexcept {
+  sockaddr_in any{};
+  if (is_for_this_machine_only() && address != nullptr && address->sa_family == AF_INET &&
+      length == sizeof any) {
+    std::memcpy(&any, address, sizeof any);
+    if (any.sin_addr.s_addr == htonl(INADDR_ANY)) any.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    return static_cast<int>(syscall(SYS_bind, socket, &any, length));
+  }
+  return static_cast<int>(syscall(SYS_bind, socket, address, length));
+}
