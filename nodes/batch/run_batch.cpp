@@ -136,16 +136,22 @@ class Batch {
       progress.add(found->second.status, false);
       return;
     }
-    begun_[job.row] = {&job, identity};
+    for (const auto& [row, work] : begun_)
+      if (work.identity.key == identity.key) {  // the same in another row: it waits for that one
+        begun_[row].also.push_back(&job);
+        return;
+      }
+    begun_[job.row] = {&job, identity, {}};
     pool_.give(job.row, job.arguments());
   }
 
   void keep(const Finished& finished, Progress& progress) {
-    const auto [job, identity] = begun_.at(finished.job);
+    const Work work = begun_.at(finished.job);
     begun_.erase(finished.job);
     const std::string status = finished.line.at("status");
-    done_[identity.key] = {status, file_.add(with_head(*job, identity, finished.line))};
+    done_[work.identity.key] = {status, file_.add(with_head(*work.job, work.identity, finished.line))};
     progress.add(status, true);
+    for (const Job* job : work.also) begin(*job, progress);
   }
 
   /// Whose line it is, before what became of it.
@@ -177,7 +183,12 @@ class Batch {
   };
   std::unordered_map<std::string, Done> done_;          // by key
   std::set<std::pair<std::size_t, std::string>> rows_;  // that have their line
-  std::map<std::size_t, std::pair<const Job*, Identity>> begun_;
+  struct Work {
+    const Job* job;
+    Identity identity;
+    std::vector<const Job*> also;  // rows of the same key
+  };
+  std::map<std::size_t, Work> begun_;  // by row
 };
 
 }  // namespace

@@ -91,6 +91,7 @@ class FitBatch(unittest.TestCase):
             self.assertGreater(line["cost"]["peak_MB"], 1)
         self.assertEqual(lines["again"]["key"], lines["woman 1"]["key"])
         self.assertEqual(lines["again"]["result"], lines["woman 1"]["result"])
+        self.assertEqual(sum("cost" in lines[name] for name in ("again", "woman 1")), 1)  # computed once
 
     def test_figures_are_those_of_fit(self):
         out = self.folder / "fit"

@@ -31,9 +31,11 @@ def manifest_of(work, programs, arguments):
     return manifest
 
 
-def run_killed(command, dice):
-    """Kills the batch and its workers, as a power cut would, until it ends by itself; how often."""
-    kills = 0
+def run_killed(command, seed, count):
+    """Kills the batch and its workers, as a power cut would, until it ends by itself; how often, over all starts, stands in the file
+    `count`."""
+    kills = int(count.read_text()) if count.exists() else 0
+    dice = random.Random(f"{seed} {kills}")
     while True:
         process = subprocess.Popen(command, start_new_session=True)
         try:
@@ -45,6 +47,7 @@ def run_killed(command, dice):
             os.killpg(process.pid, signal.SIGKILL)
             process.wait()
             kills += 1
+            count.write_text(str(kills))
 
 
 def main():
@@ -61,7 +64,7 @@ def main():
     manifest = manifest_of(work, arguments.programs, arguments)
     fit_batch = arguments.programs / "fit_batch"
     begin = time.monotonic()
-    kills = run_killed([fit_batch, manifest, "--out", work / "killed", "--quiet"], random.Random(arguments.seed))
+    kills = run_killed([fit_batch, manifest, "--out", work / "killed", "--quiet"], arguments.seed, work / "kills.txt")
     middle = time.monotonic()
     subprocess.run([fit_batch, manifest, "--out", work / "alone", "--quiet"], check=True)
     end = time.monotonic()

@@ -191,7 +191,7 @@ def run(folder, programs, rows):
         cluster.stop()
     same = (out / "table/table.csv").read_bytes() == (folder / "alone_table/table.csv").read_bytes()
     log = (folder / "cluster/slurmctld.log").read_text()
-    requeued = "Requeuing" in log or "requeue" in log
+    requeued = "Requeuing JobId" in log
     print(f"{rows} rows: {one_core:.0f} s on one core without an engine; over two nodes, one killed after {done} rows, "
           f"{seconds:.0f} s, {'its task queued again by Slurm' if requeued else 'NOT QUEUED AGAIN'}; tables {'equal' if same else 'DIFFER'}")
     return 0 if same and requeued else 1
