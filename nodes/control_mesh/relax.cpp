@@ -38,23 +38,21 @@ double sharpest(const std::array<Vector3d, 3>& corners, double twice_area) {
   return least;
 }
 
-/// How well a triangle lies.
-struct Lies {
-  double cosine;    ///< between its normal and those of the skin nearest to it, the mean of four places
-  double sharpest;  ///< sine of its sharpest corner
-};
-
-/// With `node` moved to `place`.
-Lies lies(const geometry::ControlMesh& control, int triangle, int node, const Vector3d& place,
-          const Skin& skin) {
+std::array<Vector3d, 3> corners_of(const geometry::ControlMesh& control, int triangle) {
   const Eigen::Vector3i& k = control.triangles[triangle];
-  std::array<Vector3d, 3> corners;
-  for (int i = 0; i < 3; ++i) corners[i] = k[i] == node ? place : control.outer[k[i]];
+  return {control.outer[k[0]], control.outer[k[1]], control.outer[k[2]]};
+}
+
+Vector3d area_of(const std::array<Vector3d, 3>& corners) {
+  return geometry::area_vector(corners[0], corners[1], corners[2]);
+}
+
+/// Cosine between its normal and those of the skin nearest to it, the mean of four places.
+double along_skin(const std::array<Vector3d, 3>& corners, const Skin& skin) {
   const Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3;
   Vector3d below = skin.normal_near(middle);
   for (const Vector3d& corner : corners) below += skin.normal_near(0.5 * (middle + corner));
-  const Vector3d area = geometry::area_vector(corners[0], corners[1], corners[2]);
-  return {area.stableNormalized().dot(below) / 4, sharpest(corners, area.norm())};
+  return area_of(corners).stableNormalized().dot(below) / 4;
 }
 
 /// Where a node could go, and how well the worst of its triangles lies there.
@@ -104,10 +102,9 @@ void relax_on_skin(geometry::ControlMesh& control, const std::vector<char>& may_
 Badly count_badly_laid(const geometry::ControlMesh& control, const Skin& skin) {
   Badly badly;
   for (int t = 0; t < static_cast<int>(control.triangles.size()); ++t) {
-    const int corner = control.triangles[t][0];
-    const Lies how = lies(control, t, corner, control.outer[corner], skin);
-    badly.turned += how.cosine <= kLeast;
-    badly.sharp += how.sharpest <= kLeast;
+    const std::array<Vector3d, 3> corners = corners_of(control, t);
+    badly.turned += along_skin(corners, skin) <= kLeast;
+    badly.sharp += sharpest(corners, area_of(corners).norm()) <= kLeast;
   }
   return badly;
 }
@@ -118,40 +115,58 @@ void turn_back(geometry::ControlMesh& control, const std::vector<Slide>& slides,
   std::vector<std::vector<int>> triangles(control.outer.size());
   for (int t = 0; t < static_cast<int>(control.triangles.size()); ++t)
     for (int i = 0; i < 3; ++i) triangles[control.triangles[t][i]].push_back(t);
-  const auto worst_at = [&](int node, const Vector3d& place) {
+  // How well the worst triangle lies with `node` moved to `place`; anything up to `enough` where it is no
+  // better than that. Corners come first: the skin is asked only where they are good enough.
+  const auto worst_at = [&](int node, const Vector3d& place, double enough) {
+    std::vector<std::array<Vector3d, 3>> round;
     double worst = 1;
     for (int t : triangles[node]) {
-      const Lies how = lies(control, t, node, place, skin);
-      worst = std::min({worst, how.cosine, how.sharpest});
+      round.push_back(corners_of(control, t));
+      for (int i = 0; i < 3; ++i)
+        if (control.triangles[t][i] == node) round.back()[i] = place;
+      worst = std::min(worst, sharpest(round.back(), area_of(round.back()).norm()));
     }
+    for (std::size_t i = 0; i < round.size() && worst > enough; ++i)
+      worst = std::min(worst, along_skin(round[i], skin));
     return worst;
   };
-  const auto beside = geometry::neighbours_of(control.outer.size(), control.triangles);
-  for (int round = 0; round < kTurnRounds; ++round) {
-    std::vector<Move> moves(control.outer.size());
-    for (int v = 0; v < static_cast<int>(moves.size()); ++v) {
-      if (slides[v] == Slide::none) continue;
-      moves[v].before = moves[v].after = worst_at(v, control.outer[v]);
-      if (moves[v].before > kLeast) continue;
-      std::vector<Vector3d> places = places_round(control, v, slides[v], around[v], skin);
-      for (const std::vector<Vector3d>& other : elsewhere) places.push_back(other[v]);
-      for (const Vector3d& place : places) {
-        const double worst = worst_at(v, place);
-        if (worst <= moves[v].after) continue;
-        moves[v].after = worst;
-        moves[v].place = place;
-      }
+  const auto best_move = [&](int v) {
+    Move move;
+    move.before = move.after = worst_at(v, control.outer[v], -1);
+    if (move.before > kLeast) return move;
+    std::vector<Vector3d> places = places_round(control, v, slides[v], around[v], skin);
+    for (const std::vector<Vector3d>& other : elsewhere) places.push_back(other[v]);
+    for (const Vector3d& place : places) {
+      const double worst = worst_at(v, place, move.after);
+      if (worst <= move.after) continue;
+      move.after = worst;
+      move.place = place;
     }
-    bool still = true;
-    for (std::size_t v = 0; v < moves.size(); ++v) {
+    return move;
+  };
+  const auto beside = geometry::neighbours_of(control.outer.size(), control.triangles);
+  std::vector<Move> moves(control.outer.size());
+  std::vector<char> stale(moves.size(),
+                          1);  // something round the node has moved since its move was looked for
+  for (int round = 0; round < kTurnRounds; ++round) {
+    for (int v = 0; v < static_cast<int>(moves.size()); ++v)
+      if (stale[v] && slides[v] != Slide::none) moves[v] = best_move(v);
+    std::vector<int> moved;
+    for (int v = 0; v < static_cast<int>(moves.size()); ++v) {
       const bool first = std::all_of(beside[v].begin(), beside[v].end(), [&](int other) {
         return !moves[other].better() || moves[v].before <= moves[other].before;
       });
-      if (!moves[v].better() || !first) continue;
-      control.outer[v] = moves[v].place;
-      still = false;
+      if (moves[v].better() && first) moved.push_back(v);
     }
-    if (still) return;
+    if (moved.empty()) return;
+    std::fill(stale.begin(), stale.end(), 0);
+    for (int v : moved) {
+      control.outer[v] = moves[v].place;
+      stale[v] = 1;
+      for (int other : beside[v]) stale[other] = 1;
+      for (int other : around[v])
+        if (other >= 0) stale[other] = 1;
+    }
   }
 }
 

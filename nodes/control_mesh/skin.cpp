@@ -40,22 +40,6 @@ Vector3d nearest_on_segment(const Vector3d& p, const Vector3d& a, const Vector3d
   return a + t * (b - a);
 }
 
-Vector3d nearest_on_triangle(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const Vector3d normal = geometry::area_vector(a, b, c);
-  const double squared = normal.squaredNorm();
-  if (squared > 0) {
-    const Vector3d foot = p - normal * (normal.dot(p - a) / squared);
-    const auto inside = [&](const Vector3d& s, const Vector3d& t) {
-      return normal.dot((t - s).cross(foot - s)) >= 0;
-    };
-    if (inside(a, b) && inside(b, c) && inside(c, a)) return foot;
-  }
-  Vector3d best = nearest_on_segment(p, a, b);
-  for (const Vector3d& q : {nearest_on_segment(p, b, c), nearest_on_segment(p, c, a)})
-    if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
-  return best;
-}
-
 struct PlaceOnLoop {
   std::size_t segment = 0;
   Vector3d point;
@@ -109,7 +93,8 @@ std::vector<Vector3d> divide(const std::vector<Vector3d>& way, int count) {
 
 Skin::Skin(geometry::TriangleMesh surface)
     : surface_(std::move(surface)),
-      normals_(geometry::vertex_normals(surface_.vertices, surface_.triangles)) {
+      normals_(geometry::vertex_normals(surface_.vertices, surface_.triangles)),
+      tree_(surface_) {
   const auto box = geometry::bounding_box(surface_.vertices);
   corner_ = box[0];
   const double size = (box[1] - box[0]).maxCoeff();
@@ -182,37 +167,15 @@ std::optional<Vector3d> Skin::nearest_along(const Vector3d& from, const Vector3d
   return from + best * direction;
 }
 
-Skin::Foot Skin::foot_of(const Vector3d& point) const {
-  const Vector3d size = cells_.cast<double>() * cell_;
-  const double whole = size.norm() + (point - corner_).norm();
-  for (double reach = cell_;; reach *= 2) {
-    Foot best{point, -1};
-    double least = kFar;
-    for (int t : triangles_near(point.array() - reach, point.array() + reach)) {
-      const Eigen::Vector3i& k = surface_.triangles[t];
-      const Vector3d q = nearest_on_triangle(point, surface_.vertices[k[0]], surface_.vertices[k[1]],
-                                             surface_.vertices[k[2]]);
-      if ((q - point).norm() >= least) continue;
-      least = (q - point).norm();
-      best = {q, t};
-    }
-    if (least <= reach || reach > whole) return best;
-  }
-}
-
 Vector3d Skin::nearest(const Vector3d& point) const {
-  return foot_of(point).point;
+  return tree_.nearest(point).position;
 }
 
 Vector3d Skin::normal_near(const Vector3d& point) const {
-  const Foot foot = foot_of(point);
+  const geometry::SurfacePoint foot = tree_.nearest(point);
   const Eigen::Vector3i& k = surface_.triangles[foot.triangle];
   Vector3d normal = Vector3d::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const int a = k[(i + 1) % 3], b = k[(i + 2) % 3];
-    normal +=
-        geometry::area_vector(foot.point, surface_.vertices[a], surface_.vertices[b]).norm() * normals_[k[i]];
-  }
+  for (int i = 0; i < 3; ++i) normal += foot.barycentric[i] * normals_[k[i]];
   return normal.stableNormalized();
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/surface_tree.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::control_mesh {
@@ -15,6 +16,8 @@ class Skin {
  public:
   /// \pre `surface` has passed check_mesh and is not empty
   explicit Skin(geometry::TriangleMesh surface);
+  Skin(const Skin&) = delete;
+  Skin& operator=(const Skin&) = delete;
 
   /// Where the ray first leaves the body, up to `reach` metres away. `direction` is a unit vector.
   std::optional<Eigen::Vector3d> first_exit(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
@@ -36,11 +39,6 @@ class Skin {
                                        const Eigen::Vector3d& across) const;
 
  private:
-  struct Foot {
-    Eigen::Vector3d point;
-    int triangle;
-  };
-  Foot foot_of(const Eigen::Vector3d& point) const;
   /// Triangles whose cells touch the box, ascending.
   std::vector<int> triangles_near(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
   geometry::TriangleMesh part_near(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
@@ -48,6 +46,7 @@ class Skin {
 
   geometry::TriangleMesh surface_;
   std::vector<Eigen::Vector3d> normals_;  // of its vertices
+  geometry::SurfaceTree tree_;            // refers to surface_: a Skin is not copied
   Eigen::Vector3d corner_;
   double cell_;  // m
   Eigen::Vector3i cells_;
