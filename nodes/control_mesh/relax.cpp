@@ -11,8 +11,8 @@ constexpr int kRounds = 8;
 constexpr double kReach = 0.05;  // m; the mean of the neighbours lies no deeper below the skin
 constexpr int kTurnRounds = 24;  // neighbours take turns
 constexpr int kShares = 10;      // of the way between two nodes
-constexpr double kLeast = 0.2;   // of lies(): 78 degrees off the skin, corners of 11.5 degrees; nodes are
-                                 // still to be lifted by up to 3 mm
+constexpr double kLeast = 0.2;   // of along_skin() and sharpest(): 78 degrees off the skin, corners of 11.5
+                                 // degrees; nodes are still to be lifted by up to 3 mm
 constexpr double kTurned = 0.4;  // cosine between a triangle's normal and what it was at first
 
 /// Nodes go back where a triangle of theirs has turned too far: in folds means are soon on the other side.
@@ -146,8 +146,7 @@ void turn_back(geometry::ControlMesh& control, const std::vector<Slide>& slides,
   };
   const auto beside = geometry::neighbours_of(control.outer.size(), control.triangles);
   std::vector<Move> moves(control.outer.size());
-  std::vector<char> stale(moves.size(),
-                          1);  // something round the node has moved since its move was looked for
+  std::vector<char> stale(moves.size(), 1);  // something near has moved since its move was looked for
   for (int round = 0; round < kTurnRounds; ++round) {
     for (int v = 0; v < static_cast<int>(moves.size()); ++v)
       if (stale[v] && slides[v] != Slide::none) moves[v] = best_move(v);

@@ -32,7 +32,8 @@ def wait_for(what, condition, seconds=PATIENCE):
 
 
 def run_test(session, drive):
-    """Exit code for ctest, after a word: 0; 1 with a picture of where it failed; 77, skipped, where something is missing."""
+    """Exit code for ctest, after a word: 0; 1 with a picture of where it failed, and what the chain did until then; 77,
+    skipped, where something is missing."""
     try:
         with session() as running:
             try:
@@ -45,6 +46,7 @@ def run_test(session, drive):
         return 77
     except AssertionError as failure:
         print("failed: %s" % failure)
+        print("\n".join(running.history()))
         return 1
     print("passed")
     return 0
@@ -57,7 +59,7 @@ class Session:
         for tool in ("Xvfb", "xdotool", "import", "rviz", "roslaunch"):
             if shutil.which(tool) is None:
                 raise NotHere("%s is not installed" % tool)
-        self.out, self.started, self.message, self.said = out, [], {}, []
+        self.out, self.started, self.message, self.said, self.state = out, [], {}, [], {}
         os.makedirs(out, exist_ok=True)
         self.port, self.has_master = free_port(), False
         os.environ.update({"ROS_MASTER_URI": "http://localhost:%d" % self.port, "ROS_HOSTNAME": "localhost",
@@ -71,6 +73,13 @@ class Session:
     def __exit__(self, *_):
         for process in reversed(self.started):
             self.end(process)
+
+    def history(self):
+        """Lines: what came, what each node said last of itself, and the chain's log; whole once the chain has ended."""
+        log = os.path.join(self.out, "chain.log")
+        return (["topics that came: " + (", ".join(sorted(self.message)) or "none")]
+                + ["%s: %s" % node for node in sorted(self.state.items())]
+                + (open(log, errors="replace").read().splitlines()[-60:] if os.path.exists(log) else ["no chain was started"]))
 
     def new_display(self):
         # noreset: a display that resets when its last client leaves refuses whoever connects meanwhile, such as rviz
@@ -118,6 +127,7 @@ class Session:
 
         wait_for("ROS master", master_is_up)
         import rospy
+        from diagnostic_msgs.msg import DiagnosticArray
         from rosgraph_msgs.msg import Log
         from tensegric_fit.msg import DeformedMesh, FitState, Landmarks, TriangleMesh
 
@@ -127,6 +137,8 @@ class Session:
                             ("body/landmarks", Landmarks)):
             rospy.Subscriber(topic, kind, self.keep, topic)
         rospy.Subscriber("/rosout", Log, lambda line: self.said.append(line.msg))
+        rospy.Subscriber("/diagnostics", DiagnosticArray,
+                         lambda array: self.state.update((status.name, status.message) for status in array.status))
         self.has_master = True
 
     def start_chain(self, *command):
