@@ -1,31 +1,11 @@
 // A PointCloud2 of any layout: fields, offsets, types, byte order, organisation, sizes that do not match.
-#include <algorithm>
 #include <array>
-#include <cstring>
 
 #include "fuzz_target.hpp"
 #include "geometry/point_cloud.hpp"
+#include "input.hpp"
 
 namespace {
-
-/// Numbers from the front of the input; zeros at its end.
-class Input {
- public:
-  Input(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
-
-  std::uint32_t number(std::size_t bytes) {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < bytes && size_ > 0; ++i, ++data_, --size_) value = value << 8 | *data_;
-    return value;
-  }
-  /// Small or of any size: both happen.
-  std::uint32_t any() { return number(1) % 4 != 0 ? number(1) % 65 : number(4); }
-  std::vector<std::uint8_t> rest() const { return {data_, data_ + size_}; }
-
- private:
-  const std::uint8_t* data_;
-  std::size_t size_;
-};
 
 constexpr std::array<const char*, 12> kNames{"x",  "y",  "z",  "normal_x", "normal_y", "normal_z",
                                              "nx", "ny", "nz", "sensor",   "rgb",      ""};
@@ -34,7 +14,7 @@ constexpr std::array<const char*, 12> kNames{"x",  "y",  "z",  "normal_x", "norm
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace tensegric_fit;
-  Input input(data, size);
+  fuzz::Input input(data, size);
   pcl::PCLPointCloud2 cloud;
   for (std::uint32_t fields = input.number(1) % 13; fields > 0; --fields) {
     pcl::PCLPointField field;

@@ -1,0 +1,235 @@
+// Messages of the chain, sound ones with changes, into what reads them: the first byte chooses the message. What
+// roscpp itself refuses (bytes that are no message) does not come here.
+#include <boost/make_shared.hpp>
+
+#include "body_model/model_message.hpp"
+#include "body_model/parts.hpp"
+#include "body_model/registration.hpp"
+#include "fit/bind_body.hpp"
+#include "fuzz_target.hpp"
+#include "geometry/shipped_files.hpp"
+#include "input.hpp"
+#include "ros/body_messages.hpp"
+#include "tensegric/kept_garment.hpp"
+#include "tensegric/tensegric_handler.hpp"
+#include "tensegric_bust.hpp"
+#include "tffd/tffd_handler.hpp"
+
+namespace {
+
+using namespace tensegric_fit;
+using namespace tensegric_fit::node;
+
+template <typename... Arrays>
+void change_all(fuzz::Input& input, Arrays&... arrays) {
+  (fuzz::change(input, arrays), ...);
+}
+
+template <typename... Numbers>
+void draw_some(fuzz::Input& input, Numbers&... numbers) {
+  ((input.number(1) % 4 == 0 ? fuzz::draw(input, numbers) : void()), ...);
+}
+
+void change(fuzz::Input& input, TriangleMesh& message) {
+  message.filled.assign(message.vertices.size() / 3, 0);
+  message.fractures.resize(input.number(1) % 3);
+  for (Fracture& fracture : message.fractures)
+    draw_some(input, fracture.centre[0], fracture.radius, fracture.area, fracture.offset);
+  change_all(input, message.vertices, message.triangles, message.filled);
+}
+
+void change(fuzz::Input& input, Landmarks& message) {
+  for (double& entry : message.body_from_scan) draw_some(input, entry);
+  for (Landmark& point : message.points) draw_some(input, point.position[1], point.confidence);
+  for (Measure& measure : message.heights) draw_some(input, measure.value, measure.half_width);
+  message.loops.resize(input.number(1) % 3);
+  for (GirthLoop& loop : message.loops) {
+    loop.points = {0, 0, 1, 1, 0, 1, 0, 1, 1};
+    fuzz::change(input, loop.points);
+  }
+  change_all(input, message.points, message.heights, message.girths, message.missing);
+}
+
+void change(fuzz::Input& input, ControlMesh& message) {
+  change_all(input, message.outer, message.inner, message.triangles, message.outer_fixed, message.inner_fixed,
+             message.names, message.regions, message.lines);
+  for (ControlRegion& region : message.regions) fuzz::change(input, region.triangles);
+  for (ControlLine& line : message.lines) fuzz::change(input, line.nodes);
+}
+
+void change(fuzz::Input& input, Garment& message) {
+  for (GarmentLine& line : message.lines) {
+    draw_some(input, line.ratio, line.stiffness, line.tension_limit, line.width, line.smooth);
+    constexpr const char* kLaws[] = {"", "rigid", "stiffness", "table", "rubber"};
+    line.law = kLaws[input.number(1) % 5];
+    line.taut = static_cast<std::uint8_t>(input.number(1) % 2);
+    if (input.number(1) % 2 != 0) line.stretch = line.tension = {1, 1.1, 1.3};
+    if (input.number(1) % 4 == 0) line.through = {"axilla_L", "sternum", "axilla_R"};
+    if (input.number(1) % 4 == 0) line.points = {0.1, -0.12, 1.2, 0, -0.13, 1.2, -0.1, -0.12, 1.2};
+    change_all(input, line.stretch, line.tension, line.through, line.points);
+  }
+  change_all(input, message.lines, message.regions);
+  constexpr const char* kSolvers[] = {"", "equilibrium", "adaptive", "relaxation", "finite elements"};
+  message.solver = kSolvers[input.number(1) % 5];
+}
+
+void change(fuzz::Input& input, BodyModel& message) {
+  draw_some(input, message.residual, message.ground, message.scale, message.up[2], message.rotation[0],
+            message.rotation[4], message.position[0], message.stature);
+  change_all(input, message.turns, message.shape, message.vertices, message.off, message.support,
+             message.joints, message.bone_points, message.mesh_parts, message.pose_groups, message.bones,
+             message.bone_point_names, message.parts);
+  if (input.number(1) % 16 == 0) message.model += "x";
+}
+
+void change(fuzz::Input& input, FitState& message) {
+  change_all(input, message.outer, message.inner, message.lines, message.regions);
+  draw_some(input, message.twist, message.side_lean);
+  for (LineResult& line : message.lines) {
+    draw_some(input, line.initial, line.neutral, line.final, line.tension);
+    change_all(input, line.course, line.course_at_rest, line.nodes);
+  }
+}
+
+geometry::BodyMeasures measures() {
+  geometry::BodyMeasures measures;
+  measures.heights = {{"hip", 0.9, 1, ""}, {"underbust", 1.12, 1, ""}};
+  measures.landmarks = {{"crotch", {0, 0, 0.8}, 1, ""}};
+  measures.girths = {{"bust", 0.9, 1, ""}};
+  return measures;
+}
+
+TriangleMesh body() {
+  const geometry::ControlMesh bust = tensegric::bust_mesh();
+  return to_message(ScanTag(), {bust.outer, bust.triangles}, {});
+}
+
+Garment band() {
+  Garment garment;
+  garment.name = "band";
+  garment.regions = {"bust"};
+  garment.lines.resize(1);
+  garment.lines[0].name = "chest";
+  garment.lines[0].ratio = 0.95;
+  return garment;
+}
+
+const body_model::RegisteredBody& mean_woman() {
+  static const body_model::RegisteredBody body = [] {
+    body_model::RegisteredBody mean;
+    mean.model = body_model::shipped_registrar().shared_model();
+    mean.parameters = body_model::Parameters(*mean.model);
+    const body_model::PosedModel posed(*mean.model, mean.parameters);
+    mean.posed = mean.skin = posed.vertices();
+    mean.off.assign(mean.skin.size(), 0);
+    mean.support.assign(mean.skin.size(), 0);
+    for (std::size_t b = 0; b < mean.model->bones.size(); ++b)
+      mean.joints.push_back(posed.joint(static_cast<int>(b)));
+    for (std::size_t i = 0; i < mean.model->bone_points.size(); ++i)
+      mean.bone_points.push_back(posed.bone_point(static_cast<int>(i)));
+    return mean;
+  }();
+  return body;
+}
+
+void read_mesh(fuzz::Input& input) {
+  TriangleMesh message = body();
+  change(input, message);
+  const geometry::TriangleMesh mesh = mesh_in(message);
+  fuzz::require(!mesh.vertices.empty());
+  const std::vector<char> filled = filled_in(message);
+  fuzz::require(filled.empty() || filled.size() == mesh.vertices.size());
+  fractures_in(message);
+}
+
+void read_landmarks(fuzz::Input& input) {
+  Landmarks message = to_message(ScanTag(), measures());
+  change(input, message);
+  const geometry::BodyMeasures read = measures_in(message);
+  fuzz::require(read.body_from_scan.matrix().allFinite());
+}
+
+void read_model(fuzz::Input& input) {
+  static const BodyModel sound = to_message(
+      ScanTag(), mean_woman(),
+      body_model::parts_of({mean_woman().skin, mean_woman().model->triangles}, mean_woman()));
+  BodyModel message = sound;
+  change(input, message);
+  check_mesh_parts(message, mean_woman().skin.size());
+  const body_model::RegisteredBody read = registered_in(message, mean_woman().model);
+  for (const Eigen::Vector3d& v : read.posed) fuzz::require(v.allFinite());
+}
+
+TensegricHandler tensegric_stage() {
+  return TensegricHandler(Parameters(YAML::Load("{max_iterations: 3}"), "tensegric"), fit::bind_body);
+}
+
+const auto kSilent = [](const FitState&) {};
+const auto kGoOn = [] { return true; };
+
+/// What a fit's figures are where the stage let them out.
+void check_fit(const std::optional<TensegricHandler::Output>& output) {
+  if (!output) return;
+  for (const double x : output->fit->outer) fuzz::require(std::isfinite(x));
+  for (const LineResult& line : output->fit->lines) fuzz::require(std::isfinite(line.tension));
+}
+
+void fit_garment(fuzz::Input& input) {
+  TensegricHandler stage = tensegric_stage();
+  const auto skin = boost::make_shared<TriangleMesh>(body());
+  const auto control = boost::make_shared<ControlMesh>(to_message(ScanTag(), tensegric::bust_mesh()));
+  if (input.number(1) % 2 != 0) change(input, *control);
+  SetGarment::Request request;
+  request.garment = band();
+  change(input, request.garment);
+  request.lines = {"chest"};
+  request.ratios = {0.9};
+  change_all(input, request.lines, request.ratios);
+  stage.add(TriangleMesh::ConstPtr(skin));
+  stage.put_on(request);
+  kept_garment(stage.kept(), "B1");
+  if (const auto task = stage.add(ControlMesh::ConstPtr(control)))
+    check_fit(stage.handle(*task, kGoOn, kSilent));
+}
+
+/// The fit of the unchanged bust: what a changed message is made of.
+const FitState& sound_fit() {
+  static const FitState fit = [] {
+    TensegricHandler stage = tensegric_stage();
+    stage.put_on(band());
+    stage.add(TriangleMesh::ConstPtr(boost::make_shared<TriangleMesh>(body())));
+    const auto task = stage.add(ControlMesh::ConstPtr(
+        boost::make_shared<ControlMesh>(to_message(ScanTag(), tensegric::bust_mesh()))));
+    return *stage.handle(*task, kGoOn, kSilent)->fit;
+  }();
+  return fit;
+}
+
+void carry_skin(fuzz::Input& input) {
+  TffdHandler stage(Parameters(YAML::Load("{}"), "tffd"));
+  const auto skin = boost::make_shared<TriangleMesh>(body());
+  const auto landmarks = boost::make_shared<Landmarks>(to_message(ScanTag(), measures()));
+  const auto control = boost::make_shared<ControlMesh>(to_message(ScanTag(), tensegric::bust_mesh()));
+  const auto fit = boost::make_shared<FitState>(sound_fit());
+  change(input, *fit);
+  if (input.number(1) % 4 == 0) change(input, *skin);
+  if (input.number(1) % 4 == 0) change(input, *landmarks);
+  if (input.number(1) % 4 == 0) change(input, *control);
+  stage.add(TriangleMesh::ConstPtr(skin));
+  stage.add(Landmarks::ConstPtr(landmarks));
+  stage.add(ControlMesh::ConstPtr(control));
+  const auto task = stage.add(FitState::ConstPtr(fit));
+  if (!task) return;
+  const TffdHandler::Output output = stage.handle(*task);
+  for (const float x : output.scan.deformed->vertices) fuzz::require(std::isfinite(x));
+  for (const float x : output.scan.deformed->distortion) fuzz::require(std::isfinite(x));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::Input input(data, size);
+  const auto read = std::array{read_mesh, read_landmarks, read_model, fit_garment, carry_skin}[input.number(1) % 5];
+  fuzz::refused_or_done([&] { read(input); });
+  return 0;
+}
