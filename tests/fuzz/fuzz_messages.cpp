@@ -1,5 +1,5 @@
-// Messages of the chain, sound ones with changes, into what reads them: the first byte chooses the message. What
-// roscpp itself refuses (bytes that are no message) does not come here.
+// Messages of the chain, sound ones with changes, into what reads them: the first byte chooses the message.
+// What roscpp itself refuses (bytes that are no message) does not come here.
 #include <boost/make_shared.hpp>
 
 #include "body_model/model_message.hpp"
@@ -150,9 +150,9 @@ void read_landmarks(fuzz::Input& input) {
 }
 
 void read_model(fuzz::Input& input) {
-  static const BodyModel sound = to_message(
-      ScanTag(), mean_woman(),
-      body_model::parts_of({mean_woman().skin, mean_woman().model->triangles}, mean_woman()));
+  static const BodyModel sound =
+      to_message(ScanTag(), mean_woman(),
+                 body_model::parts_of({mean_woman().skin, mean_woman().model->triangles}, mean_woman()));
   BodyModel message = sound;
   change(input, message);
   check_mesh_parts(message, mean_woman().skin.size());
@@ -229,7 +229,8 @@ void carry_skin(fuzz::Input& input) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input(data, size);
-  const auto read = std::array{read_mesh, read_landmarks, read_model, fit_garment, carry_skin}[input.number(1) % 5];
+  const auto read =
+      std::array{read_mesh, read_landmarks, read_model, fit_garment, carry_skin}[input.number(1) % 5];
   fuzz::refused_or_done([&] { read(input); });
   return 0;
 }
