@@ -3,9 +3,12 @@
 #include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <vector>
@@ -18,7 +21,13 @@ namespace {
 using geometry::Refusal;
 namespace refusal = geometry::refusal;
 
+// In the order that the format asks for (PCL, "The PCD file format"). PCL takes lines in another order, twice or
+// misspelt for what they resemble, and may crash then.
+constexpr std::array<const char*, 10> kKeys{"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
+                                            "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
+
 struct Header {
+  std::size_t fields = 0, types = 0;
   std::vector<std::uint64_t> sizes, counts;
   std::uint64_t width = 0, height = 1, points = 0;
   bool has_points = false;
@@ -35,26 +44,41 @@ std::vector<std::uint64_t> numbers(std::istringstream& words) {
   return result;
 }
 
+std::size_t count_words(std::istringstream& words) {
+  return static_cast<std::size_t>(
+      std::distance(std::istream_iterator<std::string>(words), std::istream_iterator<std::string>()));
+}
+
+/// False: the line is not understood.
+bool take_line(const std::string& key, std::istringstream& words, Header& header) {
+  if (key == "FIELDS") header.fields = count_words(words);
+  if (key == "TYPE") header.types = count_words(words);
+  if (key == "SIZE") header.sizes = numbers(words);
+  if (key == "COUNT") header.counts = numbers(words);
+  if (key == "DATA") words >> header.data;
+  if (key != "WIDTH" && key != "HEIGHT" && key != "POINTS") return true;
+  const std::vector<std::uint64_t> value = numbers(words);
+  if (value.size() != 1) return false;
+  if (key == "WIDTH") header.width = value[0];
+  if (key == "HEIGHT") header.height = value[0];
+  if (key == "POINTS") header.points = value[0], header.has_points = true;
+  return true;
+}
+
 Header read_header(std::istream& file, const std::string& path) {
   Header header;
   std::string line;
   constexpr int kHeaderLines = 1000;
+  auto next = kKeys.begin();
   for (int i = 0; i < kHeaderLines && std::getline(file, line); ++i) {
     std::istringstream words(line);
     std::string key;
     words >> key;
-    if (key == "DATA") {
-      words >> header.data;
-      return header;
-    }
-    if (key == "SIZE") header.sizes = numbers(words);
-    if (key == "COUNT") header.counts = numbers(words);
-    if (key != "WIDTH" && key != "HEIGHT" && key != "POINTS") continue;
-    const std::vector<std::uint64_t> value = numbers(words);
-    if (value.size() != 1) break;
-    if (key == "WIDTH") header.width = value[0];
-    if (key == "HEIGHT") header.height = value[0];
-    if (key == "POINTS") header.points = value[0], header.has_points = true;
+    if (key.empty() || key[0] == '#') continue;
+    const auto known = std::find(next, kKeys.end(), key);
+    if (known == kKeys.end() || !take_line(key, words, header)) break;
+    if (key == "DATA") return header;
+    next = known + 1;
   }
   throw Refusal(refusal::kBrokenFile, path + ": has no whole PCD header");
 }
@@ -68,11 +92,12 @@ void check_header(const std::string& path) {
   const std::uint64_t rest = std::filesystem::file_size(path) - static_cast<std::uint64_t>(file.tellg());
   const Refusal shorter(refusal::kBrokenFile, path + ": is shorter than its header says");
 
-  if (header.sizes.empty()) throw Refusal(refusal::kBrokenFile, path + ": its PCD header names no fields");
+  if (header.fields == 0) throw Refusal(refusal::kBrokenFile, path + ": its PCD header names no fields");
   if (header.counts.empty()) header.counts.assign(header.sizes.size(), 1);
-  if (header.counts.size() != header.sizes.size())
-    throw Refusal(refusal::kBrokenFile,
-                  path + ": its PCD header has unlike numbers of SIZE and COUNT entries");
+  for (const std::size_t entries : {header.sizes.size(), header.types, header.counts.size()})
+    if (entries != header.fields)
+      throw Refusal(refusal::kBrokenFile,
+                    path + ": its PCD header has unlike numbers of FIELDS, SIZE, TYPE and COUNT entries");
   std::uint64_t step = 0, values = 0;
   for (std::size_t f = 0; f < header.sizes.size(); ++f) {
     constexpr std::uint64_t kLargestField = 1 << 20;
