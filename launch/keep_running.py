@@ -103,7 +103,8 @@ def main():
     given = parser.parse_args()
     if not given.arguments:
         parser.error("what is to be launched?")
-    signal.signal(signal.SIGTERM, end)
+    for ending in (signal.SIGINT, signal.SIGTERM):  # SIGINT, too: a shell's background jobs inherit it ignored
+        signal.signal(ending, end)
     while True:
         booth = Booth(given.port, given.arguments)
         try:

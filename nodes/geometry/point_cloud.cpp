@@ -45,25 +45,30 @@ std::optional<std::array<const Field*, 3>> find_fields(const pcl::PCLPointCloud2
   return fields;
 }
 
+/// Calls `take` with the bytes of each point. \pre check_size
+template <typename Take>
+void for_each_point(const pcl::PCLPointCloud2& cloud, const Take& take) {
+  if (cloud.width == 0) return;  // any number of rows
+  for (std::size_t row = 0; row < cloud.height; ++row)
+    for (std::size_t column = 0; column < cloud.width; ++column)
+      take(cloud.data.data() + row * cloud.row_step + column * cloud.point_step);
+}
+
 std::vector<Eigen::Vector3d> triples(const pcl::PCLPointCloud2& cloud,
                                      const std::array<const Field*, 3>& fields) {
   const bool host_is_big = pcl::PCLPointCloud2().is_bigendian != 0;
   const bool swap = (cloud.is_bigendian != 0) != host_is_big;
   std::vector<Eigen::Vector3d> result;
   result.reserve(static_cast<std::size_t>(cloud.width) * cloud.height);
-  if (cloud.width == 0) return result;
-  for (std::size_t row = 0; row < cloud.height; ++row) {
-    for (std::size_t column = 0; column < cloud.width; ++column) {
-      const std::uint8_t* point = cloud.data.data() + row * cloud.row_step + column * cloud.point_step;
-      Eigen::Vector3d value;
-      for (int i = 0; i < 3; ++i) {
-        const std::uint8_t* from = point + fields[i]->offset;
-        value[i] = fields[i]->datatype == Field::FLOAT64 ? value_at<double>(from, swap)
-                                                         : value_at<float>(from, swap);
-      }
-      result.push_back(value);
+  for_each_point(cloud, [&](const std::uint8_t* point) {
+    Eigen::Vector3d value;
+    for (int i = 0; i < 3; ++i) {
+      const std::uint8_t* from = point + fields[i]->offset;
+      value[i] =
+          fields[i]->datatype == Field::FLOAT64 ? value_at<double>(from, swap) : value_at<float>(from, swap);
     }
-  }
+    result.push_back(value);
+  });
   return result;
 }
 
@@ -80,9 +85,7 @@ const Field* find_sensor(const pcl::PCLPointCloud2& cloud) {
 std::vector<int> bytes(const pcl::PCLPointCloud2& cloud, const Field& field) {
   std::vector<int> result;
   result.reserve(static_cast<std::size_t>(cloud.width) * cloud.height);
-  for (std::size_t row = 0; row < cloud.height; ++row)
-    for (std::size_t column = 0; column < cloud.width; ++column)
-      result.push_back(cloud.data[row * cloud.row_step + column * cloud.point_step + field.offset]);
+  for_each_point(cloud, [&](const std::uint8_t* point) { result.push_back(point[field.offset]); });
   return result;
 }
 

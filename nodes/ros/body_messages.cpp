@@ -77,6 +77,7 @@ TriangleMesh to_message(const ScanTag& tag, const geometry::TriangleMesh& mesh,
 
 geometry::TriangleMesh mesh_in(const TriangleMesh& message) {
   geometry::TriangleMesh mesh{points_in(message.vertices), triangles_in(message.triangles)};
+  if (mesh.triangles.empty()) throw Refusal(geometry::refusal::kBadMesh, "the mesh has no triangles");
   geometry::check_mesh(mesh);
   return mesh;
 }

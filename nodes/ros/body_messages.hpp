@@ -19,7 +19,7 @@ namespace tensegric_fit::node {
 TriangleMesh to_message(const ScanTag& tag, const geometry::TriangleMesh& mesh,
                         const std::vector<char>& filled);
 
-/// \throw Refusal bad_mesh, non_finite: arrays that do not fit each other, as check_mesh
+/// \throw Refusal bad_mesh, non_finite: no triangles, arrays that do not fit each other, as check_mesh
 geometry::TriangleMesh mesh_in(const TriangleMesh& message);
 
 /// One flag per vertex, or empty. \throw Refusal bad_mesh: another number of flags

@@ -21,8 +21,8 @@ namespace {
 using geometry::Refusal;
 namespace refusal = geometry::refusal;
 
-// In the order that the format asks for (PCL, "The PCD file format"). PCL takes lines in another order, twice or
-// misspelt for what they resemble, and may crash then.
+// In the order that the format asks for (PCL, "The PCD file format"). PCL takes lines in another order, twice
+// or misspelt for what they resemble, and may crash then.
 constexpr std::array<const char*, 10> kKeys{"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
                                             "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
 

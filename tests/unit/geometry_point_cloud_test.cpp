@@ -97,6 +97,7 @@ TEST(PointsOf, ASizeThatTheDataContradictIsRefused) {
 
 TEST(PointsOf, ManyRowsOfNothingAreNoPoints) {
   Organised organised;
+  organised.cloud.fields.push_back({"sensor", 12, Field::UINT8, 1});  // for seconds; found by fuzzing
   organised.cloud.width = 0;
   organised.cloud.height = 0xffffffff;
   organised.cloud.data.clear();

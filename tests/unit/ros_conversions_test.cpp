@@ -85,6 +85,10 @@ TEST(BodyMessages, BrokenMeshesAreRefusedByName) {
   bad = good;
   bad.filled.pop_back();
   EXPECT_EQ(code_of([&] { filled_in(bad); }), "bad_mesh");
+  bad.vertices.clear();
+  bad.triangles.clear();
+  bad.filled.clear();
+  EXPECT_EQ(code_of([&] { mesh_in(bad); }), "bad_mesh") << "nothing; found by fuzzing";
 }
 
 TEST(BodyMessages, MeasuresComeBackBitForBit) {

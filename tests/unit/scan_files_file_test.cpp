@@ -181,6 +181,17 @@ TEST_F(ScanFileTest, HeadersThatPromiseTooMuchAreRefusedBeforeMemoryIsTaken) {
             geometry::refusal::kBrokenFile);
 }
 
+// Found by fuzzing: PCL's reader crashed.
+TEST_F(ScanFileTest, APcdHeaderOutOfOrderOrWithoutFieldsIsRefused) {
+  const std::string fields = "FIELDS x y z\n", rest = "SIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
+  const std::string end = "WIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA ascii\n0 0 0\n1 1 1\n";
+  for (const std::string& header :
+       {"FI\n\n\nELDS x y z\n" + rest, rest, rest + fields, fields + fields + rest, fields + rest + fields,
+        "FIELDS x y\n" + rest, fields + "SIZE 4 4 4\nTYPE F F\nCOUNT 1 1 1\n"})
+    EXPECT_EQ(refusal_of(text_file("a.pcd", header + end)), geometry::refusal::kBrokenFile) << header;
+  EXPECT_EQ(refusal_of(text_file("a.pcd", fields + rest + end)), "") << "as it should be";
+}
+
 TEST_F(ScanFileTest, OtherFilesAreRefusedByName) {
   EXPECT_EQ(refusal_of(text_file("scan.txt", "0 0 0\n")), geometry::refusal::kBadOption);
   EXPECT_EQ(refusal_of(text_file("scan", "0 0 0\n")), geometry::refusal::kBadOption);
