@@ -39,6 +39,7 @@ ALLOWED = {
     ("ros", "mesh_files"): "the customer's page marks places of the model",
     ("ros", "files"): "exports are folders, pages and tables",
     ("scan_files", "geometry"): "clouds",
+    ("scan_files", "files"): "bags are checked before they are read",
     ("assembler", "geometry"): "clouds",
     ("assembler", "ros"): "handler",
     ("capture", "geometry"): "refusals by name",

@@ -15,6 +15,7 @@
 #include <map>
 #include <set>
 
+#include "files/bag_structure.hpp"
 #include "ros/bag_scans.hpp"
 #include "ros/body_messages.hpp"
 
@@ -164,6 +165,7 @@ BagCheck check_bag(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, none))
     return unreadable("no_file", path + ": there is no such file", "look at the path");
   try {
+    files::check_bag_structure(path);
     const rosbag::Bag bag(path, rosbag::bagmode::Read);
     return BagReader(bag).read();
   } catch (const rosbag::BagUnindexedException&) {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "files/bag_structure.hpp"
 #include "files/owner_only.hpp"
 #include "geometry/status.hpp"
 #include "ros/parameters.hpp"
@@ -41,6 +42,7 @@ bool ends_in(const std::string& topic, const std::string& ending) {
 /// Number of messages that were not answered: with any, the output is OUT.incomplete. \throw
 /// rosbag::BagException, Refusal
 int run(const Setup& setup) {
+  files::check_bag_structure(setup.bag);
   rosbag::Bag in(setup.bag, rosbag::bagmode::Read);
   rosbag::View view(in);
   const std::string unfinished = setup.out + ".active";

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "files/bag_structure.hpp"
 #include "geometry/status.hpp"
 #include "scan_files/cloud_message.hpp"
 
@@ -39,6 +40,7 @@ std::string scan_topic(const rosbag::Bag& bag) {
 
 /// The first so many scans. \throw Refusal
 std::vector<sensor_msgs::PointCloud2::ConstPtr> first_scans(const std::string& path, std::size_t most) {
+  files::check_bag_structure(path);
   std::vector<sensor_msgs::PointCloud2::ConstPtr> scans;
   try {
     const rosbag::Bag bag(path, rosbag::bagmode::Read);

@@ -64,13 +64,14 @@ struct FileScan {
 };
 
 std::vector<FileScan> scans_in_bag(const std::string& path, const ScanLabel& label) {
+  const std::vector<PointCloud2::ConstPtr> clouds = scan_files::read_bag_scans(path);  // refuses broken bags
   ScanLabels labels;
   const rosbag::Bag bag(path);
   for (const rosbag::MessageInstance& message :
        rosbag::View(bag, rosbag::TypeQuery(ros::message_traits::datatype<ScanLabel>())))
     if (const auto known = message.instantiate<ScanLabel>()) labels.add(*known);
   std::vector<FileScan> scans;
-  for (const PointCloud2::ConstPtr& points : scan_files::read_bag_scans(path)) {
+  for (const PointCloud2::ConstPtr& points : clouds) {
     ScanLabel own = labels.of(tag_of(*points).scan_id);
     own.source = label.source;
     if (own.customer.empty()) own.customer = label.customer;

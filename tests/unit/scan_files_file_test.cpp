@@ -16,6 +16,7 @@
 #include "geometry/ply.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/status.hpp"
+#include "scan_files/cloud_message.hpp"
 #include "scan_files/scan_bag.hpp"
 #include "scan_files/scan_file.hpp"
 #include "virtual_booth/sensor_bag.hpp"
@@ -190,6 +191,33 @@ TEST_F(ScanFileTest, APcdHeaderOutOfOrderOrWithoutFieldsIsRefused) {
         "FIELDS x y\n" + rest, fields + "SIZE 4 4 4\nTYPE F F\nCOUNT 1 1 1\n"})
     EXPECT_EQ(refusal_of(text_file("a.pcd", header + end)), geometry::refusal::kBrokenFile) << header;
   EXPECT_EQ(refusal_of(text_file("a.pcd", fields + rest + end)), "accepted") << "as it should be";
+}
+
+// Found by fuzzing: rosbag reads beyond its buffers where a length, an offset or a count lies.
+TEST_F(ScanFileTest, ABagWithAByteThatLiesIsReadOrRefused) {
+  for (const auto compression :
+       {rosbag::compression::Uncompressed, rosbag::compression::BZ2, rosbag::compression::LZ4}) {
+    const std::string path = file("packed.bag"), changed = file("changed.bag");
+    {
+      rosbag::Bag bag(path, rosbag::bagmode::Write);
+      bag.setCompression(compression);
+      bag.write("/scan/points", ros::Time(1), scan_files::cloud_message(cloud(), "booth", ros::Time(1)));
+      bag.write("/words", ros::Time(2), std_msgs::String());
+    }
+    expect_cloud(path);
+    std::ifstream stream(path, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    int refused = 0, tried = 0;
+    for (std::size_t at = 0; at < bytes.size(); ++at) {
+      if (bytes[at] == ' ') continue;  // what fills the bag's header
+      std::string other = bytes;
+      other[at] = static_cast<char>(~other[at]);
+      std::ofstream(changed, std::ios::binary) << other;
+      ++tried;
+      refused += refusal_of(changed) != "accepted";
+    }
+    EXPECT_GT(refused, tried / 4);
+  }
 }
 
 TEST_F(ScanFileTest, OtherFilesAreRefusedByName) {

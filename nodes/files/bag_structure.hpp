@@ -1,0 +1,14 @@
+/// Whether a file is a rosbag that rosbag's own reader can be given.
+#pragma once
+
+#include <string>
+
+namespace tensegric_fit::files {
+
+/// Debian's rosbag (1.15) believes the lengths, offsets and counts that a file states, and reads beyond its
+/// buffers where they lie. Checks all of them, through all records and chunks (bag format 2.0, wiki.ros.org);
+/// messages themselves are checked by whoever reads them. A bag without an index, as a recording that was cut
+/// off leaves it, passes: rosbag names it. \throw Refusal broken_file naming file and record
+void check_bag_structure(const std::string& path);
+
+}  // namespace tensegric_fit::files
