@@ -163,7 +163,7 @@ class Walk {
     connections_.insert(record.header.number<std::uint32_t>("conn"));
     record.header.text("topic");
     const Fields described(record.data);
-    for (const Bytes name : {"topic", "type", "md5sum", "message_definition"}) described.text(name);
+    for (const Bytes name : {"type", "md5sum", "message_definition"}) described.text(name);
   }
 
   void chunk(const Record& record) {
