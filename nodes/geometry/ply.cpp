@@ -28,12 +28,18 @@ void check_header(const std::string& path) {
   const auto size = std::filesystem::file_size(path, no_size);
   if (no_size) throw Refusal(refusal::kBrokenFile, path + ": is not a regular file");
   constexpr int kHeaderLines = 1000;
+  bool of_vertices = false;
   for (int i = 0; i < kHeaderLines && std::getline(file, line); ++i) {
     if (line.compare(0, 10, "end_header") == 0) return;
     std::istringstream words(line);
-    std::string element, name;
+    std::string what, name;
+    words >> what >> name;
+    if (what == "property" && name == "list" && of_vertices)  // PCL ends the process
+      throw Refusal(refusal::kBrokenFile, path + ": its vertices have a property that is a list");
+    if (what != "element") continue;
+    of_vertices = name == "vertex";
     unsigned long long count = 0;
-    if (words >> element >> name >> count && element == "element" && count > size)
+    if (words >> count && count > size)
       throw Refusal(refusal::kBrokenFile, path + ": is shorter than its header says");
   }
   throw Refusal(refusal::kBrokenFile, path + ": has no complete PLY header");

@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 using geometry::FitWarning;
 
 constexpr double kStep = 0.01;       // m, along a line
+constexpr double kMostSteps = 1000;  // between two points of a line: no body is larger
 constexpr double kAround = 0.05;     // m, of skin about a line that is looked at
 constexpr double kShorter = 1e-3;    // of the neutral length
 constexpr double kNoTension = 1e-6;  // pseudo force: below what solvers settle to
@@ -22,7 +23,7 @@ std::vector<Vector3d> stepped(const std::vector<Vector3d>& course) {
   std::vector<Vector3d> points;
   for (std::size_t i = 1; i < course.size(); ++i) {
     const Vector3d way = course[i] - course[i - 1];
-    const int steps = std::max(1, static_cast<int>(std::ceil(way.norm() / kStep)));
+    const int steps = static_cast<int>(std::clamp(std::ceil(way.norm() / kStep), 1.0, kMostSteps));
     for (int k = 0; k < steps; ++k) points.push_back(course[i - 1] + (k + 0.5) / steps * way);
   }
   return points;

@@ -193,6 +193,15 @@ TEST_F(ScanFileTest, APcdHeaderOutOfOrderOrWithoutFieldsIsRefused) {
   EXPECT_EQ(refusal_of(text_file("a.pcd", fields + rest + end)), "accepted") << "as it should be";
 }
 
+// Found by fuzzing: PCL ended the process.
+TEST_F(ScanFileTest, APlyWhoseVerticesHaveAListIsRefused) {
+  for (const char* count : {"uchar", "int"})
+    EXPECT_EQ(refusal_of(text_file(
+                  "list.ply", std::string("ply\nformat ascii 1.0\nelement vertex 1\nproperty list ") + count +
+                                  " int x\nend_header\n1 7\n")),
+              geometry::refusal::kBrokenFile);
+}
+
 // Found by fuzzing: rosbag reads beyond its buffers where a length, an offset or a count lies.
 TEST_F(ScanFileTest, ABagWithAByteThatLiesIsReadOrRefused) {
   for (const auto compression :
