@@ -15,7 +15,6 @@ import os
 import pathlib
 import random
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
@@ -23,6 +22,10 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
+sys.dont_write_bytecode = True  # not into the sources
+sys.path.insert(0, str(HERE.parent))
+from launched import free_port, program, wait_until
+
 BOOTHS = ("left", "right")
 STAGES = ("reconstruction", "landmarks", "control_mesh", "tensegric", "tffd")
 NODES = STAGES + ("capture", "vault")
@@ -32,17 +35,6 @@ WHOLE = 30  # seconds from the death of the master until a scan goes through aga
 PATIENCE = 60  # seconds that anything may take; what takes longer is lost
 STOPPED = 30  # seconds
 HOUR = 3600
-
-
-def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
-
-
-def program(name):
-    return next(path for folder in os.environ["CMAKE_PREFIX_PATH"].split(":")
-                if (path := pathlib.Path(folder) / "lib/tensegric_fit" / name).exists())
 
 
 class Shop:
@@ -150,14 +142,6 @@ class Graph:
         """Results so far that are not those of their scan."""
         return [r for r in self.shop.ask("results")
                 if r["digest"] != self.expected.get(self.shop.bodies.get((r["booth"], r["stamp"])))]
-
-
-def wait_until(true, what, seconds):
-    end = time.monotonic() + seconds
-    while not true():
-        if time.monotonic() > end:
-            raise TimeoutError(f"{what}: not within {seconds} s")
-        time.sleep(0.05)
 
 
 def outcome(graph, booth, stamp, back):
@@ -332,7 +316,7 @@ def table(results):
             continue
         seconds = sorted(r["seconds"] for r in rows if "seconds" in r)
         spread = f", {seconds[len(seconds) // 2]:.1f} s in the middle, {seconds[-1]:.1f} s at most" if seconds else ""
-        print(f"{fault}: {len(rows)} cases, {sum(r['fine'] for r in rows)} fine, {sum(r.get('lost', False) for r in rows)} lost, "
+        print(f"{fault}: {len(rows)} cases, {sum(r['fine'] for r in rows)} fine ({sum('skipped' in r for r in rows)} skipped), {sum(r.get('lost', False) for r in rows)} lost, "
               f"{sum(r.get('mixed', 0) for r in rows)} mixed{spread}")
     return all(r["fine"] for r in results)
 

@@ -12,6 +12,7 @@ line of JSON each.
 """
 import hashlib
 import json
+import pathlib
 import socket
 import struct
 import sys
@@ -29,17 +30,11 @@ from std_msgs.msg import Header
 from tensegric_fit.msg import DeformedMesh
 from tensegric_fit.srv import ExportFit
 
+sys.dont_write_bytecode = True  # not into the sources
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from launched import points_of
+
 BOOTHS = ("left", "right")
-
-
-def points_of(ply):
-    """x, y, z per point of a binary PLY of the virtual booth, all of whose properties are floats."""
-    with open(ply, "rb") as file:
-        header, body = file.read().split(b"end_header\n", 1)
-    vertex = header.decode().split("element vertex ")[1].split("element")[0]
-    count, stride = int(vertex.split()[0]), 4 * vertex.count("property float")
-    assert vertex.count("property") == vertex.count("property float"), "another layout"
-    return [struct.unpack_from("<fff", body, i * stride) for i in range(count)]
 
 
 class Shop:

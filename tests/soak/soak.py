@@ -11,45 +11,21 @@ import csv
 import os
 import pathlib
 import signal
-import socket
 import statistics
-import struct
 import subprocess
 import sys
 import tempfile
 import threading
 import time
 
+sys.dont_write_bytecode = True  # not into the sources
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from launched import free_port, points_of, program, wait_until
+
 NODES = ("reconstruction", "landmarks", "control_mesh", "tensegric", "tffd")
 POINTS, BODIES = 9000, 4
 MEMORY = 0.01  # a node may have so much more at the end
 SLOWER = 0.25  # and a scan take so much longer: machines are shared
-
-
-def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
-
-
-def program(name):
-    for folder in os.environ["CMAKE_PREFIX_PATH"].split(":"):
-        path = pathlib.Path(folder) / "lib/tensegric_fit" / name
-        if path.exists():
-            return path
-    raise RuntimeError(f"{name} is not built")
-
-
-def floats_of(ply):
-    """x, y, z per point of a binary PLY of the virtual booth."""
-    data = ply.read_bytes()
-    header, body = data.split(b"end_header\n", 1)
-    sizes = {"float": 4, "float32": 4, "double": 8, "uchar": 1, "uint8": 1, "int": 4, "ushort": 2}
-    vertex = header.decode().split("element vertex ")[1].split("element")[0]
-    properties = [line.split()[1:] for line in vertex.splitlines() if line.startswith("property")]
-    count = int(vertex.split()[0])
-    stride = sum(sizes[kind] for kind, _ in properties)
-    return [struct.unpack_from("<fff", body, i * stride) for i in range(count)]
 
 
 class Chain:
@@ -121,14 +97,6 @@ class Chain:
             os.killpg(self.launch.pid, signal.SIGKILL)
 
 
-def wait_until(true, what, seconds):
-    end = time.monotonic() + seconds
-    while not true():
-        if time.monotonic() > end:
-            raise TimeoutError(f"{what}: not within {seconds} s")
-        time.sleep(0.2)
-
-
 def costs_of(process):
     folder = pathlib.Path(f"/proc/{process}")
     rollup = (folder / "smaps_rollup").read_text()
@@ -182,7 +150,7 @@ def main():
         for n in clouds_of_one_round():
             subprocess.run([program("virtual_booth"), "--seed", str(n + 1), "--points", str(POINTS), "--out", f"{folder}/{n}"],
                            check=True, stdout=subprocess.DEVNULL)
-            clouds.append(floats_of(pathlib.Path(folder) / f"{n}/scan.ply"))
+            clouds.append(points_of(pathlib.Path(folder) / f"{n}/scan.ply"))
         with open(f"{folder}/log", "w", encoding="utf-8") as log:
             chain = Chain(log)
             try:
