@@ -33,7 +33,7 @@ check_cppcheck() {
 
 check_tidy() {
   needs run-clang-tidy
-  # Some 20 s a file: by hand. Asks for a build: cmake -DCMAKE_EXPORT_COMPILE_COMMANDS=ON.
+  # Some 20 s a file: by hand. Asks for a build: cmake -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_UNITY_BUILD=OFF.
   run-clang-tidy -quiet -p build -j "$(nproc)" "${TIDY:-/nodes/.*\.cpp}"
 }
 

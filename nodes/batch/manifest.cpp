@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using geometry::Refusal;
-using Json = nlohmann::json;
+using UnorderedJson = nlohmann::json;
 
 enum class Kind { path, paths, word, words, flag };
 
@@ -107,7 +107,7 @@ class Reader {
     for (std::string text; std::getline(stream, text);) {
       ++line_;
       if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
-      const Json object = Json::parse(text, nullptr, false);
+      const UnorderedJson object = UnorderedJson::parse(text, nullptr, false);
       if (!object.is_object()) throw fault_here("is no JSON object");
       Job job;
       for (const auto& [name, value] : object.items()) {
@@ -118,9 +118,9 @@ class Reader {
     }
   }
 
-  std::vector<std::string> words_of(const std::string& name, const Json& value) const {
+  std::vector<std::string> words_of(const std::string& name, const UnorderedJson& value) const {
     std::vector<std::string> words;
-    for (const Json& part : value.is_array() ? value : Json::array({value})) {
+    for (const UnorderedJson& part : value.is_array() ? value : UnorderedJson::array({value})) {
       if (part.is_string()) {
         words.push_back(part.get<std::string>());
       } else if (part.is_number()) {

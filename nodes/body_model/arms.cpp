@@ -10,8 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = M_PI / 180;
-constexpr double kFarthest = 0.15;  // m; an arm that is farther is elsewhere, however far
+constexpr double kFarthestArm = 0.15;  // m; an arm that is farther is elsewhere, however far
 // Degrees from the arm at rest, which is lifted by some 45: raised, taken forwards, and bent at the elbow.
 constexpr int kEvery = 4;  // n-th fit point is enough to say where an arm is
 constexpr double kRaised[] = {-60, -40, -20, 0, 20, 40, 60};
@@ -48,7 +47,7 @@ double distance(const Model& model, const Matcher& matcher, const Parameters& p,
   for (std::size_t i = 0; i < arm.vertices.size() && sum < enough; ++i) {
     const int v = arm.vertices[i];
     sum += std::min(matcher.distance(posed.vertex(v), (posed.blend(v) * arm.normals[i]).normalized()),
-                    kFarthest);
+                    kFarthestArm);
   }
   return sum;
 }

@@ -12,9 +12,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr char kMagic[] = "tensegric_fit bones 1";
-constexpr double kByte = 255;  // definition of the format: weights are shares in 255ths
-constexpr double kArm = 0.5;   // definition: an arm carries more than half of a vertex
+constexpr char kBonesMagic[] = "tensegric_fit bones 1";
+constexpr double kByte = 255;       // definition of the format: weights are shares in 255ths
+constexpr double kMostlyArm = 0.5;  // definition: an arm carries more than half of a vertex
 constexpr double
     kLeastStep = 0.0005,
     kMostPressed =
@@ -75,7 +75,8 @@ geometry::TriangleMesh trunk_of(const RegisteredBody& body) {
   const Model& model = *body.model;
   std::vector<char> keep;
   for (const Eigen::Vector3i& t : model.triangles)
-    keep.push_back(model.arm[t[0]] < kArm && model.arm[t[1]] < kArm && model.arm[t[2]] < kArm);
+    keep.push_back(model.arm[t[0]] < kMostlyArm && model.arm[t[1]] < kMostlyArm &&
+                   model.arm[t[2]] < kMostlyArm);
   return geometry::submesh({body.skin, model.triangles}, keep);
 }
 
@@ -116,7 +117,7 @@ class Skin {
 
 std::vector<BoneShape> load_bones(const std::string& path, const Model& model) {
   const Check check{path};
-  const ArrayFile file(path, kMagic, "file of bones");
+  const ArrayFile file(path, kBonesMagic, "file of bones");
   std::vector<BoneShape> shapes;
   try {
     const std::string made_for = file.header().at("model");

@@ -19,7 +19,7 @@ constexpr double
     kRange = 0.15;  // m, of the field: what sixty components leave of a woman who is not of their kind
 constexpr double kNoise = 0.001;  // m, of a match, samples beside each other taken together
 constexpr double kScales[] = {0.03, 0.02, 0.015, 0.012};  // m, of distances
-constexpr int kSamples = 20000;
+constexpr int kDisplacementSamples = 20000;
 constexpr int kShared = 5;  // nodes that a vertex takes its displacement from
 
 /// Nearest node of each vertex along the skin, and how far, m.
@@ -135,7 +135,7 @@ Displaced displace(const Model& model, const SkinField& field, const Matcher& ma
       at.points.push_back(result.vertices[v]);
       at.normals.push_back(normals[v]);
     }
-    const Matching matching = matcher.match(at, scale, kSamples);
+    const Matching matching = matcher.match(at, scale, kDisplacementSamples);
     result.distances = matching.distances;
     Eigen::MatrixX3d rhs(n, 3);
     Eigen::SparseMatrix<double> matrix = prior;

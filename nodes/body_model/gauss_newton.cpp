@@ -17,7 +17,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kTilt =
     10 * kDegree;  // of the pelvis: 15 degrees of the scan, 25 of a stoop are within 2.5 deviations
 constexpr double kStartOff =
@@ -28,10 +27,10 @@ constexpr double kStartOff =
 constexpr double kNoisePerScale = 0.06, kLeastNoise = 0.002;
 constexpr double
     kPiece = 180,
-    kMisfit = 0.002;  // pieces of a woman's skin, 10 cm wide, that misfit each on its own; m, by how much
+    kPieceMisfit =
+        0.002;  // pieces of a woman's skin, 10 cm wide, that misfit each on its own; m, by how much
 constexpr double kStatures =
     0.06;  // of the logarithm of people's stature: 1.45 to 1.95 m are within 2.5 deviations
-constexpr int kWorthThreads = 800;             // points; fewer are done before a second thread has begun
 constexpr double kLargestTurn = 20 * kDegree;  // in a step; beyond that derivatives mean little
 
 /// What the prior takes the parameters to be, and how firmly.
@@ -106,7 +105,7 @@ double surprise_of(const Matching& matching, const Prior& prior, double log_scal
       prior.off[Parameters::kScale] * prior.off[Parameters::kScale] * prior.precision[Parameters::kScale];
   const double squares =
       prior.off.cwiseAbs2().dot(prior.precision) - start + std::pow(log_scale / kStatures, 2);
-  return kPiece * misfit / kMisfit + squares / 2;
+  return kPiece * misfit / kPieceMisfit + squares / 2;
 }
 
 /// Normal equations of the matches, in the first `active` parameters. A pull is nearly one of a plane: its

@@ -7,14 +7,14 @@
 namespace tensegric_fit::body_model {
 namespace {
 
-constexpr char kMagic[] = "tensegric_fit body model 1";
-constexpr double kRounding = 0.001;              // that shares of a skin point are written with
-constexpr double kShortest = 1, kTallest = 2.5;  // m
+constexpr char kModelMagic[] = "tensegric_fit body model 1";
+constexpr double kRounding = 0.001;                          // that shares of a skin point are written with
+constexpr double kLeastStature = 1, kGreatestStature = 2.5;  // m
 
 /// Bones, groups, parts and bone points.
 void take_header(const Json& header, const Check& check, Model& model) {
   model.stature = header.at("stature");
-  check(model.stature > kShortest && model.stature < kTallest, "stature is not in metres");
+  check(model.stature > kLeastStature && model.stature < kGreatestStature, "stature is not in metres");
   for (const Json& bone : header.at("bones")) model.bones.push_back({bone.at("name"), bone.at("parent")});
   const int count = static_cast<int>(model.bones.size());
   check(count > 0, "no bones");
@@ -130,7 +130,7 @@ int Model::group_named(const std::string& name) const {
 
 Model load_model(const std::string& path) {
   const Check check{path};
-  const ArrayFile file(path, kMagic, "body model");
+  const ArrayFile file(path, kModelMagic, "body model");
   Model model{};
   model.checksum = file.checksum();
   try {

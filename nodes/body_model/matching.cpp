@@ -30,11 +30,9 @@ Pair weigh(const Vector3d& off, const Vector3d& model_normal, const Vector3d& sa
   return {robust * robust, std::min(std::abs(off.dot(sample_normal)), Matching::kUnmatched)};
 }
 
-constexpr std::size_t kWorthThreads = 800;  // points; fewer are done before a second thread has begun
-
 template <typename Work>
 void in_parallel(std::size_t count, const Work& work) {
-  if (count < kWorthThreads) return work(0, count);
+  if (static_cast<int>(count) < kWorthThreads) return work(0, count);
   geometry::parallel_for(count, [&](std::size_t begin, std::size_t end, int) { work(begin, end); });
 }
 

@@ -9,6 +9,8 @@
 
 namespace tensegric_fit::body_model {
 
+inline constexpr int kWorthThreads = 800;  ///< points; fewer are done before a second thread has begun
+
 /// Points of the model as they are at the moment, with normals and what each counts.
 struct ModelSkin {
   std::vector<Eigen::Vector3d> points, normals;

@@ -7,6 +7,8 @@
 
 namespace tensegric_fit::body_model {
 
+inline constexpr double kDegree = M_PI / 180;
+
 /// What makes a person of the model, in the frame of a scan.
 struct Parameters {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< model axes -> scan axes

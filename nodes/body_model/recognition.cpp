@@ -40,7 +40,7 @@ constexpr double kLeastOfPart = 0.55;  // of a part's skin: scans of women have 
                                        // slid into the trunk 0.47 at most
 constexpr double kCrown = 0.03, kLeastOfCrown = 0.25;  // statures below the top; of its skin: no sensor looks
                                                        // down, scans have 0.54 at least
-constexpr int kSamples = 6000;                         // that are asked: 17 mm apart on a woman
+constexpr int kJudgedSamples = 6000;                   // that are asked: 17 mm apart on a woman
 constexpr double kTogether = 0.06;                     // m; nearer ones are one thing
 constexpr double kLeastThing = 0.004;  // of the surface, 70 cm^2: more than fingers that are bent otherwise
 constexpr double kArmsLength = 0.3;    // m: so far a limb may have turned away from where the model has it
@@ -66,7 +66,7 @@ constexpr Limb kLimbs[] = {{"trunk", ""},
                            {"foot_R", "shank_R"}};
 
 std::size_t asked(const Samples& samples) {
-  return std::min<std::size_t>(kSamples, samples.points.size());
+  return std::min<std::size_t>(kJudgedSamples, samples.points.size());
 }
 
 /// Arm or leg that a part belongs to, "" for the others.

@@ -32,7 +32,7 @@ constexpr int kAround = 12;            // samples: two rings of neighbours
 struct Stand {
   double stature, soles;  ///< m
 };
-constexpr double kShortest = 1.30, kTallest = 2.15;  // m, of women who stand or stoop
+constexpr double kShortestWoman = 1.30, kTallestWoman = 2.15;  // m, of women who stand or stoop
 constexpr double kShort = 1.45;  // m; of 100 women one is shorter: it may be a part of a taller one
 constexpr double kUsual = 1.65;  // m, of women and men when a scan shows only a part
 constexpr double kLeast = 0.5;   // m; less of a person is too little to know her by
@@ -84,18 +84,18 @@ Parameters start_at(const Model& model, const Samples& samples, const Stand& sta
 std::vector<Stand> stands_of(const Samples& samples) {
   const auto box = geometry::bounding_box(samples.points);
   const double low = box[0].z(), high = box[1].z(), height = high - low;
-  if (height < kLeast || height > kTallest)
+  if (height < kLeast || height > kTallestWoman)
     throw geometry::Refusal(
         geometry::refusal::kNotABody,
         fmt::format("what was scanned is {:.2f} m high; a person, or her trunk, is {:.2f} to {:.2f} m",
-                    height, kLeast, kTallest));
+                    height, kLeast, kTallestWoman));
   std::vector<Stand> stands;
-  if (height > kShortest) stands.push_back({height, low});
+  if (height > kShortestWoman) stands.push_back({height, low});
   if (height > kShort) return stands;
   stands.push_back({kUsual, high - kUsual});
   stands.push_back({kUsual, low});
   for (const double bottom : {kKnee, kCrotch})
-    if (const double stature = height / (kChin - bottom); stature > kShortest && stature < kTallest)
+    if (const double stature = height / (kChin - bottom); stature > kShortestWoman && stature < kTallestWoman)
       stands.push_back({stature, low - bottom * stature});
   return stands;
 }

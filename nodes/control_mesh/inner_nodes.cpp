@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 constexpr double kShareOfBody = 0.4;  // of the way through the body: the inner node stays inside
-constexpr double kLeastShare =
+constexpr double kLeastVolumeShare =
     0.1;  // of the outer triangle's area that the inner one must keep, facing the same way
 constexpr int kSmoothingRounds = 2;
 constexpr double kShrink = 0.9;
@@ -141,7 +141,7 @@ void thin_folded_units(geometry::ControlMesh& control) {
           geometry::area_vector(control.outer[k[0]], control.outer[k[1]], control.outer[k[2]]);
       const Vector3d inner =
           geometry::area_vector(control.inner[k[0]], control.inner[k[1]], control.inner[k[2]]);
-      if (inner.dot(outer) < kLeastShare * outer.squaredNorm())
+      if (inner.dot(outer) < kLeastVolumeShare * outer.squaredNorm())
         for (int i = 0; i < 3; ++i) too_thick[k[i]] = 1;
     }
     if (std::find(too_thick.begin(), too_thick.end(), 1) == too_thick.end()) return;

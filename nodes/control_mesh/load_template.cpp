@@ -17,7 +17,7 @@ using geometry::required;
 constexpr const char* kCode = geometry::refusal::kBadTemplate;
 constexpr int kMostRows = 100;
 constexpr double kThinnestTissue = 0.001, kThickestTissue = 0.2;  // m
-constexpr double kLeastShare = 0.1;                               // of the way to bone
+constexpr double kLeastDepthShare = 0.1;                          // of the way to bone
 constexpr int kMostVertices = 1 << 16;                            // of a model file: its quads are uint16
 constexpr double kRounded = 0.001;                                // shares are written with a few digits
 
@@ -150,7 +150,7 @@ double metres(const YAML::Node& node, const char* key, const std::string& where)
 
 double share_from(const YAML::Node& node, const std::string& where) {
   required<double>(node, "share", where, kCode);
-  return geometry::number_in(node, "share", kLeastShare, 1, where, kCode);
+  return geometry::number_in(node, "share", kLeastDepthShare, 1, where, kCode);
 }
 
 BoneRule bone_from(const YAML::Node& node, const std::string& where) {

@@ -12,7 +12,7 @@ constexpr int kSamples = 3;          // triangles are sampled in kSamples^2 equa
 constexpr double kReach = 0.03;      // m; skin farther from a triangle is not the skin below it
 constexpr double kMostMove = 0.003;  // m
 constexpr double kLeastShare = 0.5;  // of a triangle's area, as it was on the skin
-constexpr int kHalvings = 5;
+constexpr int kMatchHalvings = 5;
 
 /// Barycentric coordinates of the centres of kSamples^2 equal parts of a triangle.
 std::vector<Vector3d> sample_places() {
@@ -64,7 +64,7 @@ double missing_height(const Gaps& gap, const std::vector<char>& may_move, const 
 /// Nodes of a fold have their normals against each other, and nodes near each other cross: they go back
 /// halfway, in the end all the way.
 void undo_turns(const std::vector<Vector3d>& on_skin, geometry::ControlMesh& control) {
-  for (int round = 0; round <= kHalvings; ++round) {
+  for (int round = 0; round <= kMatchHalvings; ++round) {
     std::vector<char> turned(on_skin.size(), 0);
     for (const Eigen::Vector3i& k : control.triangles) {
       const Vector3d before = geometry::area_vector(on_skin[k[0]], on_skin[k[1]], on_skin[k[2]]);
@@ -73,7 +73,7 @@ void undo_turns(const std::vector<Vector3d>& on_skin, geometry::ControlMesh& con
       if (after.dot(before) >= kLeastShare * before.squaredNorm()) continue;
       for (int i = 0; i < 3; ++i) turned[k[i]] = 1;
     }
-    const double kept = round < kHalvings ? 0.5 : 0;
+    const double kept = round < kMatchHalvings ? 0.5 : 0;
     for (std::size_t v = 0; v < turned.size(); ++v)
       if (turned[v]) control.outer[v] = on_skin[v] + kept * (control.outer[v] - on_skin[v]);
   }

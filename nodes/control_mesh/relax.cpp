@@ -7,10 +7,10 @@ namespace tensegric_fit::control_mesh {
 namespace {
 
 using Eigen::Vector3d;
-constexpr int kRounds = 8;
-constexpr double kReach = 0.05;  // m; the mean of the neighbours lies no deeper below the skin
-constexpr int kTurnRounds = 24;  // neighbours take turns
-constexpr int kShares = 10;      // of the way between two nodes
+constexpr int kRelaxRounds = 8;
+constexpr double kDeepestMean = 0.05;  // m; the mean of the neighbours lies no deeper below the skin
+constexpr int kTurnRounds = 24;        // neighbours take turns
+constexpr int kShares = 10;            // of the way between two nodes
 constexpr double kLeast = 0.2;   // of along_skin() and sharpest(): 78 degrees off the skin, corners of 11.5
                                  // degrees; nodes are still to be lifted by up to 3 mm
 constexpr double kTurned = 0.4;  // cosine between a triangle's normal and what it was at first
@@ -83,7 +83,7 @@ void relax_on_skin(geometry::ControlMesh& control, const std::vector<char>& may_
   std::vector<Vector3d> first;  // normals
   for (const Eigen::Vector3i& k : control.triangles)
     first.push_back(geometry::area_vector(control.outer[k[0]], control.outer[k[1]], control.outer[k[2]]));
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRelaxRounds; ++round) {
     const std::vector<Vector3d> before = control.outer;
     const auto normals = geometry::vertex_normals(before, control.triangles);
     for (std::size_t v = 0; v < before.size(); ++v) {
@@ -92,7 +92,7 @@ void relax_on_skin(geometry::ControlMesh& control, const std::vector<char>& may_
       for (int neighbour : around[v]) mean += before[neighbour];
       mean /= static_cast<double>(around[v].size());
       const Vector3d halfway = 0.5 * (before[v] + mean);
-      const auto above = skin.nearest_along(halfway, normals[v], kReach);
+      const auto above = skin.nearest_along(halfway, normals[v], kDeepestMean);
       control.outer[v] = above ? *above : skin.nearest(halfway);
     }
     undo_turns(control, before, first);

@@ -10,12 +10,12 @@ namespace tensegric_fit::control_mesh {
 namespace {
 
 using geometry::Refusal;
-constexpr const char* kCode = geometry::refusal::kBadTemplate;
-constexpr double kThickness = 0.5;  // of the mean edge
+constexpr const char* kBadShape = geometry::refusal::kBadTemplate;
+constexpr double kShapeThickness = 0.5;  // of the mean edge
 
 Eigen::Vector3d point_at(const YAML::Node& map, const char* key, const std::string& where) {
-  const auto xyz = geometry::required<std::vector<double>>(map, key, where, kCode);
-  if (xyz.size() != 3) throw Refusal(kCode, where + ": '" + key + "' must be three numbers");
+  const auto xyz = geometry::required<std::vector<double>>(map, key, where, kBadShape);
+  if (xyz.size() != 3) throw Refusal(kBadShape, where + ": '" + key + "' must be three numbers");
   return {xyz[0], xyz[1], xyz[2]};
 }
 
@@ -54,21 +54,22 @@ void add_regions(const geometry::TriangleMesh& mesh, geometry::ControlMesh& cont
   }
   for (std::size_t piece = 0; piece < held.size(); ++piece)
     if (held[piece] < 3)
-      throw Refusal(kCode, "piece '" + control.regions[piece].name + "' of the control mesh has " +
-                               std::to_string(held[piece]) + " fixed nodes; three or more hold it");
+      throw Refusal(kBadShape, "piece '" + control.regions[piece].name + "' of the control mesh has " +
+                                   std::to_string(held[piece]) + " fixed nodes; three or more hold it");
 }
 
 }  // namespace
 
 ShapeFixing load_shape_fixing(const std::string& path) {
-  const YAML::Node file = geometry::load_yaml_map(path, kCode);
-  geometry::check_keys(file, {"nodes", "boxes", "thickness"}, path, kCode);
+  const YAML::Node file = geometry::load_yaml_map(path, kBadShape);
+  geometry::check_keys(file, {"nodes", "boxes", "thickness"}, path, kBadShape);
   ShapeFixing fixing;
-  fixing.nodes = geometry::optional<std::vector<int>>(file, "nodes", {}, path, kCode);
-  if (file["thickness"]) fixing.thickness = geometry::number_in(file, "thickness", 1e-6, 10, path, kCode);
-  if (file["boxes"] && !file["boxes"].IsSequence()) throw Refusal(kCode, path + ": 'boxes' must be a list");
+  fixing.nodes = geometry::optional<std::vector<int>>(file, "nodes", {}, path, kBadShape);
+  if (file["thickness"]) fixing.thickness = geometry::number_in(file, "thickness", 1e-6, 10, path, kBadShape);
+  if (file["boxes"] && !file["boxes"].IsSequence())
+    throw Refusal(kBadShape, path + ": 'boxes' must be a list");
   for (const YAML::Node& box : file["boxes"]) {
-    geometry::check_keys(box, {"min", "max"}, path + ": boxes", kCode);
+    geometry::check_keys(box, {"min", "max"}, path + ": boxes", kBadShape);
     fixing.boxes.push_back({point_at(box, "min", path + ": boxes"), point_at(box, "max", path + ": boxes")});
   }
   return fixing;
@@ -84,7 +85,7 @@ geometry::ControlMesh control_from_shape(const geometry::TriangleMesh& mesh, con
   control.outer_fixed.assign(count, 0);
   for (int node : fixing.nodes) {
     if (node < 0 || static_cast<std::size_t>(node) >= count)
-      throw Refusal(kCode, "fixed node " + std::to_string(node) + " is not in the control mesh");
+      throw Refusal(kBadShape, "fixed node " + std::to_string(node) + " is not in the control mesh");
     control.outer_fixed[node] = 1;
   }
   for (std::size_t v = 0; v < count; ++v)
@@ -95,7 +96,7 @@ geometry::ControlMesh control_from_shape(const geometry::TriangleMesh& mesh, con
   control.inner_fixed = control.outer_fixed;
   add_regions(mesh, control);
   geometry::check_control_mesh(control);
-  const double thickness = fixing.thickness > 0 ? fixing.thickness : kThickness * mean_edge(mesh);
+  const double thickness = fixing.thickness > 0 ? fixing.thickness : kShapeThickness * mean_edge(mesh);
   place_inner_nodes(control, std::vector<double>(count, thickness), Skin(mesh));
   return control;
 }
@@ -103,7 +104,7 @@ geometry::ControlMesh control_from_shape(const geometry::TriangleMesh& mesh, con
 geometry::ControlMesh simplified_control(const geometry::TriangleMesh& shape, const ShapeFixing& fixing,
                                          int triangles) {
   if (!fixing.nodes.empty())
-    throw Refusal(kCode,
+    throw Refusal(kBadShape,
                   "'nodes' number the vertices of a given control mesh: use 'boxes' where it is made by "
                   "simplification");
   check_outside(shape);

@@ -9,7 +9,7 @@ namespace tensegric_fit::control_mesh {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kLeastShare = 0.5;  // of a quarter of its triangle, as that one's normal sees it
+constexpr double kLeastQuarter = 0.5;  // of a quarter of its triangle, as that one's normal sees it
 constexpr int kHalvings = 5;
 
 /// The middles of a triangle's edges: opposite to its first corner, its second, its third.
@@ -29,7 +29,7 @@ void flatten_turned(const std::vector<Eigen::Vector3i>& triangles, const std::ve
       const Vector3d whole = geometry::area_vector(nodes[k[0]], nodes[k[1]], nodes[k[2]]);
       const auto well = [&](int a, int b, int c) {
         return geometry::area_vector(nodes[a], nodes[b], nodes[c]).dot(whole) >=
-               kLeastShare / 4 * whole.squaredNorm();
+               kLeastQuarter / 4 * whole.squaredNorm();
       };
       if (well(k[0], m[2], m[1]) && well(m[2], k[1], m[0]) && well(m[1], m[0], k[2]) &&
           well(m[2], m[0], m[1]))

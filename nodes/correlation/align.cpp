@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "correlation/skin_parts.hpp"
 #include "geometry/rigid_motion.hpp"
 
 namespace tensegric_fit::correlation {
@@ -22,7 +23,6 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 constexpr std::size_t kPoints = 2500;
 constexpr int kMostSteps = 80;
 constexpr double kKept = 0.8;       // share of the matches
-constexpr double kAlike = 0.5;      // cosine between the normals
 constexpr double kLastStep = 1e-6;  // m, at the patch's own distance from its middle
 constexpr double kLoosest = 1e-5;   // least / greatest eigenvalue of a system that says where the patch is
 

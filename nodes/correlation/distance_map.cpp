@@ -11,8 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kAlike = 0.5;  // cosine between the normals
-
 struct Weighed {
   double value, area;
 };

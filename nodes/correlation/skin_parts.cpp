@@ -16,7 +16,6 @@ namespace {
 using Eigen::Vector3d;
 using geometry::TriangleMesh;
 
-constexpr double kAlike = 0.5;                               // cosine between normals
 constexpr double kLowestThigh = 6.0 / 7;                     // of the crotch's height
 constexpr double kKnee = 0.60, kCalf = 0.53, kAnkle = 0.12;  // the same
 

@@ -27,6 +27,7 @@ void check(const SimulatedBody& body);
 /// alike, and are not compared.
 enum class SkinPart : char { covered, surroundings, still, mobile };
 
+inline constexpr double kAlike = 0.5;          ///< cosine between the normals of surfaces that face alike
 inline constexpr double kUnderControl = 0.03;  ///< m; between its nodes a control mesh lies below the skin
 inline constexpr double kSurroundings = 0.04;  ///< m; t-FFD moves nothing there, but tissue and seams do
 

@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const ResultNames kResults = {"correlate.json", "correlate.html", "distance.png",
-                              "distance.ply",   "distance.csv",   "silhouettes.png"};
+const ResultNames kCorrelateResults = {"correlate.json", "correlate.html", "distance.png",
+                                       "distance.ply",   "distance.csv",   "silhouettes.png"};
 const ResultNames kFitted = {kFitReport, kExportDocument, "body.ply", "deformed.ply", "control.ply"};
 
 class Run {
@@ -123,19 +123,19 @@ int run(const CorrelateLine& line) {
   for (const char* name : kFitted) fitted.push_back((fs::path(line.fit) / name).string());
   std::vector<const std::string*> inputs = {&line.worn, &line.mesh};
   for (const std::string& name : fitted) inputs.push_back(&name);
-  if (const std::string* input = endangered_input(inputs, line.out, kResults)) {
+  if (const std::string* input = endangered_input(inputs, line.out, kCorrelateResults)) {
     fmt::print(stderr, "--out: the results would overwrite the input {}\n", *input);
     return 2;
   }
   Run correlate(line);
   try {
     fs::create_directories(line.out);
-    remove_results(line.out, kResults);
+    remove_results(line.out, kCorrelateResults);
     correlate();
     return 0;
   } catch (const geometry::Refusal& refusal) {
     fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());
-    remove_results(line.out, kResults);
+    remove_results(line.out, kCorrelateResults);
     try {
       nlohmann::ordered_json report;
       report["worn"] = {{"file", correlate.source().file}, {"points", correlate.source().points}};
@@ -148,7 +148,7 @@ int run(const CorrelateLine& line) {
     return 3;
   } catch (const std::exception& error) {
     fmt::print(stderr, "correlate: {}\n", error.what());
-    remove_results(line.out, kResults);
+    remove_results(line.out, kCorrelateResults);
     return 1;
   }
 }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Colour kTightColour{178, 24, 43}, kLooseColour{33, 94, 172};  // of equal lightness
 constexpr Colour kWayColour{98, 48, 148}, kForceless{120, 120, 120}, kNotCompared{158, 164, 170};
-constexpr int kSteps = 256;  // from neutral to an end
+constexpr int kColourSteps = 256;  // from neutral to an end
 
 cv::Vec3f lab(const Colour& colour) {
   cv::Mat3f pixel(1, 1, cv::Vec3f(colour[0] / 255.0F, colour[1] / 255.0F, colour[2] / 255.0F)), result;
@@ -17,26 +17,26 @@ cv::Vec3f lab(const Colour& colour) {
   return result(0, 0);
 }
 
-using Ramp = std::array<Colour, kSteps + 1>;
+using Ramp = std::array<Colour, kColourSteps + 1>;
 
 // From neutral to an end, a straight line in CIE Lab.
 Ramp ramp_to(const Colour& end) {
   const cv::Vec3f from = lab(kNeutral), to = lab(end);
-  cv::Mat3f colours(1, kSteps + 1), rgb;
-  for (int i = 0; i <= kSteps; ++i) {
-    const float part = static_cast<float>(i) / kSteps;
+  cv::Mat3f colours(1, kColourSteps + 1), rgb;
+  for (int i = 0; i <= kColourSteps; ++i) {
+    const float part = static_cast<float>(i) / kColourSteps;
     colours(0, i) = (1 - part) * from + part * to;
   }
   cv::cvtColor(colours, rgb, cv::COLOR_Lab2RGB);
   Ramp ramp;
-  for (int i = 0; i <= kSteps; ++i)
+  for (int i = 0; i <= kColourSteps; ++i)
     for (int c = 0; c < 3; ++c) ramp[i][c] = cv::saturate_cast<std::uint8_t>(255 * rgb(0, i)[c]);
   ramp[0] = kNeutral;  // no rounding on the way through Lab
   return ramp;
 }
 
 const Colour& at(const Ramp& ramp, double share) {
-  return ramp[std::lround(kSteps * std::clamp(share, 0.0, 1.0))];
+  return ramp[std::lround(kColourSteps * std::clamp(share, 0.0, 1.0))];
 }
 
 Colour mixed(const Colour& from, const Colour& to, double share) {

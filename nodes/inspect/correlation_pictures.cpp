@@ -8,9 +8,9 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr int kPanel = 750, kEdge = 4;  // pixels
-constexpr double kMargin = 1.45;
-const cv::Vec3b kPaper(255, 255, 255), kBody(205, 200, 196);
+constexpr int kDistancePanel = 750, kPanelEdge = 4;  // pixels
+constexpr double kBodyMargin = 1.45;
+const cv::Vec3b kPanelPaper(255, 255, 255), kBody(205, 200, 196);
 const cv::Scalar kSimulated(60, 48, 40), kBefore(120, 118, 116);
 
 cv::Vec3b bgr(const Colour& colour) {
@@ -31,13 +31,13 @@ std::vector<std::vector<cv::Point>> outlines_of(const cv::Mat1b& mask) {
 
 // Drawn a little larger than it is shown: outlines that the picture's edge makes are no outlines.
 cv::Mat outlines_from(MakeView make, const CorrelationScene& scene, const Part& part) {
-  constexpr int kSize = kPanel + 2 * kEdge;
-  View view = framed(make, scene.body_from_scan, part.nodes, kMargin);
-  view.height *= static_cast<double>(kSize) / kPanel;
+  constexpr int kSize = kDistancePanel + 2 * kPanelEdge;
+  View view = framed(make, scene.body_from_scan, part.nodes, kBodyMargin);
+  view.height *= static_cast<double>(kSize) / kDistancePanel;
   const cv::Mat1b simulated = silhouette(scene.simulated, view, kSize, kSize),
                   before = silhouette(scene.before, view, kSize, kSize),
                   worn = silhouette(scene.worn, view, kSize, kSize);
-  cv::Mat3b picture(kSize, kSize, kPaper);
+  cv::Mat3b picture(kSize, kSize, kPanelPaper);
   picture.setTo(kBody, worn & simulated);
   picture.setTo(bgr(two_sided_colour(0.7)), worn & ~simulated);
   picture.setTo(bgr(two_sided_colour(-0.7)), simulated & ~worn);
@@ -45,7 +45,7 @@ cv::Mat outlines_from(MakeView make, const CorrelationScene& scene, const Part& 
     for (std::size_t i = 0; i < outline.size(); i += 8)
       cv::circle(picture, outline[i], 1, kBefore, cv::FILLED, cv::LINE_AA);
   cv::drawContours(picture, outlines_of(simulated), -1, kSimulated, 2, cv::LINE_AA);
-  return picture(cv::Rect(kEdge, kEdge, kPanel, kPanel)).clone();
+  return picture(cv::Rect(kPanelEdge, kPanelEdge, kDistancePanel, kDistancePanel)).clone();
 }
 
 std::vector<Part> rows_of(const CorrelationScene& scene) {
@@ -74,8 +74,8 @@ cv::Mat distance_picture(const CorrelationScene& scene) {
   std::vector<cv::Mat> rows;
   for (const Part& part : rows_of(scene)) {
     const auto from = [&](MakeView make) {
-      return draw(scene.simulated, colours, {}, framed(make, scene.body_from_scan, part.nodes, kMargin),
-                  kPanel, kPanel);
+      return draw(scene.simulated, colours, {}, framed(make, scene.body_from_scan, part.nodes, kBodyMargin),
+                  kDistancePanel, kDistancePanel);
     };
     rows.push_back(part.behind ? side_by_side(from(back_view), from(oblique_back_view))
                                : side_by_side(from(front_view), from(oblique_view)));

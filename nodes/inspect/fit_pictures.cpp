@@ -8,7 +8,7 @@ namespace tensegric_fit::inspect {
 namespace {
 
 constexpr int kPanel = 750;  // pixels
-constexpr Colour kGarment{176, 44, 84}, kInk{52, 50, 48};
+constexpr Colour kGarmentColour{176, 44, 84}, kBorderInk{52, 50, 48};
 
 View framed(MakeView make, const FitScene& scene) {
   if (scene.parts.empty()) return framed(make, scene.measures.body_from_scan, scene.before.vertices, 1.1);
@@ -58,7 +58,7 @@ std::vector<Polyline> warned_borders(const FitScene& scene) {
       return other < sides.size() && sides[other].low == sides[i].low && sides[other].high == sides[i].high;
     };
     if (!same(i + 1) && (i == 0 || !same(i - 1)))
-      borders.push_back({{scene.after[sides[i].low], scene.after[sides[i].high]}, false, kInk, 0});
+      borders.push_back({{scene.after[sides[i].low], scene.after[sides[i].high]}, false, kBorderInk, 0});
   }
   return borders;
 }
@@ -66,9 +66,9 @@ std::vector<Polyline> warned_borders(const FitScene& scene) {
 cv::Mat before_and_after(const FitScene& scene, MakeView make) {
   const View view = framed(make, scene);
   const cv::Mat left =
-      draw(scene.before, {}, garment_lines(scene.lines_before, kGarment), view, kPanel, kPanel);
+      draw(scene.before, {}, garment_lines(scene.lines_before, kGarmentColour), view, kPanel, kPanel);
   const cv::Mat right = draw({scene.after, scene.before.triangles}, warned_colours(scene),
-                             garment_lines(scene.lines_after, kGarment), view, kPanel, kPanel);
+                             garment_lines(scene.lines_after, kGarmentColour), view, kPanel, kPanel);
   const char* after = scene.warned.empty() ? "after" : "after; orange: the skin folds";
   return side_by_side(with_caption(left, "before"), with_caption(right, after));
 }
@@ -107,7 +107,7 @@ cv::Mat back_picture(const FitScene& scene) {
 cv::Mat distortion_picture(const FitScene& scene) {
   const geometry::TriangleMesh after{scene.after, scene.before.triangles};
   const std::vector<Colour> colours = distortion_colours(scene.distortion);
-  std::vector<Polyline> lines = garment_lines(scene.lines_after, kInk);
+  std::vector<Polyline> lines = garment_lines(scene.lines_after, kBorderInk);
   for (Polyline& border : warned_borders(scene)) lines.push_back(std::move(border));
   std::vector<Part> rows = scene.parts;
   if (rows.empty()) rows.push_back({scene.before.vertices, false});

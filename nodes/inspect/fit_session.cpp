@@ -8,8 +8,8 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr std::size_t kSteps = 200;  // that are kept
-constexpr double kSame = 1e-9;       // ratio
+constexpr std::size_t kKeptSteps = 200;  // that are kept
+constexpr double kSame = 1e-9;           // ratio
 
 bool same(const Wish& one, const Wish& other) {
   return one.garment == other.garment && one.off == other.off &&
@@ -70,7 +70,7 @@ std::vector<std::string> Wish::regions() const {
 void FitSession::step() {
   after_.clear();
   before_.push_back(now_);
-  if (before_.size() > kSteps) before_.erase(before_.begin());
+  if (before_.size() > kKeptSteps) before_.erase(before_.begin());
   dragged_.clear();
 }
 

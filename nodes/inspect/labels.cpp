@@ -7,7 +7,7 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr int kMargin = 190;  // pixels
+constexpr int kLabelMargin = 190;  // pixels
 constexpr int kRow = 16;
 constexpr int kBeside = 8;        // between a name and its line
 constexpr double kMiddle = 0.02;  // of the width; what is so near the middle can be named on either side
@@ -50,9 +50,9 @@ void write_side(cv::Mat& picture, std::vector<const Label*> labels, bool left) {
   const std::vector<int> rows = rows_of(labels, picture.rows);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const Label& label = *labels[i];
-    const cv::Point at(kMargin + static_cast<int>(std::lround(label.at.x())),
+    const cv::Point at(kLabelMargin + static_cast<int>(std::lround(label.at.x())),
                        static_cast<int>(std::lround(label.at.y())));
-    const cv::Point edge(left ? kMargin : picture.cols - kMargin, rows[i]);
+    const cv::Point edge(left ? kLabelMargin : picture.cols - kLabelMargin, rows[i]);
     cv::line(picture, edge, at, kLeader, 1, cv::LINE_AA);
     int below = 0;
     const cv::Size size = cv::getTextSize(label.text, cv::FONT_HERSHEY_SIMPLEX, kSize, 1, &below);
@@ -64,7 +64,7 @@ void write_side(cv::Mat& picture, std::vector<const Label*> labels, bool left) {
 
 void draw_mark(cv::Mat& picture, const Label& label) {
   constexpr int kRadius = 4;
-  const cv::Point at(kMargin + static_cast<int>(std::lround(label.at.x())),
+  const cv::Point at(kLabelMargin + static_cast<int>(std::lround(label.at.x())),
                      static_cast<int>(std::lround(label.at.y())));
   if (label.mark == Label::Mark::dot) {
     cv::circle(picture, at, kRadius + 1, cv::Scalar(255, 255, 255), cv::FILLED, cv::LINE_AA);
@@ -78,7 +78,8 @@ void draw_mark(cv::Mat& picture, const Label& label) {
 
 cv::Mat with_labels(const cv::Mat& picture, const std::vector<Label>& labels) {
   cv::Mat result;
-  cv::copyMakeBorder(picture, result, 0, 0, kMargin, kMargin, cv::BORDER_CONSTANT, cv::Scalar(255, 255, 255));
+  cv::copyMakeBorder(picture, result, 0, 0, kLabelMargin, kLabelMargin, cv::BORDER_CONSTANT,
+                     cv::Scalar(255, 255, 255));
   std::vector<const Label*> left, right, middle;
   for (const Label& label : labels) {
     const double aside = label.at.x() / picture.cols - 0.5;

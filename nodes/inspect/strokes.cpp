@@ -5,7 +5,7 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr double kLift = 0.003;  // metres
+constexpr double kStrokeLift = 0.003;  // metres
 constexpr Colour kEdge{60, 60, 60};
 
 // Points on the skin, lifted as the control node next to them is.
@@ -28,7 +28,7 @@ std::vector<Eigen::Vector3d> lifted(const std::vector<Eigen::Vector3d>& outer,
                                     const std::vector<Eigen::Vector3i>& triangles) {
   const std::vector<Eigen::Vector3d> normals = geometry::vertex_normals(outer, triangles);
   std::vector<Eigen::Vector3d> positions = outer;
-  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += kLift * normals[i];
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += kStrokeLift * normals[i];
   return positions;
 }
 

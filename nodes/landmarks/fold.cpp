@@ -14,10 +14,10 @@ constexpr double kSectionSpacing = 0.0025;  // m between two profiles
 constexpr double kRim = 0.020;              // m along the skin: the areola's own rim is hollow too
 constexpr double kReach = 0.17;             // m along the skin, from a bust point to its fold
 constexpr double kPull = 15;                // 1/m of curvature that a place loses at the search's end
-constexpr double kStep = 0.012;     // m that a fold rises or falls from one profile to the next, at most
-constexpr double kContinued = 0.3;  // of its curvature below the bust point: less is no fold any more
-constexpr double kBottom = 0.6;     // of the curvature: skin that is as hollow takes part in the place
-constexpr double kOutlier = 0.004;  // m off the arc, where a place counts for half
+constexpr double kStep = 0.012;      // m that a fold rises or falls from one profile to the next, at most
+constexpr double kContinued = 0.3;   // of its curvature below the bust point: less is no fold any more
+constexpr double kFoldBottom = 0.6;  // of the curvature: skin that is as hollow takes part in the place
+constexpr double kOutlier = 0.004;   // m off the arc, where a place counts for half
 
 /// The most hollow place of a profile: the middle of the skin that is nearly as hollow; nothing where there
 /// is none.
@@ -40,7 +40,7 @@ std::optional<Hollow> most_hollow(const Profile& profile, const Vector3d& expect
   if (best < 0 || profile.curvature[best] <= 0) return std::nullopt;
   Vector3d sum = Vector3d::Zero();
   double weight = 0;
-  const double floor = kBottom * profile.curvature[best];
+  const double floor = kFoldBottom * profile.curvature[best];
   for (const int step : {-1, 1})
     for (int i = step < 0 ? best : best + 1; i >= first && i < last && profile.curvature[i] > floor;
          i += step) {

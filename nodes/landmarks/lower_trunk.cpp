@@ -15,26 +15,26 @@ constexpr double kLevels = 0.0025,
 constexpr int kEnd = 3;             // levels; a least girth this near the end of the search is the end's
 constexpr double kBottom = 0.0176;  // m each way, of the parabola through the least girth
 constexpr double kMoved = 0.006;    // m that it may move the level
-constexpr double kSeat = 0.040,
+constexpr double kSeatReach = 0.040,
                  kNarrowSeat =
                      0.025;        // m of a buttock's profile up and down; where that is round enough, less
 constexpr double kLeastRound = 2;  // 1/m; flatter profiles have no apex
-constexpr double kBeside = 0.010, kProfile = 0.12;   // m to the sides; of a profile's length
-constexpr int kProfiles = 4;                         // on each side of the middle one
-constexpr double kFlatSide = 0.003;                  // m: skin that is as far to the side
-constexpr double kPerineum = 0.04, kMidline = 0.06;  // m round it, and along the midline
+constexpr double kBeside = 0.010, kProfile = 0.12;        // m to the sides; of a profile's length
+constexpr int kProfiles = 4;                              // on each side of the middle one
+constexpr double kFlatSide = 0.003;                       // m: skin that is as far to the side
+constexpr double kPerineumReach = 0.04, kMidline = 0.06;  // m round it, and along the midline
 
 /// Where a quadratic surface through the skin of a buttock is rearmost; `start` where it is so nowhere near.
 Vector3d rearmost_near(const Surface& surface, const Vector3d& start) {
   Vector3d place = start;
   for (int pass = 0; pass < 8; ++pass) {
     const std::vector<int> near =
-        vertices_near(surface, place, kSeat, [&](int v) { return surface.arm[v] < 0.5; });
+        vertices_near(surface, place, kSeatReach, [&](int v) { return surface.arm[v] < 0.5; });
     if (near.size() < 12) return start;  // twice the unknowns
     Eigen::MatrixXd terms(near.size(), 6);
     Eigen::VectorXd depth(near.size());
     for (std::size_t i = 0; i < near.size(); ++i) {
-      const Vector3d d = (surface.mesh.vertices[near[i]] - place) / kSeat;
+      const Vector3d d = (surface.mesh.vertices[near[i]] - place) / kSeatReach;
       terms.row(static_cast<int>(i)) << 1, d.y(), d.z(), d.y() * d.y(), d.y() * d.z(), d.z() * d.z();
       depth[static_cast<int>(i)] = d.x();
     }
@@ -44,8 +44,8 @@ Vector3d rearmost_near(const Surface& surface, const Vector3d& start) {
     if (curvature.determinant() <= 0 || curvature.trace() <= 0) return start;
     Eigen::Vector2d step = -curvature.inverse() * Eigen::Vector2d(c[1], c[2]);
     if (step.norm() > 0.5) step *= 0.5 / step.norm();
-    place += kSeat * Vector3d(c[0], step.x(), step.y());
-    if ((place - start).norm() > kSeat) return start;
+    place += kSeatReach * Vector3d(c[0], step.x(), step.y());
+    if ((place - start).norm() > kSeatReach) return start;
     if (step.norm() < 0.01) break;
   }
   return place;
@@ -63,12 +63,12 @@ std::optional<Vector3d> find_buttock(const Trunk& trunk, const Vector3d& start_a
   std::vector<Vector3d> apexes;
   for (int i = -kProfiles; i <= kProfiles; ++i) {
     const Vector3d start = expected + kBeside * i / kProfiles * Vector3d::UnitY();
-    Profile profile = profile_down(trunk, start + kSeat * Vector3d::UnitZ(), kProfile);
-    for (const double reach : {kNarrowSeat, kSeat}) {
+    Profile profile = profile_down(trunk, start + kSeatReach * Vector3d::UnitZ(), kProfile);
+    for (const double reach : {kNarrowSeat, kSeatReach}) {
       Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
       Vector3d sums = Vector3d::Zero();
       for (const Vector3d& p : profile.points) {
-        const Vector3d d = (p - start) / kSeat;
+        const Vector3d d = (p - start) / kSeatReach;
         if (std::abs(p.z() - start.z()) > reach || d.x() > 1) continue;
         const Vector3d terms(1, d.z(), d.z() * d.z());
         squares += terms * terms.transpose();
@@ -76,9 +76,9 @@ std::optional<Vector3d> find_buttock(const Trunk& trunk, const Vector3d& start_a
       }
       if (squares(0, 0) < kNarrowSeat / Profile::kStep) continue;  // half of the profile's points
       const Vector3d c = squares.ldlt().solve(sums);
-      if (c[2] < kLeastRound * kSeat / 2) continue;  // flat: the wider reach may show it
+      if (c[2] < kLeastRound * kSeatReach / 2) continue;  // flat: the wider reach may show it
       const double up = std::clamp(-c[1] / (2 * c[2]), -0.5, 0.5);
-      apexes.emplace_back(start + kSeat * Vector3d(c[0] + up * (c[1] + up * c[2]), 0, up));
+      apexes.emplace_back(start + kSeatReach * Vector3d(c[0] + up * (c[1] + up * c[2]), 0, up));
       break;
     }
   }
@@ -178,7 +178,7 @@ std::optional<double> find_waist(const Trunk& trunk, double lowest, double highe
 
 std::optional<Vector3d> find_crotch(const Surface& surface, const Vector3d& expected) {
   std::vector<Vector3d> near;  // of the midline that comes nearest
-  double nearest = kPerineum;
+  double nearest = kPerineumReach;
   for (const geometry::SectionLoop& loop :
        cut(surface, expected, Vector3d::UnitY(), [](const Eigen::Vector3i&) { return true; })) {
     std::vector<Vector3d> points;
@@ -195,7 +195,7 @@ std::optional<Vector3d> find_crotch(const Surface& surface, const Vector3d& expe
   const Vector3d lowest = *std::min_element(
       near.begin(), near.end(), [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); });
   // Lower still further on: thighs that touch, or skin that fills the gap between them.
-  if ((lowest - expected).norm() > kMidline - kPerineum / 4) return std::nullopt;
+  if ((lowest - expected).norm() > kMidline - kPerineumReach / 4) return std::nullopt;
   return lowest;
 }
 

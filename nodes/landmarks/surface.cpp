@@ -9,9 +9,9 @@ namespace {
 using Eigen::Vector3d;
 using geometry::SectionLoop;
 
-constexpr double kSlab = 0.02;      // m
-constexpr double kSmoothing = 4;    // steps: deviation of the Gaussian that takes noise out of a profile
-constexpr std::size_t kFewest = 8;  // points of a loop; less are slivers where an arm was cut off
+constexpr double kSlab = 0.02;           // m
+constexpr double kProfileSmoothing = 4;  // steps: deviation of the Gaussian that takes noise out of a profile
+constexpr std::size_t kFewest = 8;       // points of a loop; less are slivers where an arm was cut off
 
 /// The triangles as a mesh of their own, numbered anew.
 geometry::TriangleMesh piece_of(const Surface& surface, const std::vector<int>& triangles) {
@@ -153,8 +153,8 @@ Profile profile_down(const Trunk& trunk, const Vector3d& start, double length) {
   }
   Profile profile;
   if (line.size() < 3) return profile;
-  profile.points = geometry::smoothed(even_steps(line, Profile::kStep, length), kSmoothing,
-                                      static_cast<int>(3 * kSmoothing));
+  profile.points = geometry::smoothed(even_steps(line, Profile::kStep, length), kProfileSmoothing,
+                                      static_cast<int>(3 * kProfileSmoothing));
   const int last = static_cast<int>(profile.points.size()) - 1;
   profile.curvature.assign(profile.points.size(), 0);
   for (int i = 1; i < last; ++i) {

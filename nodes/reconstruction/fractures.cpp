@@ -15,20 +15,21 @@ namespace {
 using Eigen::Vector2d, Eigen::Vector3d;
 using geometry::PointCloud;
 
-constexpr double kReach = 0.018;           // m, of the skin that is judged at a time
-constexpr double kSpacing = 0.012;         // m, between the places where it is judged
-constexpr double kFacing = 0.75;           // cosine between a point's normal and the place's
-constexpr std::size_t kFewest = 24;        // points
-constexpr double kSmallestShare = 0.2;     // of the points, on either sheet
+constexpr double kFractureReach = 0.018;    // m, of the skin that is judged at a time
+constexpr double kFractureSpacing = 0.012;  // m, between the places where it is judged
+constexpr double kFacing = 0.75;            // cosine between a point's normal and the place's
+constexpr std::size_t kFewestInSheet = 24;  // points
+constexpr double kSmallestShare = 0.2;      // of the points, on either sheet
 constexpr double kParted = 3.0;            // separation over the sheets' own deviation; one sheet cut in half
                                            // has 2.7
 constexpr double kBeside = 0.35;           // of the reach: sheets whose middles lie farther apart are a step
 constexpr double kFuzzy = 1.6;             // typical deviations; a sheet thicker than that is hair or fingers
 constexpr double kLeastOffset = 0.003;     // m
 constexpr double kOverRegistration = 1.3;  // of what 95 % of the body stays below
-constexpr double kSkinOfPlace = kSpacing * kSpacing / 1.5;  // m^2; a plane at any angle meets so many cubes
-constexpr std::size_t kFewestPlaces = 12;                   // 11 cm^2
-constexpr double kLowest = 0.10, kHighest = 0.85;           // toes end below, in m; the neck here, in heights
+constexpr double kSkinOfPlace =
+    kFractureSpacing * kFractureSpacing / 1.5;     // m^2; a plane at any angle meets so many cubes
+constexpr std::size_t kFewestPlaces = 12;          // 11 cm^2
+constexpr double kLowest = 0.10, kHighest = 0.85;  // toes end below, in m; the neck here, in heights
 
 /// How the points around a place lie to the smooth surface through them.
 struct Place {
@@ -99,7 +100,7 @@ bool judge(const PointCloud& body, const std::vector<int>& near, Place& place, V
       facing.push_back(i);
       mean += body.normals[i];
     }
-    if (facing.size() < kFewest) return false;
+    if (facing.size() < kFewestInSheet) return false;
     normal = mean.normalized();
   }
   const Vector3d right = normal.unitOrthogonal(), up = normal.cross(right);
@@ -107,7 +108,7 @@ bool judge(const PointCloud& body, const std::vector<int>& near, Place& place, V
   std::vector<double> heights;
   for (int i : facing) {
     const Vector3d d = body.points[i] - place.point;
-    at.emplace_back(right.dot(d) / kReach, up.dot(d) / kReach);
+    at.emplace_back(right.dot(d) / kFractureReach, up.dot(d) / kFractureReach);
     heights.push_back(normal.dot(d));
   }
   remove_bend(at, heights);
@@ -116,7 +117,7 @@ bool judge(const PointCloud& body, const std::vector<int>& near, Place& place, V
 }
 
 std::vector<Place> judged_places(const PointCloud& body) {
-  const VoxelGrid grid(body.points, kReach), spacing(body.points, kSpacing);
+  const VoxelGrid grid(body.points, kFractureReach), spacing(body.points, kFractureSpacing);
   std::vector<int> cell_of(body.points.size()), cells, near;
   for (int c = 0; c < grid.cell_count(); ++c)
     for (int i = grid.begin(c); i < grid.end(c); ++i) cell_of[grid.order()[i]] = c;
@@ -128,7 +129,7 @@ std::vector<Place> judged_places(const PointCloud& body) {
     near.clear();
     for (int c : cells)
       for (int i = grid.begin(c); i < grid.end(c); ++i)
-        if ((body.points[grid.order()[i]] - place.point).squaredNorm() < kReach * kReach)
+        if ((body.points[grid.order()[i]] - place.point).squaredNorm() < kFractureReach * kFractureReach)
           near.push_back(grid.order()[i]);
     if (judge(body, near, place, body.normals[middle])) places.push_back(place);
   }
@@ -157,7 +158,7 @@ std::vector<Place> linked(std::vector<Place>& left) {
   left.pop_back();
   for (std::size_t i = 0; i < group.size(); ++i) {
     const auto apart = std::stable_partition(left.begin(), left.end(), [&](const Place& p) {
-      return (p.point - group[i].point).norm() > kSpacing * std::sqrt(3.0);
+      return (p.point - group[i].point).norm() > kFractureSpacing * std::sqrt(3.0);
     });
     std::vector<Place> next(apart, left.end());
     left.erase(apart, left.end());
@@ -183,7 +184,7 @@ std::vector<geometry::Fracture> find_fractures(const PointCloud& body) {
       offsets.push_back(p.separation);
     }
     for (const Place& p : group)
-      fracture.radius = std::max(fracture.radius, (p.point - fracture.centre).norm() + kReach);
+      fracture.radius = std::max(fracture.radius, (p.point - fracture.centre).norm() + kFractureReach);
     fracture.area = static_cast<double>(group.size()) * kSkinOfPlace;
     fracture.offset = percentile(offsets, 0.9);
     fractures.push_back(fracture);

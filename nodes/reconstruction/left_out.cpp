@@ -17,7 +17,7 @@ using Points = std::vector<Vector3d>;
 constexpr double kBare = 0.03;  // m of RegisteredBody::support: no points round that skin
 constexpr double kLimb = 0.04;  // m from the model's skin: half a forearm's breadth
 constexpr int kCompany = 5;  // points, of which one lies within kLimb / 2 of the next: single ones are stray
-constexpr double kBeside = 0.3;  // m; farther things are the booth's
+constexpr double kFarFromBody = 0.3;  // m; farther things are the booth's
 constexpr double kSmall = 0.005,
                  kLarge = 0.25;     // of the body's points: less is stray; more is named wherever it is
 constexpr std::size_t kNamed = 10;  // things that are named at most
@@ -59,7 +59,7 @@ std::vector<body_model::Unexplained> things_beside(const Points& left_out,
       nearest = (body.skin[v] - p).norm();
       part = body.model->parts[body.model->part[v]].c_str();
     }
-    if (nearest > kBeside && share < kLarge) continue;
+    if (nearest > kFarFromBody && share < kLarge) continue;
     const auto box = geometry::bounding_box(points);
     things.push_back(
         {centre, (box[1] - box[0]).norm(), share,

@@ -24,16 +24,17 @@ constexpr std::array<double, 3> kRadii = {0.025, 0.020, 0.015};  // m, of the pa
 constexpr int kSearchStep = 3, kMendStep = 1;                    // cells from patch to patch
 constexpr double kLeastDifference = 0.00075;  // m, of a sheet from the mean of those that part
 constexpr double kOverUsual = 4;              // usual differences
-constexpr double kFuzzy = 2.2;       // usual thicknesses; where a sheet is thicker there are fingers or hair
-constexpr double kLinked = 0.07;     // m, around a patch that parts,
-constexpr int kFewestLinked = 4;     // with so many that do
-constexpr double kReach = 0.12;      // m, of shifts beyond the patches that part
-constexpr double kSpacing = 0.05;    // m, of the places whose shifts are sought
-constexpr double kStiffness = 2;     // points that hold neighbouring places together
-constexpr double kPrior = 0.05;      // points that hold a place still
-constexpr int kMostSteps = 500;      // of conjugate gradients; 20 to 30 are usual
-constexpr double kTolerance = 1e-6;  // of the solution, relative
-constexpr double kLowest = 0.10, kHighest = 0.85;  // toes end below, in m; the neck here, in heights
+constexpr double kFuzzySheet = 2.2;   // usual thicknesses; where a sheet is thicker there are fingers or hair
+constexpr double kLinked = 0.07;      // m, around a patch that parts,
+constexpr int kFewestLinked = 4;      // with so many that do
+constexpr double kShiftReach = 0.12;  // m, of shifts beyond the patches that part
+constexpr double kShiftSpacing = 0.05;  // m, of the places whose shifts are sought
+constexpr double kStiffness = 2;        // points that hold neighbouring places together
+constexpr double kPrior = 0.05;         // points that hold a place still
+constexpr int kMostSteps = 500;         // of conjugate gradients; 20 to 30 are usual
+constexpr double kTolerance = 1e-6;     // of the solution, relative
+constexpr double kLowestMended = 0.10,
+                 kHighestMended = 0.85;  // toes end below, in m; the neck here, in heights
 
 /// Middles of the patches whose sheets part, where many do.
 Points parted(const SensorPatches& all, double height) {
@@ -51,10 +52,10 @@ Points parted(const SensorPatches& all, double height) {
     return *std::max_element(of.begin() + patch.begin, of.begin() + patch.end);
   };
   const double least = std::max(kLeastDifference, kOverUsual * percentile(differences, 0.5)),
-               thickest = kFuzzy * percentile(thicknesses, 0.5);
+               thickest = kFuzzySheet * percentile(thicknesses, 0.5);
   Points found, result;
   for (const Patch& patch : all.patches)
-    if (patch.centre.z() > kLowest && patch.centre.z() < kHighest * height &&
+    if (patch.centre.z() > kLowestMended && patch.centre.z() < kHighestMended * height &&
         largest(differences, patch) > least && largest(thicknesses, patch) < thickest)
       found.push_back(patch.centre);
   std::copy_if(found.begin(), found.end(), std::back_inserter(result), [&](const Vector3d& p) {
@@ -69,7 +70,8 @@ std::vector<int> near_to(const Points& places, const Points& points) {
   const geometry::PointTree tree(places);
   std::vector<int> near;
   for (std::size_t i = 0; i < points.size(); ++i)
-    if ((points[i] - places[tree.nearest(points[i])]).norm() < kReach) near.push_back(static_cast<int>(i));
+    if ((points[i] - places[tree.nearest(points[i])]).norm() < kShiftReach)
+      near.push_back(static_cast<int>(i));
   return near;
 }
 
@@ -127,7 +129,7 @@ class Field {
  private:
   using Key = std::array<int, 4>;  // x, y, z, sensor
 
-  static Eigen::Array3i cell(const Vector3d& p) { return (p.array() / kSpacing).floor().cast<int>(); }
+  static Eigen::Array3i cell(const Vector3d& p) { return (p.array() / kShiftSpacing).floor().cast<int>(); }
   static Key key(const Eigen::Array3i& low, int corner, int sensor) {
     return {low.x() + (corner & 1), low.y() + (corner >> 1 & 1), low.z() + (corner >> 2 & 1), sensor};
   }
@@ -136,7 +138,7 @@ class Field {
   template <typename Use>
   void for_places(const Vector3d& p, int sensor, const Use& use) const {
     const Eigen::Array3i low = cell(p);
-    const Eigen::Array3d at = p.array() / kSpacing - low.cast<double>();
+    const Eigen::Array3d at = p.array() / kShiftSpacing - low.cast<double>();
     for (int corner = 0; corner < 8; ++corner) {
       const auto found = numbers_.find(key(low, corner, sensor));
       if (found == numbers_.end()) continue;

@@ -15,8 +15,8 @@
 namespace tensegric_fit::reconstruction {
 namespace {
 
-constexpr int kNeighbours = 16;  // of the plane through a point's surroundings
-constexpr int kLinks = 8;        // nearest neighbours whose signs are linked
+constexpr int kPlaneNeighbours = 16;  // of the plane through a point's surroundings
+constexpr int kLinks = 8;             // nearest neighbours whose signs are linked
 
 struct Link {
   float agreement;  // |n_a . n_b|
@@ -35,7 +35,7 @@ void plane_normals(const std::vector<Eigen::Vector3d>& points, const geometry::P
   std::vector<int> near;
   for (std::size_t at = begin; at < end; ++at) {
     const int i = tree.order()[at];
-    tree.nearest(points[i], kNeighbours, near);
+    tree.nearest(points[i], kPlaneNeighbours, near);
     normals[i] = geometry::local_plane(points, near).normal;
     for (int k = 0; k < std::min<int>(kLinks + 1, static_cast<int>(near.size())); ++k)
       if (near[k] > i || k == kLinks) links.push_back({0, i, near[k]});

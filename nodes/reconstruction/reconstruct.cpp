@@ -189,13 +189,13 @@ body_model::Samples samples_of(const PointCloud& cloud) {
   return samples;
 }
 
-constexpr std::size_t kFewest = 20;  // points; fewer show no limb
-constexpr int kRounds = 3;           // each finds the limb a little farther out
+constexpr std::size_t kFewestOfLimb = 20;  // points; fewer show no limb
+constexpr int kLimbRounds = 3;             // each finds the limb a little farther out
 
 /// Takes in what was left out of her limbs; whether there was anything.
 bool take_limbs(Person& person, const RegisteredBody& model) {
   const std::vector<int> limbs = points_of_limbs(person.left_out.points, model);
-  if (limbs.size() < kFewest) return false;
+  if (limbs.size() < kFewestOfLimb) return false;
   const std::vector<Eigen::Vector3d> skin_normals =
       geometry::vertex_normals(model.skin, model.model->triangles);
   const geometry::PointTree skin(model.skin);
@@ -211,7 +211,7 @@ bool take_limbs(Person& person, const RegisteredBody& model) {
 /// The model on her, with limbs whose points are sparse.
 RegisteredBody registered(Person& person, const Anatomy& anatomy) {
   RegisteredBody model = anatomy.registered(samples_of(person.cloud));
-  for (int round = 0; round < kRounds && take_limbs(person, model); ++round)
+  for (int round = 0; round < kLimbRounds && take_limbs(person, model); ++round)
     model = anatomy.registered(samples_of(person.cloud));
   for (body_model::Unexplained& thing :
        things_beside(person.left_out.points, model, person.cloud.points.size()))

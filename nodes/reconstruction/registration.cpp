@@ -19,10 +19,10 @@ constexpr double kDense = 180000;
 constexpr double kLargest = 0.025;  // m
 constexpr int kStep = 3;            // cells from patch to patch
 constexpr int kPasses = 2, kRounds = 4;
-constexpr double kOutlier = 4.5;           // usual differences, at which a sheet counts a quarter
-constexpr double kLeastDifference = 1e-5;  // m
-constexpr double kPrior = 1e-3;            // of the usual weight, that holds a motion to zero
-constexpr double kMost = 0.010;            // m and rad, of a motion
+constexpr double kOutlier = 4.5;       // usual differences, at which a sheet counts a quarter
+constexpr double kLastMotion = 1e-5;   // m
+constexpr double kMotionPrior = 1e-3;  // of the usual weight, that holds a motion to zero
+constexpr double kMost = 0.010;        // m and rad, of a motion
 // m; sensors that a booth has registered itself differ by 0.1 to 0.3, and another registration betters
 // nothing.
 constexpr double kNegligible = 0.0004;
@@ -65,10 +65,10 @@ void improve(const SensorPatches& all, double radius, const Eigen::Vector3d& mid
         squares.block<6, 6>(at(i), at(j)) += of_motion.transpose() * equations.squares(i, j) * of_motion;
     }
   }
-  const double usual = std::max(kLeastDifference, percentile(difference, 0.5));
+  const double usual = std::max(kLastMotion, percentile(difference, 0.5));
   for (std::size_t i = 0; i < difference.size(); ++i)
     weights[i] = std::pow(1 + std::pow(difference[i] / (kOutlier * usual), 2), -2);
-  const double prior = kPrior * squares.trace() / static_cast<double>(motions.size());
+  const double prior = kMotionPrior * squares.trace() / static_cast<double>(motions.size());
   squares.diagonal().array() += prior;
   motions += squares.ldlt().solve(right - prior * motions);
 }

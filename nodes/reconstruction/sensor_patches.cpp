@@ -15,10 +15,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kFewest = 4;       // points of a sensor in a patch
-constexpr double kFlat = 0.1;    // least variance over the next
-constexpr double kFacing = 0.5;  // cosine between the normals of a patch
-constexpr double kRidge = 1e-6;  // of a patch's surface
+constexpr int kFewestInPatch = 4;     // points of a sensor in a patch
+constexpr double kFlat = 0.1;         // least variance over the next
+constexpr double kPatchFacing = 0.5;  // cosine between the normals of a patch
+constexpr double kRidge = 1e-6;       // of a patch's surface
 
 class Patches {
  public:
@@ -57,7 +57,7 @@ class Patches {
     near_points(cell, patch.centre, near);
     if (!normals_.empty()) keep_facing(grid_.order()[grid_.begin(cell)], near);
     const std::vector<int> count = seen_by(near);
-    if (std::count_if(count.begin(), count.end(), [](int n) { return n >= kFewest; }) >= 2 &&
+    if (std::count_if(count.begin(), count.end(), [](int n) { return n >= kFewestInPatch; }) >= 2 &&
         lay(near, patch))
       add_sheets(near, count, patch, result);
   }
@@ -77,7 +77,7 @@ class Patches {
   /// Those that face the way of one of them.
   void keep_facing(int one, std::vector<int>& near) const {
     near.erase(std::remove_if(near.begin(), near.end(),
-                              [&](int i) { return !(normals_[i].dot(normals_[one]) > kFacing); }),
+                              [&](int i) { return !(normals_[i].dot(normals_[one]) > kPatchFacing); }),
                near.end());
   }
 
@@ -118,7 +118,7 @@ class Patches {
     std::vector<int> sheet_of(sensors_, -1);
     patch.begin = result.sheets.size();
     for (int s = 0; s < sensors_; ++s) {
-      if (count[s] < kFewest) continue;
+      if (count[s] < kFewestInPatch) continue;
       sheet_of[s] = static_cast<int>(result.sheets.size());
       result.sheets.push_back(
           {s, static_cast<double>(count[s]), Eigen::Matrix<double, 6, 6>::Zero(), Surface::Zero(), 0});

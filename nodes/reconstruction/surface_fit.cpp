@@ -9,11 +9,11 @@
 namespace tensegric_fit::reconstruction {
 namespace {
 
-constexpr int kRounds = 3;
-constexpr int kNeighbours = 24;
+constexpr int kFitRounds = 3;
+constexpr int kFitNeighbours = 24;
 constexpr int kRemembered =
     32;  // nearest points; they hold the neighbours of a vertex that has moved a little
-constexpr double kReach = 2.5;             // bandwidths; points farther away do not count
+constexpr double kFitReach = 2.5;          // bandwidths; points farther away do not count
 constexpr double kLeastBandwidth = 0.003;  // m, of the Gaussian weight
 constexpr double kMostBandwidth = 0.010;   // m
 constexpr double kOfNeighbourhood = 0.4;   // bandwidth by the distance of the last neighbour
@@ -31,7 +31,7 @@ double distance_from_points(const Eigen::Vector3d& p, const Eigen::Vector3d& nor
   for (int j : near) {
     const Eigen::Vector3d d = p - cloud.points[j];
     const double relative = d.squaredNorm() / (bandwidth * bandwidth);
-    if (relative > kReach * kReach || cloud.normals[j].dot(normal) < kSameSide) continue;
+    if (relative > kFitReach * kFitReach || cloud.normals[j].dot(normal) < kSameSide) continue;
     const double weight = std::exp(-relative / 2);
     weights += weight;
     sum += weight * (cloud.normals[j] + normal).dot(d) / 2;
@@ -42,7 +42,7 @@ double distance_from_points(const Eigen::Vector3d& p, const Eigen::Vector3d& nor
 /// Nearest points of a vertex while it moves.
 class Surroundings {
  public:
-  /// Indices of the kNeighbours nearest, nearest first.
+  /// Indices of the kFitNeighbours nearest, nearest first.
   void nearest(const geometry::PointTree& tree, const std::vector<Eigen::Vector3d>& points,
                const Eigen::Vector3d& p, std::vector<int>& near) {
     if (!still_nearest(points, p, near)) {
@@ -52,7 +52,7 @@ class Surroundings {
       from_ = p;
       reach_ = (points[near.back()] - p).norm();
     }
-    near.resize(std::min<std::size_t>(near.size(), kNeighbours));
+    near.resize(std::min<std::size_t>(near.size(), kFitNeighbours));
   }
 
  private:
@@ -64,9 +64,9 @@ class Surroundings {
     for (std::size_t i = 0; i < kRemembered; ++i)
       by_distance[i] = {(points[remembered_[i]] - p).squaredNorm(), remembered_[i]};
     std::sort(by_distance.begin(), by_distance.end());
-    if (std::sqrt(by_distance[kNeighbours - 1].first) >= reach_ - (p - from_).norm()) return false;
-    near.resize(kNeighbours);
-    for (std::size_t i = 0; i < kNeighbours; ++i) near[i] = by_distance[i].second;
+    if (std::sqrt(by_distance[kFitNeighbours - 1].first) >= reach_ - (p - from_).norm()) return false;
+    near.resize(kFitNeighbours);
+    for (std::size_t i = 0; i < kFitNeighbours; ++i) near[i] = by_distance[i].second;
     return true;
   }
 
@@ -81,7 +81,7 @@ class Surroundings {
 void fit_to_points(geometry::TriangleMesh& mesh, const geometry::PointCloud& cloud,
                    const geometry::PointTree& tree) {
   std::vector<Surroundings> surroundings(mesh.vertices.size());
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     const std::vector<Eigen::Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
     geometry::parallel_for(mesh.vertices.size(), [&](std::size_t begin, std::size_t end, int) {
       std::vector<int> near;

@@ -10,7 +10,7 @@ namespace {
 
 using geometry::PointCloud;
 
-constexpr double kSurroundings = 0.01;                           // m; cubes whose 27 show how the skin bends
+constexpr double kBendSurroundings = 0.01;                       // m; cubes whose 27 show how the skin bends
 constexpr std::array<double, 3> kCube = {0.0025, 0.005, 0.010};  // m
 constexpr std::array<int, 3> kTimes = {3, 2, 1};                 // that a mean of each cube counts
 constexpr double kOneSide = 0.8;  // length of the mean normal of a cube; below, it holds two sides of a gap
@@ -66,7 +66,7 @@ PointCloud merged(const PointCloud& cloud, double cube) {
 }
 
 PointCloud thinned(const PointCloud& cloud, const std::array<double, 2>& fine) {
-  const VoxelGrid grid(cloud.points, kSurroundings);
+  const VoxelGrid grid(cloud.points, kBendSurroundings);
   std::array<PointCloud, kCube.size()> by_cube;
   std::vector<Eigen::Vector3d> sum(grid.cell_count(), Eigen::Vector3d::Zero());
   for (int c = 0; c < grid.cell_count(); ++c)

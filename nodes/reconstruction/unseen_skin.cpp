@@ -14,13 +14,13 @@ namespace {
 
 constexpr double kUnseen =
     0.008;  // m from every point that faces the same way: sparse scans leave 5 between two
-constexpr double kReach =
+constexpr double kUnseenReach =
     0.02;  // m that a normal turned by 60 degrees counts like: the other wall of a pocket is no neighbour
 constexpr double kBeyond =
     0.10;  // m; skin that far from every point is a part that was not scanned, and is not made up
-constexpr double kSpacing = 0.004;  // m
-constexpr double kInside = 0.03;    // m under other skin that faces the other way: parts that touch
-constexpr int kAround = 100;        // samples within that
+constexpr double kUnseenSpacing = 0.004;  // m
+constexpr double kInside = 0.03;          // m under other skin that faces the other way: parts that touch
+constexpr int kAround = 100;              // samples within that
 
 }  // namespace
 
@@ -35,7 +35,7 @@ geometry::PointCloud unseen_skin(const body_model::RegisteredBody& body, const g
     area += geometry::area_vector(body.skin[t[0]], body.skin[t[1]], body.skin[t[2]]).norm() / 2;
   }
   const body_model::Samples spread =
-      body_model::sample_surface(skin, {}, static_cast<int>(area / (kSpacing * kSpacing)));
+      body_model::sample_surface(skin, {}, static_cast<int>(area / (kUnseenSpacing * kUnseenSpacing)));
   const VoxelGrid grid(spread.points, kInside);
   body_model::Samples samples;  // those beside each other stand beside each other in memory
   for (const int i : grid.order()) {
@@ -53,7 +53,8 @@ geometry::PointCloud unseen_skin(const body_model::RegisteredBody& body, const g
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3d &p = samples.points[i], &n = samples.normals[i];
       const auto is_seen = [&](int j) {
-        return (seen.points[j] - p).squaredNorm() + kReach * kReach * (seen.normals[j] - n).squaredNorm() <
+        return (seen.points[j] - p).squaredNorm() +
+                   kUnseenReach * kUnseenReach * (seen.normals[j] - n).squaredNorm() <
                kUnseen * kUnseen;
       };
       if (tree.any_within(p, kUnseen, is_seen)) continue;

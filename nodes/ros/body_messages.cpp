@@ -7,7 +7,7 @@ namespace {
 
 using geometry::Refusal;
 
-Landmarks::_body_from_scan_type rows_of(const Eigen::Isometry3d& isometry) {
+Landmarks::_body_from_scan_type transform_of(const Eigen::Isometry3d& isometry) {
   Landmarks::_body_from_scan_type rows;
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column) rows[4 * row + column] = isometry.matrix()(row, column);
@@ -111,7 +111,7 @@ Landmarks to_message(const ScanTag& tag, const geometry::BodyMeasures& measures)
   Landmarks message;
   message.header = tag.header;
   message.scan_id = tag.scan_id;
-  message.body_from_scan = rows_of(measures.body_from_scan);
+  message.body_from_scan = transform_of(measures.body_from_scan);
   for (const geometry::Landmark& landmark : measures.landmarks) {
     Landmark point;
     point.name = landmark.name;

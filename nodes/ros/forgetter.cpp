@@ -8,7 +8,7 @@
 namespace tensegric_fit::node {
 namespace {
 
-const ros::WallDuration kTick(0.05), kPatience(10);  // who ordered it may be gone
+const ros::WallDuration kTick(0.05), kOrdererPatience(10);  // who ordered it may be gone
 
 }  // namespace
 
@@ -59,7 +59,7 @@ void Forgetter::let_go() {
   done.removed = {"what it held, and its latched messages"};
   answer(*order_, done);
   order_.reset();
-  for (const ros::WallTime end = ros::WallTime::now() + kPatience;
+  for (const ros::WallTime end = ros::WallTime::now() + kOrdererPatience;
        ros::ok() && !go_on_ && ros::WallTime::now() < end;)
     ros::getGlobalCallbackQueue()->callAvailable(kTick);
 }

@@ -22,9 +22,9 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr int kWidth = 430;        // pixels
-constexpr int kLongestName = 60;   // letters of a customer id
-constexpr float kStepBack = 1.7F;  // of the camera, to see two bodies in place of one
+constexpr int kPanelWidth = 430;      // pixels
+constexpr int kLongestCustomer = 60;  // letters of a customer id
+constexpr float kStepBack = 1.7F;     // of the camera, to see two bodies in place of one
 constexpr char kWarning[] = "color: #b2182b; font-weight: bold";
 constexpr char kDisplay[] = "tensegric_fit/BodyMesh";
 
@@ -89,7 +89,7 @@ FitPanel::FitPanel(QWidget* parent) : rviz::Panel(parent) {
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
   all->addWidget(new UprightScroll(inside));
-  setMinimumWidth(kWidth);
+  setMinimumWidth(kPanelWidth);
   const auto* back =
       new QShortcut(QKeySequence::Undo, this, nullptr, nullptr, Qt::WidgetWithChildrenShortcut);
   connect(back, &QShortcut::activated, this, &FitPanel::undo);
@@ -159,7 +159,7 @@ void FitPanel::build_export(QVBoxLayout* layout) {
   auto* whose = new QHBoxLayout;
   auto* name = new QLabel(words::kCustomer);
   customer_ = new QLineEdit;
-  customer_->setMaxLength(kLongestName);
+  customer_->setMaxLength(kLongestCustomer);
   customer_->setEnabled(false);
   name->setBuddy(customer_);
   whose->addWidget(name);

@@ -12,7 +12,8 @@ constexpr double kBegins = 0.7;  // s0
 constexpr double kStiffness =
     0.3;  // times k and the mean edge: keeps triangles above half their area at 0.90
 constexpr int kMostInversions = 60;  // 5 to 30: the curve begins with a square
-constexpr double kFlat = 1e-3;  // volume at rest / that of an upright unit, below which there is no barrier
+constexpr double kFlatAtRest =
+    1e-3;  // volume at rest / that of an upright unit, below which there is no barrier
 
 // From the apex to the three corners.
 struct Spokes {
@@ -72,7 +73,7 @@ std::vector<UnitVolume> unit_volumes(const Model& model, const std::vector<int>&
     const double edge = ((s.a - s.b).norm() + (s.b - s.c).norm() + (s.c - s.a).norm()) / 3;
     const double upright = edge * edge * (s.a + s.b + s.c).norm() / 3;
     unit.stiffness = kStiffness * edge;
-    if (moves && side * unit.rest > kFlat * upright) units.push_back(unit);
+    if (moves && side * unit.rest > kFlatAtRest * upright) units.push_back(unit);
   };
   for (const auto& [a, b, c, d, e, f] : model.units()) {
     place({a, b, c, d, e, f}, 1);

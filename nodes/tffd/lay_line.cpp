@@ -20,7 +20,7 @@ using geometry::SurfacePoint;
 namespace refusal = geometry::refusal;
 
 constexpr double kFarFromSkin = 0.030;  // m
-constexpr double kNearLine = 0.15;      // m: skin farther from the line than this has no part in it
+constexpr double kLineReach = 0.15;     // m: skin farther from the line than this has no part in it
 constexpr double kSpacing = 0.003;      // m, between points along a fibre while it is laid
 constexpr double kMarch = 0.0025;       // m, a step over the skin across the band
 constexpr double kTurn = 0.020;         // m: the way across the band is averaged over so much of it
@@ -71,7 +71,7 @@ class SkinNear {
   static geometry::TriangleMesh near(const geometry::TriangleMesh& body, const std::vector<Vector3d>& line) {
     const geometry::PointTree tree(line);
     std::vector<char> close(body.vertices.size());
-    for (std::size_t v = 0; v < close.size(); ++v) close[v] = tree.distance(body.vertices[v]) < kNearLine;
+    for (std::size_t v = 0; v < close.size(); ++v) close[v] = tree.distance(body.vertices[v]) < kLineReach;
     geometry::TriangleMesh skin{body.vertices, {}};
     for (const Eigen::Vector3i& t : body.triangles)
       if (close[t[0]] && close[t[1]] && close[t[2]]) skin.triangles.push_back(t);

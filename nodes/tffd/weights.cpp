@@ -15,7 +15,7 @@ constexpr double kGlobalFrom = 0.5;
 
 // Of a vertex over the middle of well shaped triangles the absolute weights sum to 1 + 2 height / thickness,
 // of one at the rim to some more; more than this only by extrapolation from slivers.
-constexpr double kMostStretch = 3;
+constexpr double kMostFrameStretch = 3;
 constexpr double kFirstPower = 0.5, kMostPower = 64;
 constexpr int kBisections = 30;
 
@@ -140,16 +140,16 @@ void favour_near(const std::vector<Near>& before, double power, std::vector<Near
   for (Near& triangle : near) triangle.k /= sum;
 }
 
-// Where the absolute weights of a vertex sum to more than kMostStretch, by slivers that would carry it far
-// beyond themselves: the least power that brings them down to it, so that rows change smoothly over the skin
-// and none changes that need not. Any shares keep the mapping affine-exact.
+// Where the absolute weights of a vertex sum to more than kMostFrameStretch, by slivers that would carry it
+// far beyond themselves: the least power that brings them down to it, so that rows change smoothly over the
+// skin and none changes that need not. Any shares keep the mapping affine-exact.
 template <typename Absolute>
 void limit_stretch(std::vector<Near>& near, const Absolute& absolute) {
-  if (absolute(near) <= kMostStretch) return;
+  if (absolute(near) <= kMostFrameStretch) return;
   const std::vector<Near> before = near;
   double low = 0, high = kFirstPower;
   favour_near(before, high, near);
-  while (absolute(near) > kMostStretch && high < kMostPower) {
+  while (absolute(near) > kMostFrameStretch && high < kMostPower) {
     low = high;
     high *= 2;
     favour_near(before, high, near);
@@ -157,7 +157,7 @@ void limit_stretch(std::vector<Near>& near, const Absolute& absolute) {
   for (int step = 0; step < kBisections; ++step) {
     const double middle = 0.5 * (low + high);
     favour_near(before, middle, near);
-    (absolute(near) > kMostStretch ? low : high) = middle;
+    (absolute(near) > kMostFrameStretch ? low : high) = middle;
   }
   favour_near(before, high, near);
 }

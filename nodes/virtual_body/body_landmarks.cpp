@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 // The most concave point of the sagittal profile below a bust point, and its curvature, 1/m.
-struct Fold {
+struct ProfileFold {
   Vector3d point;
   double curvature;
 };
@@ -24,7 +24,7 @@ Vector3d foremost(const BodyShape& shape, double y, double z) {
   return shape.exit_point(p, Vector3d::UnitX());
 }
 
-Fold fold_below(const BodyShape& shape, double y, double bust_height) {
+ProfileFold fold_below(const BodyShape& shape, double y, double bust_height) {
   const double step = shape.scaled(0.001);
   constexpr int kSteps = 320, kWindow = 4;  // curvature over 8 mm, less than a fold's width
   constexpr double kAbove = 0.03;           // where a breast hangs, its fold is higher than its tip
@@ -38,7 +38,7 @@ Fold fold_below(const BodyShape& shape, double y, double bust_height) {
     turn.push_back(std::atan2(g.z(), g.x()));
     p = shape.project(p + step * Vector3d(g.z(), 0, -g.x()), in_plane);
   }
-  Fold fold{profile.front(), 0};
+  ProfileFold fold{profile.front(), 0};
   for (int i = kWindow; i + kWindow < kSteps; ++i) {
     const double curvature = (turn[i + kWindow] - turn[i - kWindow]) / (2 * kWindow * step);
     if (curvature > fold.curvature && shape.is_under_breast(profile[i])) fold = {profile[i], curvature};
@@ -48,8 +48,8 @@ Fold fold_below(const BodyShape& shape, double y, double bust_height) {
 
 constexpr double kFlat = 20;  // 1/m: a profile that is less concave has no fold
 
-Fold fold_under(const BodyShape& shape, const Vector3d& bust_point) {
-  const Fold fold = fold_below(shape, bust_point.y(), bust_point.z());
+ProfileFold fold_under(const BodyShape& shape, const Vector3d& bust_point) {
+  const ProfileFold fold = fold_below(shape, bust_point.y(), bust_point.z());
   if (fold.curvature > kFlat) return fold;
   throw geometry::Refusal(
       geometry::refusal::kBadOption,
@@ -63,7 +63,7 @@ Vector3d lowest_fold(const BodyShape& shape, const Vector3d& bust_point) {
   Vector3d lowest = fold_under(shape, bust_point).point;
   for (double medial = kStep; medial < kReach + kStep / 2; medial += kStep) {
     const double y = bust_point.y() - std::copysign(medial, bust_point.y());
-    const Fold fold = fold_below(shape, y, bust_point.z());
+    const ProfileFold fold = fold_below(shape, y, bust_point.z());
     if (fold.curvature > kFlat && fold.point.z() < lowest.z()) lowest = fold.point;
   }
   return lowest;

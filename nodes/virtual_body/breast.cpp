@@ -11,11 +11,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-const Vector3d kReach(0.080, 0.056, 0.062);  // forward, sideways, down
-constexpr double kUp = 0.100;                // reach upwards: a drop, not a ball
-constexpr double kDepth = 0.044;             // of the middle under the chest wall
-constexpr double kOutward = 0.28;            // radians
-constexpr double kSlope = 0.60;              // how fast its upper half recedes towards the collarbone
+const Vector3d kBreastReach(0.080, 0.056, 0.062);  // forward, sideways, down
+constexpr double kUp = 0.100;                      // reach upwards: a drop, not a ball
+constexpr double kDepth = 0.044;                   // of the middle under the chest wall
+constexpr double kOutward = 0.28;                  // radians
+constexpr double kSlope = 0.60;                    // how fast its upper half recedes towards the collarbone
 constexpr double kNippleHeight = 0.005, kNippleWidth = 0.007;
 // The tip lies where the skin looks 25 degrees outwards and a little up.
 constexpr double kTipBack = 0.003, kTipOut = 0.008, kTipUp = 0.011;
@@ -33,22 +33,23 @@ Breast::Breast(const Vector3d& chest, double size, double sag)
       local_(Eigen::AngleAxisd(-kOutward, Vector3d::UnitZ()).toRotationMatrix()),
       size_(size),
       sag_(sag) {
-  nipple_ = centre_ + size * (local_.transpose() *
-                              Vector3d(kReach.x() - kTipBack, kTipOut, kTipUp - sag * (kTilt + kDroop)));
+  nipple_ = centre_ + size * (local_.transpose() * Vector3d(kBreastReach.x() - kTipBack, kTipOut,
+                                                            kTipUp - sag * (kTilt + kDroop)));
 }
 
 Vector3d Breast::inside() const {
-  return nipple_ - 0.15 * size_ * kReach.x() * forward();  // no deeper: a breast that hangs is thin there
+  return nipple_ -
+         0.15 * size_ * kBreastReach.x() * forward();  // no deeper: a breast that hangs is thin there
 }
 
 double Breast::value(const Vector3d& p) const {
   constexpr double kSoft = 0.010;  // the tilt sets in over this length
   Vector3d q = local_ * (p - centre_);
-  const double reach = size_ * kReach.x(), far = (q.x() + std::hypot(q.x(), kSoft)) / (2 * reach);
+  const double reach = size_ * kBreastReach.x(), far = (q.x() + std::hypot(q.x(), kSoft)) / (2 * reach);
   // Sheared downwards; what hangs is thinner across than in its own frame
   const double shear = sag_ * size_ * (kTilt + 2 * kDroop * far) / reach;
   q.z() += sag_ * size_ * (kTilt + kDroop * far) * far;
-  Vector3d radii = size_ * kReach;
+  Vector3d radii = size_ * kBreastReach;
   if (q.z() > 0) {
     radii.z() = size_ * kUp;
     q.x() += kSlope * (1 + kFlatter * sag_) * q.z() * q.z() / (q.z() + 0.03);

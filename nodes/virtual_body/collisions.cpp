@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 using geometry::SectionLoop;
 
-constexpr double kLevels = 0.005;  // m between sections
+constexpr double kLevelSpacing = 0.005;  // m between sections
 
 enum class Limb { none, arm_left, arm_right, leg_left, leg_right };
 
@@ -58,7 +58,7 @@ Collisions collisions(const body_model::Model& model, const std::vector<Vector3d
   const geometry::TriangleMesh mesh{vertices, model.triangles};
   const auto box = geometry::bounding_box(vertices);
   Collisions found{{false, false}, false};
-  for (double z = box[0].z() + kLevels; z < box[1].z(); z += kLevels) {
+  for (double z = box[0].z() + kLevelSpacing; z < box[1].z(); z += kLevelSpacing) {
     const auto loops = geometry::plane_section(mesh, {0, 0, z}, Vector3d::UnitZ());
     std::vector<Limb> limbs;
     for (const SectionLoop& loop : loops) limbs.push_back(limb_of(loop, of_triangle));

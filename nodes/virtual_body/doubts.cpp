@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kDegree = M_PI / 180;
-constexpr double kCrease = 12,
+constexpr double kLeastCrease = 12,
                  kWideFold = 0.016;         // 1/m, m: flatter or wider folds have no place of their own
 constexpr double kSeenFold = 35 * kDegree;  // opening of a pocket that a sensor in front sees into
 constexpr double kMuchGirth = 0.018;    // m of girth that a fold's level makes, from 11 mm below to 5 above
@@ -94,7 +94,7 @@ void doubt_folds(const Skin& skin, VirtualBody& body) {
   double narrowest = M_PI;
   for (const Side side : kSides) {
     const auto fold = find_fold(skin, body.truth.landmark(std::string("bust_point") + kSuffix[side]), side);
-    vague |= !fold || fold->curvature < kCrease || fold->width > kWideFold || fold->rival;
+    vague |= !fold || fold->curvature < kLeastCrease || fold->width > kWideFold || fold->rival;
     if (fold) narrowest = std::min(narrowest, fold->opening);
   }
   const double fold = body.truth.height("underbust");

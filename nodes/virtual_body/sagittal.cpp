@@ -22,7 +22,7 @@ constexpr double kMedial = 0.055, kFirstMedial = 0.010, kMedialStep = 0.005;  //
 constexpr double kContinued = 0.3, kMostRise = 0.012;  // of its curvature, m: less, more is another hollow
 constexpr double kNearlyAsHollow = 0.8;
 constexpr int kRivalSteps = 12, kOpeningSteps = 20;
-constexpr double kBeside = 0.010;  // m: a buttock's profiles to both sides of the middle one
+constexpr double kBesideMiddle = 0.010;  // m: a buttock's profiles to both sides of the middle one
 constexpr double kNarrow = 0.025,
                  kWide = 0.040;  // m up and down of its apex; the wider where the skin is flat
 constexpr double kDeep = 0.020, kMoved = 0.020;  // m before the rearmost, m that the apex may be off it
@@ -143,7 +143,7 @@ std::optional<Fold> find_fold(const Skin& skin, const Vector3d& bust_point, Side
 Buttock find_buttock(const Skin& skin, const Vector3d& rearmost) {
   std::vector<Apex> apexes;
   Buttock buttock{rearmost};
-  for (const double beside : {-kBeside, 0.0, kBeside}) {
+  for (const double beside : {-kBesideMiddle, 0.0, kBesideMiddle}) {
     const auto loop = skin.sagittal(rearmost + beside * Vector3d::UnitY(), Part::trunk);
     if (loop.points.empty()) continue;
     const Line profile = even(loop.points, geometry::length_of(loop.points, false));

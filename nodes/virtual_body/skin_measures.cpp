@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kBelowFold = 0.003;                                           // m
+constexpr double kTapeBelowFold = 0.003;                                       // m
 constexpr double kAboveHip = 0.100, kBelowUnderbust = 0.015;                   // m: the waist is in between
 constexpr double kLevels = 0.0025, kWaistReach = 0.0176, kWaistMoved = 0.006;  // m
 constexpr double kWaistSmoothing = 2;                 // levels: deviation of a Gaussian
@@ -140,7 +140,7 @@ void measure_skin(const Skin& skin, const BodyAxes& axes, VirtualBody& body) {
 
   girth_of("bust", skin.round_trunk(bust));
   girth_of("bust_max", skin.round_trunk(bust_max));
-  girth_of("underbust", skin.round_torso(underbust - kBelowFold));
+  girth_of("underbust", skin.round_torso(underbust - kTapeBelowFold));
   girth_of("waist", skin.round_torso(waist));
   girth_of("waist_ruler", skin.round_torso(ruler));
   girth_of("hip", skin.round_trunk(hip));
