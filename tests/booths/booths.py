@@ -233,9 +233,12 @@ def main():
     parser.add_argument("--hold", type=int, default=3600, help="seconds at 70 %% of the rate found; 0: no search, one stretch")
     parser.add_argument("--first-rate", type=float, default=FIRST_RATE)
     parser.add_argument("--config", type=pathlib.Path, default=HERE.parents[1] / "launch/config/preview.yaml")
+    parser.add_argument("--anew", action="store_true", help="forgets what was done")
     asked = parser.parse_args()
     work = asked.work.resolve()
     work.mkdir(parents=True, exist_ok=True)
+    if asked.anew:
+        (work / "results.jsonl").unlink(missing_ok=True)
     with network(asked.booths) as net, Shop(net, asked.booths, bodies_in(work), asked.config.resolve(), work) as shop:
         campaign = Campaign(shop, work / "results.jsonl")
         campaign.run(asked)

@@ -139,12 +139,17 @@ def campaign(clone, results, count, seed):
     counted = 0
     tests = {}
     commit = subprocess.check_output(['git', '-C', clone, 'rev-parse', '--short', 'HEAD'], text=True).strip()
+    changed = None  # the room whose library is still that of a mutant
     for mutant in drawn(clone, count, seed):
         if counted == count:
             break
         before = known.get((mutant['file'], mutant['line'], mutant['column'], mutant['old'], mutant['new']))
         if before is None:
             room = mutant['room']
+            if changed != room:  # tests link other rooms, too
+                for other in [changed] if changed else ROOMS:
+                    run(build_of(clone, other))
+            changed = room
             tests[room] = tests.get(room) or baseline(clone, room)
             start = time.monotonic()
             mutant['verdict'] = verdict_on(clone, mutant, tests[room])
