@@ -39,7 +39,7 @@ void check_pixels(const sensor_msgs::Image& image) {
 }
 
 void check_lens(const sensor_msgs::CameraInfo& info) {
-  const auto refuse = [](const std::string& why) { throw Refusal(refusal::kNoCalibration, why); };
+  const auto refuse = [](const std::string& why) { throw Refusal(refusal::kWrongFields, why); };
   if (!all_finite(info.K) || !all_finite(info.P) || !all_finite(info.R) || !all_finite(info.D))
     refuse("CameraInfo has numbers that are not finite");
   if (!(info.K[0] > 0) || !(info.K[4] > 0))
@@ -65,9 +65,8 @@ void check_depth_image(const sensor_msgs::Image& image, const sensor_msgs::Camer
     throw Refusal(refusal::kNoStamp, "the depth image says not when it was seen");
   check_pixels(image);
   if (info.width != image.width || info.height != image.height)
-    throw Refusal(refusal::kNoCalibration,
-                  fmt::format("CameraInfo is of {} x {} pixels, the image has {} x {}", info.width,
-                              info.height, image.width, image.height));
+    throw Refusal(refusal::kWrongFields, fmt::format("CameraInfo is of {} x {} pixels, the image has {} x {}",
+                                                     info.width, info.height, image.width, image.height));
   check_lens(info);
 }
 

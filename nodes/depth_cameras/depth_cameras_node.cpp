@@ -2,7 +2,6 @@
 /// depth_image_proc, which run as nodelets in this process. Says where the cameras stand, where a file has
 /// it.
 #include <fmt/format.h>
-#include <message_filters/subscriber.h>
 #include <message_filters/time_synchronizer.h>
 #include <nodelet/loader.h>
 #include <ros/callback_queue.h>
@@ -68,15 +67,18 @@ Setup setup_from(Parameters parameters) {
 /// One camera: images in, those that make a scan handed on to its nodelets.
 class Camera {
  public:
-  using Pair = std::function<void(const Image::ConstPtr&, const CameraInfo::ConstPtr&)>;
+  using Pair = boost::function<void(const Image::ConstPtr&, const CameraInfo::ConstPtr&)>;
 
   Camera(ros::NodeHandle node, const std::string& name, nodelet::Loader& loader, Pair pair)
-      : node_(node),
-        name_(name),
-        image_(node, fmt::format("cameras/{}/image", name), kQueue),
-        info_(node, fmt::format("cameras/{}/camera_info", name), kQueue),
-        both_(image_, info_, kQueue) {
+      : node_(node), name_(name), both_(kQueue) {
     advertise();
+    image_ = node.subscribe<Image>(
+        fmt::format("cameras/{}/image", name), kQueue,
+        [this](const Image::ConstPtr& image) { both_.add<0>(ros::MessageEvent<Image const>(image)); });
+    info_ = node.subscribe<CameraInfo>(fmt::format("cameras/{}/camera_info", name), kQueue,
+                                       [this](const CameraInfo::ConstPtr& info) {
+                                         both_.add<1>(ros::MessageEvent<CameraInfo const>(info));
+                                       });
     const std::string self = ros::this_node::getName(), here = node.resolveName("cameras/" + name),
                       rectify = self + "_rectify_" + name;
     // Nearest pixel: depths of two surfaces have no mean between them.
@@ -87,8 +89,7 @@ class Camera {
     load(loader, self + "_points_" + name, "depth_image_proc/point_cloud_xyz",
          {{node.resolveName("image_rect"), here + "/taken/image_rect"},
           {node.resolveName("points"), here + "/points"}});
-    both_.registerCallback(
-        boost::bind(&Camera::on_pair, this, pair, boost::placeholders::_1, boost::placeholders::_2));
+    both_.registerCallback(boost::bind(pair, boost::placeholders::_1, boost::placeholders::_2));
   }
 
   /// Both with `frame`, unless it is empty.
@@ -125,15 +126,10 @@ class Camera {
       throw std::runtime_error(type + " cannot be loaded; are the packages of package.xml installed?");
   }
 
-  void on_pair(const Pair& pair, const Image::ConstPtr& image, const CameraInfo::ConstPtr& info) {
-    pair(image, info);
-  }
-
   ros::NodeHandle node_;
   std::string name_;
-  message_filters::Subscriber<Image> image_;
-  message_filters::Subscriber<CameraInfo> info_;
   message_filters::TimeSynchronizer<Image, CameraInfo> both_;
+  ros::Subscriber image_, info_;
   ros::Publisher image_out_, info_out_;
   bool taken_ = false;
 };

@@ -49,6 +49,12 @@ class Run {
       save_picture("side.png", measured(inspect::side_picture, kWhole));
     }
     export_for_makers(line_.out, line_.exports, done_.body, done_.fit ? &*done_.fit : nullptr);
+    const std::size_t triangles = done_.body.mesh.mesh.triangles.size();
+    if (!line_.exports.empty() && triangles > kMostMakerTriangles)
+      fmt::print(stderr,
+                 "note: the exported meshes have {} triangles; CLO takes {} at most: reduce them there, or scan with "
+                 "--body-triangles {}\n",
+                 triangles, kMostMakerTriangles, kMostMakerTriangles);
     write_json(path("report.json"), done_.report());
   }
 

@@ -29,8 +29,6 @@ inline constexpr char kCannotWrite[] = "cannot_write";  ///< a folder that is re
 inline constexpr char kSurfaceFailed[] =
     "surface_failed";  ///< the process that makes the surface crashed or took too much
 inline constexpr char kMissingSensor[] = "missing_sensor";  ///< a sensor of the booth sent nothing in time
-inline constexpr char kNoCalibration[] =
-    "no_calibration";  ///< a depth camera without a CameraInfo that fits its images
 inline constexpr char kLateCloud[] =
     "late_cloud";  ///< a sensor's cloud came after its capture had been published
 inline constexpr char kNoStamp[] = "no_stamp";                ///< a sensor's cloud without a time

@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 
 #include "files/html.hpp"
 #include "files/page_template.hpp"
 #include "geometry/shipped_files.hpp"
-#include "inspect/garment_titles.hpp"
 #include "inspect/carried_points.hpp"
 #include "inspect/colours.hpp"
+#include "inspect/garment_titles.hpp"
 #include "mesh_files/frame.hpp"
 #include "ros/line_force.hpp"
 

@@ -3,6 +3,7 @@
 #include <OgreCamera.h>
 #include <OgreRenderWindow.h>
 #include <OgreSceneManager.h>
+#include <OgreSceneNode.h>
 #include <OgreViewport.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ constexpr int kSecond = 7, kBorder = 8;  // order of drawing; rviz's own view is
 constexpr float kBorderWidth = 0.002F;   // share of the window
 constexpr double kNarrowest = 0.002;     // Ogre takes no empty view
 
-std::string next_name() {
+std::string next_view_name() {
   static int count = 0;
   return "tensegric_fit_second_view_" + std::to_string(count++);
 }
@@ -37,11 +38,19 @@ Ogre::Matrix4 part_from(Ogre::Matrix4 projection, float share) {
 
 SecondView::SecondView(Ogre::SceneManager* scene, rviz::RenderPanel* panel, std::uint32_t left,
                        std::uint32_t right)
-    : scene_(scene), panel_(panel), left_(left), right_(right), camera_(scene->createCamera(next_name())) {}
+    : scene_(scene),
+      panel_(panel),
+      left_(left),
+      right_(right),
+      node_(scene->getRootSceneNode()->createChildSceneNode()),
+      camera_(scene->createCamera(next_view_name())) {
+  node_->attachObject(camera_);
+}
 
 SecondView::~SecondView() {
   close();
   scene_->destroyCamera(camera_);
+  scene_->destroySceneNode(node_);
 }
 
 void SecondView::open(double share, bool beside) {
@@ -94,9 +103,8 @@ void SecondView::follow() {
   const auto from = static_cast<float>(share_);
   if (beside_) main->setCustomProjectionMatrix(true, moved(whole, from - 1));
   camera_->setCustomProjectionMatrix(true, part_from(beside_ ? moved(whole, from) : whole, from));
-  // Ogre's cameras hang on nodes or stand by themselves: what counts is where they are in the world.
-  camera_->setPosition(main->getDerivedPosition());
-  camera_->setOrientation(main->getDerivedOrientation());
+  node_->setPosition(main->getDerivedPosition());
+  node_->setOrientation(main->getDerivedOrientation());
   second_->setBackgroundColour(panel_->getViewport()->getBackgroundColour());
 }
 

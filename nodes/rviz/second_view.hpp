@@ -14,6 +14,7 @@
 namespace Ogre {
 class Camera;
 class SceneManager;
+class SceneNode;
 class Viewport;
 }  // namespace Ogre
 
@@ -50,6 +51,7 @@ class SecondView : public Ogre::RenderTargetListener {
   Ogre::SceneManager* scene_;
   QPointer<rviz::RenderPanel> panel_;  // rviz may delete it before its displays
   std::uint32_t left_, right_, usual_mask_ = 0;
+  Ogre::SceneNode* node_;
   Ogre::Camera* camera_;
   Ogre::Viewport *second_ = nullptr, *border_ = nullptr;
   double share_ = 0.5;

@@ -144,7 +144,7 @@ TEST(DepthCamerasTest, DepthImagesBecomeABodyAndItsMeasures) {
   Seen bad = recorded_cameras()[3];
   bad.info.K[0] = 0;
   booth.send(3, bad, ros::Time(200));
-  EXPECT_TRUE(booth.says("depth_cameras", "no_calibration", "cameras/3"));
+  EXPECT_TRUE(booth.says("depth_cameras", "wrong_fields", "cameras/3"));
   bad = recorded_cameras()[2];
   bad.image.data.resize(100);
   booth.send(2, bad, ros::Time(200));
