@@ -21,6 +21,22 @@ def program(name):
     raise RuntimeError(f"{name} is not built")
 
 
+def nodes_at(master_uri, names):
+    """namespace/node -> process, of the nodes of these names that know that master."""
+    found = {}
+    for command in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            words = command.read_bytes().decode(errors="replace").split("\0")
+            environment = (command.parent / "environ").read_bytes().decode(errors="replace").split("\0")
+        except OSError:  # ended meanwhile, or another user's
+            continue
+        name = next((word[8:] for word in words if word.startswith("__name:=")), None)
+        if name in names and f"ROS_MASTER_URI={master_uri}" in environment:
+            space = next((word[14:] for word in environment if word.startswith("ROS_NAMESPACE=")), "").strip("/")
+            found[f"{space}/{name}"] = int(command.parent.name)
+    return found
+
+
 def points_of(ply):
     """x, y, z per point of a binary PLY of the virtual booth."""
     header, body = pathlib.Path(ply).read_bytes().split(b"end_header\n", 1)

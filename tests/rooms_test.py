@@ -42,6 +42,7 @@ ALLOWED = {
     ("scan_files", "files"): "bags are checked before they are read",
     ("assembler", "geometry"): "clouds",
     ("assembler", "ros"): "handler",
+    ("depth_cameras", "geometry"): "refusals by name, checked YAML",
     ("capture", "geometry"): "refusals by name",
     ("capture", "ros"): "handler",
     ("virtual_body", "geometry"): "skin and its measures",

@@ -1,4 +1,4 @@
-/// How far one surface is from another.
+/// How far one surface is from another, and how differently it is turned.
 #pragma once
 
 #include <vector>
@@ -14,5 +14,10 @@ double quantile(std::vector<double> values, double share);
 /// has one flag per point.
 std::vector<double> distances(const std::vector<Eigen::Vector3d>& points, const std::vector<char>& left_out,
                               const geometry::TriangleMesh& surface);
+
+/// Angle between the normal at a vertex of `mesh` and the one of `surface` at the nearest place, smooth normals
+/// both; degrees. Vertices and `left_out` as the points above.
+std::vector<double> normal_angles(const geometry::TriangleMesh& mesh, const std::vector<char>& left_out,
+                                  const geometry::TriangleMesh& surface);
 
 }  // namespace tensegric_fit::gauge

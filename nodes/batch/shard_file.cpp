@@ -80,7 +80,7 @@ void ShardFile::cut_unfinished_line() const {
 std::size_t ShardFile::add(const Json& line) {
   const std::string text = line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
   const off_t end = lseek(file_, 0, SEEK_END);
-  const ssize_t written = write(file_, text.data(), text.size());
+  const ssize_t written = ::write(file_, text.data(), text.size());
   if (written == static_cast<ssize_t>(text.size()) && fdatasync(file_) == 0)
     return static_cast<std::size_t>(end);
   const std::string why = written < 0 ? std::strerror(errno) : "the disk is full";

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <future>
 #include <opencv2/imgcodecs.hpp>
 
 #include "body_model/parts.hpp"
@@ -47,6 +49,12 @@ class Run {
       save_picture("side.png", measured(inspect::side_picture, kWhole));
     }
     export_for_makers(line_.out, line_.exports, done_.body, done_.fit ? &*done_.fit : nullptr);
+    const std::size_t triangles = done_.body.mesh.mesh.triangles.size();
+    if (!line_.exports.empty() && triangles > kMostMakerTriangles)
+      fmt::print(stderr,
+                 "note: the exported meshes have {} triangles; CLO takes {} at most: reduce them there, or scan with "
+                 "--body-triangles {}\n",
+                 triangles, kMostMakerTriangles, kMostMakerTriangles);
     write_json(path("report.json"), done_.report());
   }
 
@@ -81,11 +89,15 @@ class Run {
         if (fibres->size() > 1) drawn->push_back(fibres->back());
       }
     }
-    save_picture("front.png", beside_measured(inspect::front_picture, inspect::front_picture(scene)));
-    save_picture("side.png", beside_measured(inspect::side_picture, inspect::side_picture(scene)));
+    std::vector<std::function<void()>> pictures{
+        [&] { save_picture("front.png", beside_measured(inspect::front_picture, inspect::front_picture(scene))); },
+        [&] { save_picture("side.png", beside_measured(inspect::side_picture, inspect::side_picture(scene))); },
+        [&] { save_picture("distortion.png", inspect::distortion_picture(scene)); }};
     if (std::any_of(scene.parts.begin(), scene.parts.end(), [](const auto& part) { return part.behind; }))
-      save_picture("back.png", inspect::back_picture(scene));
-    save_picture("distortion.png", inspect::distortion_picture(scene));
+      pictures.emplace_back([&] { save_picture("back.png", inspect::back_picture(scene)); });
+    std::vector<std::future<void>> making;
+    for (const auto& picture : pictures) making.push_back(std::async(std::launch::async, picture));
+    for (std::future<void>& made : making) made.get();
   }
 
   using MeasuredPicture = cv::Mat (*)(const geometry::TriangleMesh&, const geometry::BodyMeasures&, int,

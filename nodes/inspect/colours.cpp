@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "geometry/shading_normals.hpp"
+
 namespace tensegric_fit::inspect {
 namespace {
 
@@ -39,6 +41,8 @@ const Colour& at(const Ramp& ramp, double share) {
   return ramp[std::lround(kColourSteps * std::clamp(share, 0.0, 1.0))];
 }
 
+}  // namespace
+
 Colour mixed(const Colour& from, const Colour& to, double share) {
   Colour colour;
   for (int c = 0; c < 3; ++c)
@@ -46,7 +50,11 @@ Colour mixed(const Colour& from, const Colour& to, double share) {
   return colour;
 }
 
-}  // namespace
+std::vector<Colour> with_unheld(std::vector<Colour> colours, const std::vector<int>& unheld) {
+  constexpr double kTint = 0.5;
+  for (const int v : unheld) colours.at(v) = mixed(colours.at(v), kUnheldColour, kTint);
+  return colours;
+}
 
 Colour two_sided_colour(double share) {
   static const Ramp tight = ramp_to(kTightColour), loose = ramp_to(kLooseColour);
@@ -90,7 +98,7 @@ std::vector<Colour> distortion_colours(const std::vector<double>& distortion) {
 std::vector<Colour> lit(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours,
                         const Eigen::Vector3d& light_direction) {
   constexpr double kAmbient = 0.35;
-  const std::vector<Eigen::Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
+  const std::vector<Eigen::Vector3d> normals = geometry::shading_normals(mesh.vertices, mesh.triangles);
   const Eigen::Vector3d to_light = -light_direction.normalized();
   std::vector<Colour> result(colours);
   for (std::size_t v = 0; v < result.size(); ++v) {

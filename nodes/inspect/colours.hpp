@@ -21,8 +21,17 @@ inline constexpr Colour kSureColour{40, 110, 220}, kUnsureColour{240, 140, 20};
 /// Skin that there is a warning of.
 inline constexpr Colour kWarnedColour{240, 140, 20};
 
+/// Skin that a garment does not reach or hold.
+inline constexpr Colour kUnheldColour{40, 150, 90};
+
 /// The scale's ends: distortion below the first and above the second is shown as the end is.
 inline constexpr double kTightest = 0.7, kLoosest = 1.3;
+
+/// Between the two, 0 to 1.
+Colour mixed(const Colour& from, const Colour& to, double share);
+
+/// Those vertices half in kUnheldColour, so that what is under it still shows. \pre in range
+std::vector<Colour> with_unheld(std::vector<Colour> colours, const std::vector<int>& unheld);
 
 /// Fixed scale, even to the eye: distortion 1 is neutral, less (pressed together) goes to red, more to blue.
 Colour distortion_colour(double distortion);

@@ -65,7 +65,7 @@ std::string fit_glb(const FitModel& model) {
     mesh.morphs = {{kMorph, tube(line.after).vertices}};
     mesh.colour = kTubeColour;
     mesh.extras = {
-        {"line", line.name}, {"initial", line.initial}, {"final", line.final}, {"tension", line.tension}};
+        {"surface", false}, {"line", line.name}, {"initial", line.initial}, {"final", line.final}, {"tension", line.tension}};
     meshes.push_back(std::move(mesh));
   }
   return mesh_files::glb_bytes(meshes);

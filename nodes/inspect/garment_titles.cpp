@@ -24,9 +24,13 @@ std::vector<GarmentTitle> garments_in(const std::string& folder) {
   std::vector<GarmentTitle> garments;
   std::error_code missing;
   for (const auto& entry : std::filesystem::directory_iterator(folder, missing))
-    if (entry.is_regular_file() && entry.path().extension() == ".yaml")
-      garments.push_back({entry.path().stem().string(), text_in(entry.path().string(), "title"),
-                          text_in(entry.path().string(), "about")});
+    if (entry.is_regular_file() && entry.path().extension() == ".yaml") {
+      const std::string file = entry.path().string();
+      std::filesystem::path picture = entry.path();
+      picture.replace_extension(".png");
+      garments.push_back({entry.path().stem().string(), text_in(file, "title"), text_in(file, "about"),
+                          std::filesystem::exists(picture, missing) ? picture.string() : ""});
+    }
   std::sort(garments.begin(), garments.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return garments;
 }

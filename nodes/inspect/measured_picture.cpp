@@ -30,14 +30,14 @@ std::string girth_words(const geometry::BodyMeasures& measures, const std::strin
 }
 
 // The tape's outermost point that can be seen; the right end of one that goes round the middle.
-const SeenPoint* end_of_tape(const std::vector<SeenPoint>& tape, double middle) {
+const SeenPoint* end_of_tape(const SeenPoint* first, const SeenPoint* last, double middle) {
   constexpr double kLeft = 0.8;  // what the left end counts
   const auto outward = [&](const SeenPoint& p) {
     return p.pixel.x() > middle ? p.pixel.x() - middle : kLeft * (middle - p.pixel.x());
   };
   const SeenPoint* end = nullptr;
-  for (const SeenPoint& p : tape)
-    if (p.behind < kOnTheSkin && (!end || outward(p) > outward(*end))) end = &p;
+  for (const SeenPoint* p = first; p != last; ++p)
+    if (p->behind < kOnTheSkin && (!end || outward(*p) > outward(*end))) end = p;
   return end;
 }
 
@@ -73,16 +73,20 @@ cv::Mat measured_picture(const geometry::TriangleMesh& body, const geometry::Bod
     tapes = facing_quads(model->skin, view.forward);
   }
   std::vector<Label> labels;
-  for (const geometry::GirthLoop& loop : measures.loops) {
-    tapes.push_back({loop.points, true, kTape});
-    const std::vector<SeenPoint> seen = seen_points(body, loop.points, view, width, height);
-    if (const SeenPoint* end = end_of_tape(seen, width / 2.0))
-      labels.push_back({girth_words(measures, loop.name), end->pixel, kTape, Label::Mark::none});
-  }
+  // Landmarks, then the points of one tape after another: the body is looked at once.
   std::vector<Eigen::Vector3d> points;
   for (const geometry::Landmark& landmark : measures.landmarks) points.push_back(landmark.position);
+  for (const geometry::GirthLoop& loop : measures.loops)
+    points.insert(points.end(), loop.points.begin(), loop.points.end());
   const std::vector<SeenPoint> seen = seen_points(body, points, view, width, height);
-  for (std::size_t i = 0; i < points.size(); ++i)
+  const SeenPoint* tape = seen.data() + measures.landmarks.size();
+  for (const geometry::GirthLoop& loop : measures.loops) {
+    tapes.push_back({loop.points, true, kTape});
+    if (const SeenPoint* end = end_of_tape(tape, tape + loop.points.size(), width / 2.0))
+      labels.push_back({girth_words(measures, loop.name), end->pixel, kTape, Label::Mark::none});
+    tape += loop.points.size();
+  }
+  for (std::size_t i = 0; i < measures.landmarks.size(); ++i)
     if (seen[i].behind < kCloseBehind)
       labels.push_back({words(measures.landmarks[i].name), seen[i].pixel, kLandmark,
                         seen[i].behind < kOnTheSkin ? Label::Mark::dot : Label::Mark::ring});

@@ -15,13 +15,6 @@ constexpr double kRightLight = 0.3;  // share of white in the colours of her rig
 constexpr Colour kParts[] = {{214, 96, 77},  {140, 86, 160}, {65, 120, 185}, {222, 140, 30}, {60, 150, 90},
                              {190, 70, 130}, {150, 110, 70}, {90, 85, 180},  {30, 150, 160}, {170, 150, 20}};
 
-Colour mixed(const Colour& from, const Colour& to, double share) {
-  Colour colour;
-  for (int c = 0; c < 3; ++c)
-    colour[c] = static_cast<std::uint8_t>((1 - share) * from[c] + share * to[c] + 0.5);
-  return colour;
-}
-
 }  // namespace
 
 void check_model_skin(const ModelSkin& skin) {

@@ -88,10 +88,13 @@ std::string line_warning(const LineOutcome& line) {
   return "";
 }
 
-std::string over_constriction(double tightest, const std::string& landmark) {
-  if (tightest >= kOverConstricted) return "";
-  return fmt::format("Over-constricted{}: the skin is drawn together to {} of its area.",
-                     landmark.empty() ? "" : " near the " + landmark, per_cent(tightest));
+std::string over_constriction(double area, const std::string& landmark) {
+  const std::string near = landmark.empty() ? "" : " near the " + landmark;
+  if (area < kOverConstricted)
+    return fmt::format("Over-constricted{}: the skin is drawn together to {} of its area.", near, per_cent(area));
+  if (area > kOverStretched)
+    return fmt::format("Over-stretched{}: the skin is drawn out to {} of its area.", near, per_cent(area));
+  return "";
 }
 
 std::string warnings(const std::vector<std::string>& messages) {

@@ -11,8 +11,13 @@ namespace tensegric_fit::inspect::words {
 // Labels; an ampersand comes before the key that reaches it with Alt.
 inline constexpr char kGarment[] = "&Garment", kPutOn[] = "&Put on", kUndo[] = "&Undo", kRedo[] = "R&edo",
                       kLinked[] = "&Both sides alike", kReset[] = "&Reset",
-                      kCompare[] = "&Compare with the scan", kExport[] = "E&xport", kFolder[] = "&Folder",
+                      kCompare[] = "&Compare", kExport[] = "E&xport", kFolder[] = "&Folder",
                       kCustomer[] = "C&ustomer", kBlendLabel[] = "&Scan to garment", kRegions[] = "Regions";
+// How the body before is shown with the worn one.
+inline constexpr char kAlone[] = "garment alone", kAsGhost[] = "scan as a ghost",
+                      kBothSides[] = "scan left, garment right", kAsWipe[] = "wipe from scan to garment",
+                      kFading[] = "fade from scan to garment",
+                      kCompareHelp[] = "The body before beside, over or in place of the one with the garment";
 inline constexpr char kViewFront[] = "Front", kViewLeft[] = "Left", kViewBack[] = "Back",
                       kViewRight[] = "Right", kViewAll[] = "All", kViewFollows[] = "follows",
                       kViewHelp[] = "The view from there; All: her whole body, or where the garment is",
@@ -61,10 +66,11 @@ struct LineOutcome {
 };
 std::string line_warning(const LineOutcome& line);
 
-/// Skin area below which a garment constricts too much, after / before.
-inline constexpr double kOverConstricted = 0.8;
-/// "" where the tightest skin is not over-constricted.
-std::string over_constriction(double tightest, const std::string& landmark);
+/// Skin area below which a garment constricts too much, after / before, and its reciprocal, above which it
+/// stretches too much.
+inline constexpr double kOverConstricted = 0.8, kOverStretched = 1 / kOverConstricted;
+/// "" where the skin is neither pressed nor stretched as far as that.
+std::string over_constriction(double area, const std::string& landmark);
 
 /// Warnings of a fit in one paragraph: the first two, and how many more places there are.
 std::string warnings(const std::vector<std::string>& messages);

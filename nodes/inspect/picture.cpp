@@ -5,6 +5,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "geometry/shading_normals.hpp"
 #include "geometry/status.hpp"
 #include "inspect/raster.hpp"
 
@@ -64,7 +65,7 @@ cv::Mat3b shade(const geometry::TriangleMesh& mesh, const std::vector<Colour>& c
                 const std::vector<Eigen::Vector3d>& points, const Raster& raster,
                 const Eigen::Matrix3d& axes) {
   std::vector<Eigen::Vector3f> normals;
-  for (const Eigen::Vector3d& n : geometry::vertex_normals(mesh.vertices, mesh.triangles))
+  for (const Eigen::Vector3d& n : geometry::shading_normals(mesh.vertices, mesh.triangles))
     normals.push_back((axes * n).cast<float>());
   const auto rgb_of = [&](int vertex) {
     const Colour& colour = colours.empty() ? kNeutral : colours[vertex];

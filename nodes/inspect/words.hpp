@@ -10,21 +10,25 @@ namespace tensegric_fit::inspect::words {
 
 // The display: choices.
 inline constexpr char kAfter[] = "After", kBefore[] = "Before", kSideBySide[] = "Side by side",
-                      kBlend[] = "Blend";
+                      kBlend[] = "Blend", kGhost[] = "Ghost", kWipe[] = "Wipe";
 inline constexpr char kDistortion[] = "Distortion", kStretch[] = "Stretch", kDisplacement[] = "Displacement",
                       kPlain[] = "Plain";
 inline constexpr char kFixed[] = "Fixed", kAutomatic[] = "Automatic";
 
 // The display: help.
 inline constexpr char
-    kShowHelp[] = "The body under the garment, as scanned, both, or between the two.",
-    kBlendHelp[] = "For Show: Blend. 0 is the body as scanned, 1 under the garment.",
+    kShowHelp[] =
+        "The body under the garment, as scanned, both side by side, between the two, with the scan as a ghost "
+        "over it, or the scan left and the garment right of a border.",
+    kBlendHelp[] = "Blend: 0 is the body as scanned, 1 under the garment. Wipe: where the border lies.",
+    kPaleHelp[] = "What is shown is of an earlier scan: all of it pale. The panel sets it.",
+    kUnheldHelp[] = "Skin that the garment does not reach or hold is green.",
     kColourHelp[] =
         "What the colours of the skin stand for: its area or its length after / before, or how far it moved.",
     kScaleHelp[] = "Fixed: the same colours for every body. Automatic: as wide as this body's values.",
     kLegendHelp[] = "The scale of colours, in the lower left corner.",
     kOpacityHelp[] = "1: opaque. Below, what is inside shows through the skin.",
-    kLinesHelp[] = "The garment's lines, from slack (green) to tight (red).",
+    kLinesHelp[] = "The garment's lines, from slack (yellow) to tight (brown).",
     kLandmarksHelp[] = "Blue; orange where they are unsure.", kNamesHelp[] = "The landmarks' names.",
     kGirthsHelp[] = "The tapes of the girths, as they were measured, carried along with the skin.",
     kModelHelp[] =

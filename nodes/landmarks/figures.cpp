@@ -21,11 +21,19 @@ constexpr double kUnit =
 constexpr double kGross = 4;  // spreads between two readings of one thing: with Gaussian errors 1 in 16,000
 
 Spread spread_in(const YAML::Node& node, const std::string& where) {
-  geometry::check_keys(node, {"bias", "base", "growth", "support"}, where, kCode);
+  geometry::check_keys(node, {"bias", "base", "growth", "support", "outside"}, where, kCode);
   return {geometry::number_in(node, "bias", -kLargest, kLargest, where, kCode),
           geometry::number_in(node, "base", 0, kLargest, where, kCode),
           geometry::number_in(node, "growth", 0, kSteepest, where, kCode),
-          geometry::number_in(node, "support", 0, kLargest, where, kCode)};
+          geometry::number_in(node, "support", 0, kLargest, where, kCode),
+          geometry::number_in(node, "outside", 0, kLargest, where, kCode)};
+}
+
+Span span_in(const YAML::Node& node, const std::string& where) {
+  const auto ends = node && node.IsSequence() ? node.as<std::vector<double>>() : std::vector<double>();
+  if (ends.size() != 2 || !(ends[0] > 0) || !(ends[1] > ends[0]) || !(ends[1] < kLargest))
+    throw geometry::Refusal(kCode, where + " must be two misfits in m, the second the larger one");
+  return {ends[0], ends[1]};
 }
 
 std::map<std::string, FigurePrecision> figures_in(const YAML::Node& node, const std::string& where) {
@@ -51,8 +59,14 @@ std::string key_of(const Figure& figure) {
   return kKinds[static_cast<int>(figure.kind)] + name;
 }
 
-double deviation(const Spread& spread, double misfit, double support) {
-  return std::hypot(spread.base * std::pow(misfit / kUnit, spread.growth), spread.support * support);
+double deviation(const Spread& spread, const Figure& figure) {
+  return std::hypot(spread.base * std::pow(figure.misfit / kUnit, spread.growth),
+                    spread.support * figure.support);
+}
+
+/// 0 to 1: how far the body is outside what the model can make.
+double share_outside(const Span& span, double misfit) {
+  return misfit <= span.women ? 0 : std::min((misfit - span.women) / (span.others - span.women), 1.0);
 }
 
 const FigurePrecision& precision_of(const Figure& figure, const Precision& precision, bool scanned) {
@@ -68,8 +82,13 @@ const FigurePrecision& precision_of(const Figure& figure, const Precision& preci
 
 Precision load_precision(const std::string& path) {
   const YAML::Node root = geometry::load_yaml_map(path, kCode);
-  geometry::check_keys(root, {"made", "bodies", "mesh", "scan"}, path, kCode);
-  return {figures_in(root["mesh"], path + ": mesh"), figures_in(root["scan"], path + ": scan")};
+  geometry::check_keys(root, {"made", "bodies", "span", "mesh", "scan"}, path, kCode);
+  if (!root["span"] || !root["span"].IsMap())
+    throw geometry::Refusal(kCode, path + ": span must be a map of mesh and scan");
+  geometry::check_keys(root["span"], {"mesh", "scan"}, path + ": span", kCode);
+  return {figures_in(root["mesh"], path + ": mesh"), figures_in(root["scan"], path + ": scan"),
+          span_in(root["span"]["mesh"], path + ": span: mesh"),
+          span_in(root["span"]["scan"], path + ": span: scan")};
 }
 
 const Precision& shipped_precision() {
@@ -79,13 +98,14 @@ const Precision& shipped_precision() {
 }
 
 double spread_of_model(const Figure& figure, const Precision& precision, bool scanned) {
-  return deviation(precision_of(figure, precision, scanned).model, figure.misfit, figure.support);
+  return deviation(precision_of(figure, precision, scanned).model, figure);
 }
 
 Settled settle(const Figure& figure, const Precision& precision, bool scanned) {
   const FigurePrecision& p = precision_of(figure, precision, scanned);
-  const double mesh = deviation(p.mesh, figure.misfit, figure.support),
-               model = deviation(p.model, figure.misfit, figure.support);
+  const double outside = share_outside(scanned ? precision.scan_span : precision.mesh_span, figure.misfit);
+  const double mesh = std::hypot(deviation(p.mesh, figure), outside * p.mesh.outside),
+               model = std::hypot(deviation(p.model, figure), outside * p.model.outside);
   const auto unbiased = [](const Eigen::Vector3d& reading, const Spread& spread) {
     return Eigen::Vector3d(reading - spread.bias * Eigen::Vector3d::UnitX());
   };

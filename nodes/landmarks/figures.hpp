@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,8 +13,15 @@ namespace tensegric_fit::landmarks {
 /// How far off a reading is, m, on bodies whose truth is known: on average by `bias` (of heights and girths;
 /// of points 0), round that by the root of (base * (Figure::misfit / 2 mm)^growth)^2 and (support *
 /// Figure::support)^2. Readings on the mesh may grow with misfit, too: some are looked for near the model's.
+/// On a body that the model cannot make, by `outside` more, as squares.
 struct Spread {
-  double bias, base, growth, support;
+  double bias, base, growth, support, outside = 0;
+};
+
+/// From misfits that 95 % of scanned women stay below to the median of bodies outside the model's span, m:
+/// between them a body is taken to be outside in part.
+struct Span {
+  double women = std::numeric_limits<double>::infinity(), others = women;
 };
 
 /// Of one figure.
@@ -23,10 +31,12 @@ struct FigurePrecision {
   double half_width;    ///< of the 95 % interval, in spreads
 };
 
-/// Of all figures, for meshes that were given and for scans: what tests/body_model/fit_precision.py writes.
+/// Of all figures, for meshes that were given and for scans: what tests/body_model/fit_precision.py and
+/// fit_outside.py write.
 struct Precision {
   std::map<std::string, FigurePrecision> of_mesh,
       of_scan;  ///< by "girth bust", "height hip", "point bust_point" (both sides)
+  Span mesh_span, scan_span;
 };
 
 /// \throw Refusal broken_file
@@ -55,7 +65,8 @@ struct Settled {
   bool rests_on_model;  ///< the mesh does not show it, or shows something else
 };
 
-/// How far off the model's reading of a figure may be, m; its values are not read.
+/// How far off the model's reading of a figure may be on a body of the model's span, m: what windows of
+/// searches were fitted with. Its values are not read.
 double spread_of_model(const Figure& figure, const Precision& precision, bool scanned);
 
 /// Mesh and model weighted by how far off each may be.

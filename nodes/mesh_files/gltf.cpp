@@ -179,10 +179,16 @@ class Reader {
       throw broken("its nodes contain each other or are too many");
     const Json& node = at(array("nodes"), i);
     const Eigen::Affine3d place = parent * placed(node);
-    if (node.contains("mesh"))
+    if (node.contains("mesh") && !is_mark(node))
       for (const Json& primitive : list(at(array("meshes"), number(node, "mesh")), "primitives"))
         add_primitive(primitive, place);
     for (const Json& child : list(node, "children")) add_node(index(child), place, depth + 1);
+  }
+
+  // What this product's own files draw beside the body, such as the garment's lines.
+  static bool is_mark(const Json& node) {
+    const auto extras = node.find("extras");
+    return extras != node.end() && extras->is_object() && extras->value("surface", Json(true)) == Json(false);
   }
 
   void add_primitive(const Json& primitive, const Eigen::Affine3d& place) {

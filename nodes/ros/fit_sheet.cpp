@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <utility>
 
 #include "files/html.hpp"
@@ -13,6 +14,7 @@
 #include "geometry/shipped_files.hpp"
 #include "inspect/carried_points.hpp"
 #include "inspect/colours.hpp"
+#include "inspect/garment_titles.hpp"
 #include "mesh_files/frame.hpp"
 #include "ros/line_force.hpp"
 
@@ -183,6 +185,25 @@ std::string facts_of(const FitFigures& figures) {
   return text;
 }
 
+/// What is worn, with title, sentence and picture where it is a shipped garment (or several joined by +).
+std::string garment_of(const std::string& name) {
+  std::string shown;
+  const std::vector<inspect::GarmentTitle> known =
+      inspect::garments_in(geometry::shipped_folder("garments"));
+  std::istringstream parts(name);
+  for (std::string part; std::getline(parts, part, '+');)
+    for (const inspect::GarmentTitle& garment : known) {
+      if (garment.name != part) continue;
+      const std::string picture =
+          garment.picture.empty()
+              ? ""
+              : "<img alt=\"\" src=\"data:image/png;base64," + files::base64(files::bytes_of(garment.picture)) + "\">";
+      shown += fmt::format("<p class=\"garment\">{}<span><b>{}: {}.</b> {}</span></p>\n", picture,
+                           html_escaped(garment.name), html_escaped(garment.title), html_escaped(garment.about));
+    }
+  return shown;
+}
+
 std::string script(const std::string& code) {
   return "<script>\n" + code + "</script>\n";
 }
@@ -233,6 +254,7 @@ std::string fit_sheet(const FitFigures& figures, const std::vector<SheetPicture>
        {"rows", rows_of(figures, "girth", figures.girths) + rows_of(figures, "height", figures.heights)},
        {"notes", notes_of(figures)},
        {"pictures", drawn},
+       {"garment", garment_of(figures.scan.fit->garment)},
        {"settings", settings_of(figures)},
        {"footer", footer},
        {"view", view_of(figures, model)}});

@@ -1,12 +1,11 @@
 #include "rviz/body_mesh_display.hpp"
 
-#include <OgreCamera.h>
 #include <OgreSceneNode.h>
+#include <rviz/bit_allocator.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
 #include <rviz/properties/ros_topic_property.h>
 #include <rviz/render_panel.h>
-#include <rviz/view_controller.h>
 #include <rviz/view_manager.h>
 
 #include <QMouseEvent>
@@ -44,11 +43,17 @@ BodyMeshDisplay::BodyMeshDisplay()
     : properties_(std::make_unique<LookProperties>(this, this, SLOT(change_topics()), SLOT(change_look()))) {}
 
 // Qt takes the event filter back itself; rviz may have deleted its render panel before its displays.
-BodyMeshDisplay::~BodyMeshDisplay() = default;
+BodyMeshDisplay::~BodyMeshDisplay() {
+  if (context_ != nullptr) context_->visibilityBits()->freeBits(view_bits_);
+}
 
 void BodyMeshDisplay::onInitialize() {
-  scene_ = std::make_unique<BodyScene>(scene_manager_, scene_node_);
-  context_->getViewManager()->getRenderPanel()->installEventFilter(this);
+  const BodyScene::Parts parts{context_->visibilityBits()->allocBit(), context_->visibilityBits()->allocBit()};
+  view_bits_ = parts.before | parts.worn;
+  scene_ = std::make_unique<BodyScene>(scene_manager_, scene_node_, parts);
+  rviz::RenderPanel* panel = context_->getViewManager()->getRenderPanel();
+  second_ = std::make_unique<SecondView>(scene_manager_, panel, parts.before, parts.worn);
+  panel->installEventFilter(this);
 }
 
 template <typename Message>
@@ -83,6 +88,7 @@ void BodyMeshDisplay::change_topics() {
   subscribe(properties_->landmarks, &BodyMeshDisplay::take_landmarks);
   subscribe(properties_->control, &BodyMeshDisplay::take_control);
   subscribe(properties_->fit, &BodyMeshDisplay::take_fit);
+  subscribe(properties_->warnings, &BodyMeshDisplay::take_warnings);
   if (properties_->look().lines)  // made only while someone listens
     subscribe(properties_->bands, &BodyMeshDisplay::take_bands);
   else
@@ -120,6 +126,7 @@ void BodyMeshDisplay::onEnable() {
 void BodyMeshDisplay::onDisable() {
   subscribers_.clear();
   scene_->show(false);
+  second_->close();
 }
 
 void BodyMeshDisplay::reset() {
@@ -172,6 +179,20 @@ void BodyMeshDisplay::take_bands(const BandShapes& message) {
   overlays_.take_bands(message.scan_id, std::move(bands));
 }
 
+void BodyMeshDisplay::take_warnings(const FitWarnings& message) {
+  warnings_ = message;
+}
+
+std::vector<int> BodyMeshDisplay::unheld_skin() const {
+  std::vector<int> skin;
+  if (warnings_.scan_id != body_.scan_id() || warnings_.garment != body_.garment()) return skin;
+  for (const FitWarning& notice : warnings_.notices)
+    if (notice.code == FitWarning::UNDER_CONSTRICTED)
+      for (const std::uint32_t v : notice.vertices)
+        if (v < body_.mesh().vertices.size()) skin.push_back(static_cast<int>(v));
+  return skin;
+}
+
 void BodyMeshDisplay::take_members(const MemberForces& message) {
   overlays_.take_members(message.scan_id, {node::points_in(message.nodes),
                                            {message.ends.begin(), message.ends.end()},
@@ -186,13 +207,24 @@ void BodyMeshDisplay::update(float, float) {
   if (new_body_) scene_->take_triangles(body_);
   new_body_ = false;
   try {
-    scene_->draw(body_, overlays_, properties_->look());
+    const Look look = properties_->look();
+    scene_->draw(body_, overlays_, unheld_skin(), look);
+    part_view(look);
     setStatus(StatusProperty::Ok, words::kDrawing, text(body_.note()));
   } catch (const geometry::Refusal& refusal) {
     setStatus(StatusProperty::Error, words::kDrawing, text(words::refused(refusal.code(), refusal.what())));
   }
   properties_->show_pointed(nullptr);
   context_->queueRender();
+}
+
+void BodyMeshDisplay::part_view(const Look& look) {
+  if (look.show == Show::side_by_side)
+    second_->open(0.5, true);
+  else if (look.show == Show::wipe)
+    second_->open(look.blend, false);
+  else
+    second_->close();
 }
 
 // Where tf has the scan's frame now: it outlives the scan's stamp.
@@ -223,15 +255,13 @@ bool BodyMeshDisplay::eventFilter(QObject* watched, QEvent* event) {
 
 void BodyMeshDisplay::point(const QPoint& pixel) {
   if (!isEnabled() || body_.empty() || new_body_) return;
-  const rviz::RenderPanel* panel = context_->getViewManager()->getRenderPanel();
-  const Ogre::Camera* camera = context_->getViewManager()->getCurrent()->getCamera();
-  const Ogre::Ray ray = camera->getCameraToViewportRay(static_cast<float>(pixel.x()) / panel->width(),
-                                                       static_cast<float>(pixel.y()) / panel->height());
-  const std::optional<Pointed> pointed = scene_->point_at(ray, body_, overlays_);
+  const SecondView::Seen seen = second_->at(pixel);
+  const bool before = second_->is_open() && !seen.right;
+  const std::optional<Pointed> pointed = scene_->point_at(seen.ray, before, body_, overlays_);
   properties_->show_pointed(pointed ? &*pointed : nullptr);
   if (pointed)
-    scene_->mark(&pointed->place, words::pointed(properties_->look().colour_by, pointed->value,
-                                                 pointed->landmark, pointed->distance));
+    scene_->mark(&pointed->place, words::pointed(before ? ColourBy::plain : properties_->look().colour_by,
+                                                 pointed->value, pointed->landmark, pointed->distance));
   else
     scene_->mark(nullptr, words::kPointedHelp);
   context_->queueRender();

@@ -11,12 +11,14 @@
 #include <tensegric_fit/ControlMesh.h>
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
+#include <tensegric_fit/FitWarnings.h>
 #include <tensegric_fit/Landmarks.h>
 #include <tensegric_fit/MemberForces.h>
 #include <tensegric_fit/TriangleMesh.h>
 
 #include "rviz/body_scene.hpp"
 #include "rviz/look_properties.hpp"
+#include "rviz/second_view.hpp"
 #endif
 
 namespace tensegric_fit::inspect {
@@ -53,9 +55,12 @@ class BodyMeshDisplay : public rviz::Display {
   void take_control(const ControlMesh& message);
   void take_fit(const FitState& message);
   void take_bands(const BandShapes& message);
+  void take_warnings(const FitWarnings& message);
   void take_members(const MemberForces& message);
 
   void place();
+  void part_view(const Look& look);
+  std::vector<int> unheld_skin() const;
   void point(const QPoint& pixel);
 
   std::unique_ptr<LookProperties> properties_;
@@ -63,6 +68,9 @@ class BodyMeshDisplay : public rviz::Display {
   BodyView body_;
   Overlays overlays_;
   std::unique_ptr<BodyScene> scene_;
+  std::unique_ptr<SecondView> second_;
+  std::uint32_t view_bits_ = 0;
+  FitWarnings warnings_;
   std::string frame_;
   std::string place_;  // what the status says of it
   bool new_body_ = false, changed_ = false, listens_to_bands_ = false, listens_to_members_ = false,

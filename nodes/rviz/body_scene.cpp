@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "geometry/shading_normals.hpp"
 #include "inspect/pointing.hpp"
 #include "inspect/words.hpp"
 
@@ -13,7 +14,6 @@ namespace {
 
 constexpr double kTape = 0.003, kModel = 0.0006, kEdge = 0.0015, kMember = 0.001,
                  kBand = 0.006;      // widths, metres
-constexpr double kGap = 0.1;         // between two bodies, metres
 constexpr double kMarkLift = 0.006;  // metres, towards the eye
 constexpr Colour kMarkColour{20, 20, 20};
 
@@ -21,30 +21,30 @@ double blend_of(const Look& look) {
   return look.show == Show::before ? 0 : look.show == Show::blend ? look.blend : 1;
 }
 
-// Half of what two bodies side by side are apart, towards her left.
-Eigen::Vector3d half_step(const BodyView& body, const Overlays& overlays) {
-  const geometry::BodyMeasures* measures = overlays.measures(body);
-  const Eigen::Vector3d left = measures != nullptr ? Eigen::Vector3d(measures->body_from_scan.linear().row(1))
-                                                   : Eigen::Vector3d::UnitY();
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Eigen::Vector3d& vertex : body.mesh().vertices) {
-    low = std::min(low, left.dot(vertex));
-    high = std::max(high, left.dot(vertex));
-  }
-  return (high - low + kGap) / 2 * left;
+constexpr std::uint32_t kAllViews = 0xFFFFFFFF;
+constexpr Colour kPaper{238, 240, 243};
+constexpr double kPaleness = 0.65;
+
+bool is_in_parts(const Look& look) {
+  return look.show == Show::side_by_side || look.show == Show::wipe;
 }
 
-void fill(OgreBody& drawn, const std::vector<Eigen::Vector3d>& vertices, const BodyView& body) {
-  drawn.set_vertices(vertices, geometry::vertex_normals(vertices, body.mesh().triangles));
+// All that hangs below it.
+void show_to(std::uint32_t views, Ogre::SceneNode* node) {
+  for (unsigned short i = 0; i < node->numAttachedObjects(); ++i)
+    node->getAttachedObject(i)->setVisibilityFlags(views);
+  for (Ogre::Node* child : node->getChildren()) show_to(views, static_cast<Ogre::SceneNode*>(child));
 }
 
 }  // namespace
 
-BodyScene::BodyScene(Ogre::SceneManager* scene, Ogre::SceneNode* parent)
+BodyScene::BodyScene(Ogre::SceneManager* scene, Ogre::SceneNode* parent, Parts parts)
     : scene_(scene),
       node_(parent->createChildSceneNode()),
+      parts_(parts),
       before_(scene, parent),
       after_(scene, node_),
+      ghost_(scene, parent),
       landmarks_(scene, node_),
       mark_(scene, node_),
       girths_(scene, node_),
@@ -59,35 +59,52 @@ BodyScene::~BodyScene() = default;  // rviz removes the display's nodes
 void BodyScene::take_triangles(const BodyView& body) {
   const geometry::TriangleMesh& mesh = body.mesh();
   for (OgreBody* drawn : {&before_, &after_}) drawn->set_triangles(mesh.triangles, mesh.vertices.size());
-  fill(before_, mesh.vertices, body);
+  before_.show_to(parts_.before);
+  const std::vector<Eigen::Vector3d> normals = geometry::shading_normals(mesh.vertices, mesh.triangles);
+  before_.set_vertices(mesh.vertices, normals);
+  ghost_.set_body(mesh.triangles, mesh.vertices, normals);
 }
 
-void BodyScene::draw(const BodyView& body, Overlays& overlays, const Look& look) {
+void BodyScene::draw(const BodyView& body, Overlays& overlays, const std::vector<int>& unheld,
+                     const Look& look) {
   look_ = look;
   const double blend = blend_of(look);
-  fill(after_, body.vertices(blend), body);
+  const std::vector<Eigen::Vector3d> vertices = body.vertices(blend);
+  after_.set_vertices(vertices, geometry::shading_normals(vertices, body.mesh().triangles));
   const std::vector<double> values = body.values(look.colour_by, blend);
   scale_ = look.automatic_scale ? auto_scale(look.colour_by, values) : fixed_scale(look.colour_by);
-  after_.set_colours(colours_of(scale_, values));
+  const auto shown = [&look](std::vector<Colour> colours) {
+    if (look.pale)
+      for (Colour& colour : colours) colour = mixed(colour, kPaper, kPaleness);
+    return colours;
+  };
+  std::vector<Colour> colours = colours_of(scale_, values);
+  if (look.colour_by == ColourBy::distortion && blend > 0) colours = with_unheld(std::move(colours), unheld);
+  after_.set_colours(shown(std::move(colours)));
+  before_.set_colours(shown(std::vector<Colour>(vertices.size(), kNeutral)));
   for (OgreBody* drawn : {&before_, &after_}) drawn->set_opacity(look.opacity);
-
-  const bool both = look.show == Show::side_by_side;
-  const Eigen::Vector3d step = both ? half_step(body, overlays) : Eigen::Vector3d::Zero();
-  before_.show(both);
-  before_.set_place(-step);
-  node_->setPosition(ogre(step));
+  before_.show(is_in_parts(look));
+  ghost_.show(look.show == Show::ghost && body.is_worn());
 
   std::vector<NamedDot> dots;
   if (look.landmarks) dots = overlays.dots(body, blend);
-  for (NamedDot& dot : dots) dot.name = spoken(dot.name);
+  for (NamedDot& dot : dots) {
+    dot.name = spoken(dot.name);
+    if (look.pale) dot.colour = mixed(dot.colour, kPaper, kPaleness);
+  }
   landmarks_.draw(dots, look.names);
   const std::vector<Stroke> none;
-  girths_.draw(tubes(look.girths ? overlays.tapes(body, blend) : none, kTape / 2));
-  model_.draw(tubes(look.model ? overlays.model(body, blend) : none, kModel / 2));
-  edges_.draw(tubes(look.control_mesh ? overlays.edges(body, blend) : none, kEdge / 2));
-  members_.draw(tubes(look.members ? overlays.members(body, blend) : none, kMember / 2));
-  lines_.draw(tubes(look.lines ? overlays.lines(body, blend) : none, kBand / 2));
-  ribbons_.draw(surface_of(look.lines ? overlays.ribbons(body, blend) : std::vector<Ribbon>{}));
+  const auto painted = [&shown](PaintedSurface surface) {
+    surface.colours = shown(std::move(surface.colours));
+    return surface;
+  };
+  girths_.draw(painted(tubes(look.girths ? overlays.tapes(body, blend) : none, kTape / 2)));
+  model_.draw(painted(tubes(look.model ? overlays.model(body, blend) : none, kModel / 2)));
+  edges_.draw(painted(tubes(look.control_mesh ? overlays.edges(body, blend) : none, kEdge / 2)));
+  members_.draw(painted(tubes(look.members ? overlays.members(body, blend) : none, kMember / 2)));
+  lines_.draw(painted(tubes(look.lines ? overlays.lines(body, blend) : none, kBand / 2)));
+  ribbons_.draw(painted(surface_of(look.lines ? overlays.ribbons(body, blend) : std::vector<Ribbon>{})));
+  show_to(is_in_parts(look) ? parts_.worn : kAllViews, node_);
   mark(nullptr, words::kPointedHelp);
 }
 
@@ -95,13 +112,13 @@ void BodyScene::show(bool visible) {
   legend_.show(visible && look_.legend);
 }
 
-std::optional<Pointed> BodyScene::point_at(const Ogre::Ray& ray, const BodyView& body,
+std::optional<Pointed> BodyScene::point_at(const Ogre::Ray& ray, bool before, const BodyView& body,
                                            Overlays& overlays) const {
   const auto local = [this](const Ogre::Vector3& world) {
     const Ogre::Vector3 v = node_->convertWorldToLocalPosition(world);
     return Eigen::Vector3d(v.x, v.y, v.z);
   };
-  const double blend = blend_of(look_);
+  const double blend = before ? 0 : blend_of(look_);
   const std::vector<Eigen::Vector3d> vertices = body.vertices(blend);
   const Eigen::Vector3d from = local(ray.getOrigin()), to = local(ray.getOrigin() + ray.getDirection());
   const auto hit = first_hit(vertices, body.mesh().triangles, from, to - from);

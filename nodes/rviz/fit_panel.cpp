@@ -21,7 +21,6 @@ constexpr int kTick = 250;  // milliseconds
 constexpr std::chrono::milliseconds kOwnEcho{
     400};  // after an answer: what was asked for is still coming back
 constexpr std::chrono::seconds kPatience{3};
-constexpr double kPale = 0.35;    // opacity of a body that is no longer the newest
 constexpr double kKeepOld = 120;  // s that it stays
 
 double seconds(std::chrono::steady_clock::time_point time) {
@@ -255,6 +254,10 @@ void FitPanel::show_whose() {
 
 void FitPanel::show_warnings(std::vector<std::string> messages) {
   for (const FitWarning& warning : warnings_.warnings) messages.push_back(warning.message);
+  for (const FitWarning& notice : warnings_.notices)
+    if (notice.code == FitWarning::OVER_STRETCHED || notice.code == FitWarning::PRESSED_TOGETHER ||
+        notice.code == FitWarning::UNDER_CONSTRICTED)
+      messages.push_back(notice.message);
   const std::string words = words::warnings(messages);
   if (!words.empty() && folds_->toolTip() != text(words))
     ROS_WARN("fit panel: %s", node::without_figures(words).c_str());
@@ -339,17 +342,21 @@ void FitPanel::show_girths() {
   const std::vector<Eigen::Vector3d> worn = body_.vertices(1);
   table_->show_measures(measures_, {body_.mesh(), worn});
 
+  const std::string pressed = extreme_skin(true), stretched = extreme_skin(false);
+  show_words(tightness_, pressed + (pressed.empty() || stretched.empty() ? "" : " ") + stretched);
+}
+
+std::string FitPanel::extreme_skin(bool tightest) const {
   const std::vector<double> distortion = body_.values(ColourBy::distortion, 1);
-  const auto tightest = std::min_element(distortion.begin(), distortion.end());
-  const Eigen::Vector3d place = body_.mesh().vertices[tightest - distortion.begin()];
+  const auto extreme = tightest ? std::min_element(distortion.begin(), distortion.end())
+                                : std::max_element(distortion.begin(), distortion.end());
+  const Eigen::Vector3d place = body_.mesh().vertices[extreme - distortion.begin()];
   const auto& landmarks = measures_.landmarks;
   const auto nearest =
       std::min_element(landmarks.begin(), landmarks.end(), [&](const auto& a, const auto& b) {
         return (a.position - place).squaredNorm() < (b.position - place).squaredNorm();
       });
-  const std::string words =
-      words::over_constriction(*tightest, nearest == landmarks.end() ? "" : spoken(nearest->name));
-  show_words(tightness_, words);
+  return words::over_constriction(*extreme, nearest == landmarks.end() ? "" : spoken(nearest->name));
 }
 
 void FitPanel::follow_view() {
@@ -375,7 +382,7 @@ void FitPanel::answer(const std::string& words, bool done) {
 void FitPanel::show_age(const PipelineWatch::State& state) {
   const bool old = !body_.empty() && !state.newest_scan.empty() && state.newest_scan != body_.scan_id();
   if (old != old_since_.has_value()) {
-    set_display("Alpha", old ? kPale : 1.0);
+    set_display("Earlier scan", old);
     table_->setEnabled(!old);
     if (old)
       old_since_ = Clock::now();

@@ -64,7 +64,7 @@ class FitPanel : public rviz::Panel {
   void send();
   void worn_asked(const SetGarment::Request& request);
   void blend(int per_cent);
-  void compare(bool on);
+  void compare();
   void set_display(const char* property, const QVariant& value);
   void enable_display(bool on);
   void start_export();
@@ -92,6 +92,7 @@ class FitPanel : public rviz::Panel {
   void follow_view();
   void show_state();
   void show_age(const PipelineWatch::State& state);
+  std::string extreme_skin(bool tightest) const;  // a sentence, "" where it bears it
   void answer(const std::string& words, bool done = false);  // to the clerk, and to the log
 
   using Clock = std::chrono::steady_clock;
@@ -122,7 +123,8 @@ class FitPanel : public rviz::Panel {
   QWidget *lines_box_, *regions_box_;
   std::vector<LineRow*> rows_;
   QPushButton *put_on_, *undo_, *redo_, *reset_, *export_;
-  QCheckBox *linked_, *compare_;
+  QCheckBox* linked_;
+  QComboBox* compare_;
   QSlider* blend_;
   ViewRow* view_;
   GirthTable* table_;

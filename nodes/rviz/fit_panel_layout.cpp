@@ -23,8 +23,8 @@ namespace tensegric_fit::inspect {
 namespace {
 
 constexpr int kPanelWidth = 430;      // pixels
+constexpr int kGarmentPicture = 72;   // pixels
 constexpr int kLongestCustomer = 60;  // letters of a customer id
-constexpr float kStepBack = 1.7F;     // of the camera, to see two bodies in place of one
 constexpr char kWarning[] = "color: #b2182b; font-weight: bold";
 constexpr char kDisplay[] = "tensegric_fit/BodyMesh";
 
@@ -60,6 +60,7 @@ void add_shipped_garments(QComboBox* box) {
     const std::string shown = garment.name + (garment.title.empty() ? "" : ": " + garment.title);
     box->addItem(text(shown), text(garment.name));
     box->setItemData(box->count() - 1, text(garment.about), Qt::ToolTipRole);
+    if (!garment.picture.empty()) box->setItemIcon(box->count() - 1, QIcon(text(garment.picture)));
   }
 }
 
@@ -76,7 +77,7 @@ FitPanel::FitPanel(QWidget* parent) : rviz::Panel(parent) {
   build_garment(layout);
   fit_ = sentence(layout, 2);
   folds_ = sentence(layout, 3, kWarning);
-  tightness_ = sentence(layout, 1, kWarning);
+  tightness_ = sentence(layout, 2, kWarning);
   layout->addWidget(lines_box_ = new QWidget);
   layout->addWidget(regions_box_ = new QWidget);
   build_buttons(layout);
@@ -104,6 +105,7 @@ void FitPanel::build_garment(QVBoxLayout* layout) {
   garment_ = new QComboBox;
   garment_->setEditable(true);
   garment_->setInsertPolicy(QComboBox::NoInsert);
+  garment_->setIconSize({kGarmentPicture, kGarmentPicture});
   add_shipped_garments(garment_);
   garment_->setCompleter(nullptr);  // it would add a title to the name that is typed
   garment_->setCurrentText("");
@@ -127,8 +129,18 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   row->addWidget(reset_ = new QPushButton(words::kReset));
   layout->addLayout(row);
   auto* choices = new QHBoxLayout;
-  choices->addWidget(linked_ = new QCheckBox(words::kLinked));
-  choices->addWidget(compare_ = new QCheckBox(words::kCompare));
+  choices->addWidget(linked_ = new QCheckBox(words::kLinked), 1);
+  auto* comparing = new QLabel(words::kCompare);
+  compare_ = new QComboBox;
+  compare_->setToolTip(words::kCompareHelp);
+  compare_->addItem(words::kAlone, words::kAfter);
+  compare_->addItem(words::kAsGhost, words::kGhost);
+  compare_->addItem(words::kBothSides, words::kSideBySide);
+  compare_->addItem(words::kAsWipe, words::kWipe);
+  compare_->addItem(words::kFading, words::kBlend);
+  comparing->setBuddy(compare_);
+  choices->addWidget(comparing);
+  choices->addWidget(compare_);
   layout->addLayout(choices);
   undo_->setEnabled(false);
   redo_->setEnabled(false);
@@ -151,7 +163,7 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
     asked_at_ = Clock::now();
     client_->reset();
   });
-  connect(compare_, &QCheckBox::toggled, this, &FitPanel::compare);
+  connect(compare_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] { compare(); });
   connect(blend_, &QSlider::valueChanged, this, &FitPanel::blend);
 }
 
@@ -260,20 +272,24 @@ void FitPanel::enable_display(bool on) {
   for (rviz::Display* display : displays(vis_manager_)) display->setEnabled(on);
 }
 
+// The slider is the border of the wipe; in any other view it fades.
 void FitPanel::blend(int per_cent) {
-  compare_->setChecked(false);
+  if (compare_->currentData() != words::kWipe && compare_->currentData() != words::kBlend)
+    compare_->setCurrentIndex(compare_->findData(words::kBlend));
   set_display("Blend", per_cent / 100.0);
-  set_display("Show", words::kBlend);
 }
 
+// A new garment is not seen half faded.
 void FitPanel::show_garment_fully() {
-  if (blend_->value() != blend_->maximum()) blend_->setValue(blend_->maximum());
+  if (compare_->currentData() == words::kBlend) compare_->setCurrentIndex(compare_->findData(words::kAfter));
 }
 
-void FitPanel::compare(bool on) {
-  set_display("Show", on ? words::kSideBySide : words::kAfter);
-  rviz::Property* distance = vis_manager_->getViewManager()->getCurrent()->subProp("Distance");
-  distance->setValue(distance->getValue().toFloat() * (on ? kStepBack : 1 / kStepBack));
+void FitPanel::compare() {
+  const bool wipes = compare_->currentData() == words::kWipe;
+  const QSignalBlocker quiet(blend_);
+  if (compare_->currentData() != words::kBlend) blend_->setValue(wipes ? 50 : 100);
+  set_display("Blend", blend_->value() / 100.0);
+  set_display("Show", compare_->currentData());
 }
 
 void FitPanel::start_export() {

@@ -18,7 +18,7 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr int kWidth = 440, kHeight = 94, kMargin = 12, kBarTop = 26, kBarHeight = 16;  // pixels
+constexpr int kWidth = 400, kHeight = 94, kMargin = 12, kBarTop = 26, kBarHeight = 16;  // pixels
 constexpr int kPaperOpacity = 215;
 
 std::string next_name() {

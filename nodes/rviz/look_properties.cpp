@@ -11,6 +11,7 @@
 #include <tensegric_fit/ControlMesh.h>
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
+#include <tensegric_fit/FitWarnings.h>
 #include <tensegric_fit/Landmarks.h>
 #include <tensegric_fit/MemberForces.h>
 #include <tensegric_fit/TriangleMesh.h>
@@ -59,6 +60,8 @@ LookProperties::LookProperties(rviz::Property* parent, QObject* receiver, const 
   show_->addOption(words::kBefore, static_cast<int>(Show::before));
   show_->addOption(words::kSideBySide, static_cast<int>(Show::side_by_side));
   show_->addOption(words::kBlend, static_cast<int>(Show::blend));
+  show_->addOption(words::kGhost, static_cast<int>(Show::ghost));
+  show_->addOption(words::kWipe, static_cast<int>(Show::wipe));
   blend_ = share("Blend", first.blend, words::kBlendHelp, parent, receiver, look_changed);
   colour_by_ = choice("Colour", words::kDistortion, words::kColourHelp);
   colour_by_->addOption(words::kDistortion, static_cast<int>(ColourBy::distortion));
@@ -78,6 +81,9 @@ LookProperties::LookProperties(rviz::Property* parent, QObject* receiver, const 
   control_mesh_ = flag("Control mesh", first.control_mesh, words::kControlHelp, parent);
   members_ = flag("Struts and tensile parts", first.members, words::kMembersHelp, parent);
 
+  pale_ = flag("Earlier scan", false, words::kPaleHelp, parent);
+  pale_->setShouldBeSaved(false);
+
   auto* topics = new rviz::Property("Topics", QVariant(), words::kTopicsHelp, parent);
   body = topic<TriangleMesh>("Body", "body/mesh", words::kBodyHelp, topics, receiver, topics_changed);
   worn = topic<DeformedMesh>("Deformed", "body/deformed", words::kWornHelp, topics, receiver, topics_changed);
@@ -89,6 +95,9 @@ LookProperties::LookProperties(rviz::Property* parent, QObject* receiver, const 
   fit = topic<FitState>("Fit", "control/deformed", words::kLinesHelp, topics, receiver, topics_changed);
   bands = topic<BandShapes>("Bands", "control/bands", words::kLinesHelp, topics, receiver, topics_changed);
   members = topic<MemberForces>("Members", "tensegric/members", words::kMembersHelp, topics, receiver,
+                                topics_changed);
+
+  warnings = topic<FitWarnings>("Warnings", "body/warnings", words::kUnheldHelp, topics, receiver,
                                 topics_changed);
 
   auto* pointed = new rviz::Property("Pointed at", QVariant(), words::kPointedHelp, parent);
@@ -112,6 +121,7 @@ Look LookProperties::look() const {
   look.control_mesh = control_mesh_->getBool();
   look.members = members_->getBool();
   look.lines = lines_->getBool();
+  look.pale = pale_->getBool();
   return look;
 }
 

@@ -29,12 +29,12 @@ class LookProperties {
   /// Words for what was pointed at, shown read-only; null: nothing.
   void show_pointed(const Pointed* pointed);
 
-  rviz::RosTopicProperty *body, *worn, *landmarks, *model, *control, *fit, *bands, *members;
+  rviz::RosTopicProperty *body, *worn, *landmarks, *model, *control, *fit, *bands, *members, *warnings;
 
  private:
   rviz::EnumProperty *show_, *colour_by_, *scale_;
   rviz::FloatProperty *blend_, *opacity_;
-  rviz::BoolProperty *legend_, *landmarks_, *names_, *girths_, *model_, *control_mesh_, *members_, *lines_;
+  rviz::BoolProperty *legend_, *landmarks_, *names_, *girths_, *model_, *control_mesh_, *members_, *lines_, *pale_;
   rviz::StringProperty *value_, *position_, *nearest_;
 };
 

@@ -25,8 +25,15 @@ std::string next_name() {
 }
 
 // A transparent body fills the depth buffer first: only its outermost skin is drawn.
-void set_passes(Ogre::Technique* technique, bool transparent) {
+void set_passes(Ogre::Technique* technique, bool transparent, OgreBody::Finish finish) {
   technique->removeAllPasses();
+  if (finish != OgreBody::Finish::lit) {
+    Ogre::Pass* pass = technique->createPass();
+    pass->setLightingEnabled(false);
+    pass->setColourWriteEnabled(finish == OgreBody::Finish::far_side);
+    if (finish == OgreBody::Finish::far_side) pass->setCullingMode(Ogre::CULL_ANTICLOCKWISE);
+    return;
+  }
   if (transparent) {
     Ogre::Pass* depth = technique->createPass();
     depth->setColourWriteEnabled(false);
@@ -55,7 +62,7 @@ OgreBody::OgreBody(Ogre::SceneManager* scene, Ogre::SceneNode* parent)
       name_(next_name()),
       material_(Ogre::MaterialManager::getSingleton().create(name_, Ogre::RGN_DEFAULT)) {
   material_->setReceiveShadows(false);
-  set_passes(material_->getTechnique(0), false);
+  set_passes(material_->getTechnique(0), false, finish_);
 }
 
 OgreBody::~OgreBody() {
@@ -137,14 +144,22 @@ void OgreBody::upload_colours() {
 
 void OgreBody::set_opacity(double opacity) {
   if (opacity == opacity_) return;
-  if ((opacity < 1) != (opacity_ < 1)) set_passes(material_->getTechnique(0), opacity < 1);
+  if ((opacity < 1) != (opacity_ < 1)) set_passes(material_->getTechnique(0), opacity < 1, finish_);
   opacity_ = opacity;
   if (mesh_) upload_colours();
 }
 
-void OgreBody::set_place(const Eigen::Vector3d& offset) {
-  node_->setPosition(static_cast<float>(offset.x()), static_cast<float>(offset.y()),
-                     static_cast<float>(offset.z()));
+void OgreBody::set_finish(Finish finish) {
+  finish_ = finish;
+  set_passes(material_->getTechnique(0), opacity_ < 1, finish_);
+}
+
+void OgreBody::draw_in(unsigned char queue, unsigned short priority) {
+  if (entity_ != nullptr) entity_->setRenderQueueGroupAndPriority(queue, priority);
+}
+
+void OgreBody::show_to(std::uint32_t views) {
+  if (entity_ != nullptr) entity_->setVisibilityFlags(views);
 }
 
 void OgreBody::show(bool visible) {

@@ -6,6 +6,7 @@
 #include <OgreMesh.h>
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,14 @@ class OgreBody {
   void set_colours(const std::vector<Colour>& colours);
   /// 1 opaque; below, only the outermost skin shows, and what is inside through it.
   void set_opacity(double opacity);
-  void set_place(const Eigen::Vector3d& offset);
+  /// Lit skin; nothing but its depth; the side of it that faces away, in its colours without light.
+  enum class Finish { lit, depth_only, far_side };
+  void set_finish(Finish finish);
+  /// In that queue of Ogre's, of what is drawn there by rising `priority`. Until the next set_triangles.
+  void draw_in(unsigned char queue, unsigned short priority);
   void show(bool visible);
+  /// Only views with one of these bits show it. Until the next set_triangles.
+  void show_to(std::uint32_t views);
 
  private:
   void clear();
@@ -51,6 +58,7 @@ class OgreBody {
   Ogre::HardwareVertexBufferSharedPtr shape_, paint_;
   std::vector<Colour> colours_;
   double opacity_ = 1;
+  Finish finish_ = Finish::lit;
 };
 
 }  // namespace tensegric_fit::inspect

@@ -46,13 +46,13 @@ std::string shape_note(const Model& model, const Positions& x) {
   std::string note;
   if (change.turned_over > 0)
     note = "The shape folds over itself and is not to be trusted: loosen the garment. (Details: " +
-           std::to_string(change.turned_over) + " control triangles turned over.)";
+           std::to_string(change.turned_over) + " patches of the model turned over.)";
   if (change.below_half > 0)
     note += std::string(note.empty() ? "" : " ") +
             "In places skin would be pressed to less than half its area: loosen the line that pulls most, or "
             "take a "
             "softer band. (Details: " +
-            std::to_string(change.below_half) + " control triangles below half.)";
+            std::to_string(change.below_half) + " patches of the model below half.)";
   return note;
 }
 

@@ -7,15 +7,61 @@
 
 namespace tensegric_fit::virtual_booth {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
+
+Vector2d Lens::bent(const Vector2d& straight) const {
+  const double x = straight.x(), y = straight.y(), r2 = straight.squaredNorm();
+  const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  return {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
+          y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
+}
+
+Vector2d Lens::straight(const Vector2d& seen) const {
+  constexpr int kMostSteps = 200;
+  constexpr double kNear = 1e-12;
+  Vector2d guess = seen;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Vector2d off = bent(guess) - seen;
+    guess -= off;
+    if (off.norm() < kNear) break;
+  }
+  return guess;
+}
 
 DepthImage::DepthImage(const Sensor& sensor, int rows, int columns)
     : sensor_(sensor),
       rows_(rows),
       columns_(columns),
-      pixels_(static_cast<std::size_t>(rows) * columns, {std::numeric_limits<double>::infinity(), 0}) {}
+      pixels_(static_cast<std::size_t>(rows) * columns, {std::numeric_limits<double>::infinity(), 0}) {
+  if (sensor.lens.none()) return;
+  std::vector<Vector2d> rays;
+  rays.reserve(pixels_.size());
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const Vector3d seen = ray(row, column);
+      const Vector2d straight = sensor.lens.straight({seen.x(), -seen.y()});
+      rays.emplace_back(straight.x(), -straight.y());
+    }
+  }
+  rays_ = std::move(rays);
+}
+
+Vector2d DepthImage::pixel_of(const Vector3d& p) const {
+  Vector2d seen(p.x() / p.z(), p.y() / p.z());
+  if (!sensor_.lens.none()) {
+    const Vector2d bent = sensor_.lens.bent({seen.x(), -seen.y()});
+    seen = {bent.x(), -bent.y()};
+  }
+  return {(seen.x() / sensor_.half_width + 1) / 2 * columns_,
+          (1 - seen.y() / sensor_.half_height) / 2 * rows_};
+}
 
 Vector3d DepthImage::ray(int row, int column) const {
+  if (!rays_.empty()) {
+    const Vector2d& ray = rays_[static_cast<std::size_t>(row) * columns_ + column];
+    return {ray.x(), ray.y(), 1};
+  }
   return {sensor_.half_width * ((2 * column + 1.0) / columns_ - 1),
           sensor_.half_height * (1 - (2 * row + 1.0) / rows_), 1};
 }
@@ -32,15 +78,13 @@ void DepthImage::draw(const geometry::TriangleMesh& mesh) {
     const Vector3d normal = geometry::area_vector(a, b, c);
     const double plane = normal.dot(a), area = normal.norm();
     if (area == 0) continue;
-    // Pixels of the box round the triangle
-    const auto column_of = [&](const Vector3d& p) {
-      return (p.x() / p.z() / sensor_.half_width + 1) / 2 * columns_;
-    };
-    const auto row_of = [&](const Vector3d& p) {
-      return (1 - p.y() / p.z() / sensor_.half_height) / 2 * rows_;
-    };
-    const auto [left, right] = std::minmax({column_of(a), column_of(b), column_of(c)});
-    const auto [top, bottom] = std::minmax({row_of(a), row_of(b), row_of(c)});
+    // Pixels of the box round the triangle; a lens bends its sides by less than a pixel.
+    const Vector2d at = pixel_of(a), bt = pixel_of(b), ct = pixel_of(c);
+    const double margin = sensor_.lens.none() ? 0 : 1;
+    const double left = std::min({at.x(), bt.x(), ct.x()}) - margin,
+                 right = std::max({at.x(), bt.x(), ct.x()}) + margin;
+    const double top = std::min({at.y(), bt.y(), ct.y()}) - margin,
+                 bottom = std::max({at.y(), bt.y(), ct.y()}) + margin;
     if (right < 0 || left > columns_ || bottom < 0 || top > rows_) continue;
     const int first_row = std::max(0, static_cast<int>(top)),
               last_row = std::min(rows_ - 1, static_cast<int>(bottom));

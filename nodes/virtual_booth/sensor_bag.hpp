@@ -17,4 +17,13 @@ namespace tensegric_fit::virtual_booth {
 void write_sensor_bag(const std::string& path, const std::vector<SensorScan>& scans,
                       const std::string& frame_id, const ros::Time& stamp);
 
+/// Camera k as cameras/k/image and cameras/k/camera_info, a millisecond after the one before it, and on
+/// /tf_static where cameras are believed to stand; otherwise as write_sensor_bag.
+void write_camera_bag(const std::string& path, const std::vector<DepthPicture>& pictures,
+                      const std::string& frame_id, const ros::Time& stamp);
+
+/// Where the cameras are believed to stand, as depth_cameras::load_camera_poses reads it. \throw
+/// std::runtime_error
+void write_camera_poses(const std::string& path, const std::vector<DepthPicture>& pictures);
+
 }  // namespace tensegric_fit::virtual_booth

@@ -1,5 +1,5 @@
-/// simulated_booth: customers drawn at random, as a booth of twelve sensors sees them. For trying everything
-/// without a booth.
+/// simulated_booth: customers drawn at random, as a booth of twelve sensors or of depth cameras sees them.
+/// For trying everything without a booth.
 #include <fmt/format.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_srvs/Trigger.h>
@@ -13,11 +13,12 @@
 namespace tensegric_fit::node {
 namespace {
 
+constexpr int kColumns = 4;
 constexpr int kSensors = 12;  // four columns of three, as launch/config/booth.yaml lists them
 
 struct Setup {
   virtual_booth::Family family;
-  int first, customers, points, silent;
+  int first, customers, points, silent, cameras;
   double interval;
   std::string frame_id, sensor_frames;
 };
@@ -30,10 +31,15 @@ Setup setup_from(Parameters parameters) {
   setup.customers = parameters.integer("customers", 3, {0, 1000000});
   setup.points = parameters.integer("points", 180000, {20000, 2000000});
   setup.silent = parameters.integer("silent_sensor", -1, {-1, kSensors - 1});
+  setup.cameras = parameters.integer("depth_cameras", 0, {0, 16});
   setup.interval = parameters.number("interval", 15, {0, 86400});
   setup.frame_id = parameters.frame("frame_id", "booth");
   setup.sensor_frames = parameters.frame("sensor_frames", "sensor_");
   parameters.check_all_known();
+  if (setup.cameras % kColumns != 0)
+    throw geometry::Refusal(
+        geometry::refusal::kBadOption,
+        fmt::format("parameter 'depth_cameras' is {}: they stand on {} columns", setup.cameras, kColumns));
   return setup;
 }
 
@@ -45,9 +51,15 @@ class SimulatedBooth {
         poses_(node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true)),
         service_(node.advertiseService("scan", &SimulatedBooth::on_scan, this)) {
     // latched: an assembler that is started again finds the capture that it was at
-    for (int sensor = 0; sensor < kSensors; ++sensor)
+    for (int sensor = 0; setup_.cameras == 0 && sensor < kSensors; ++sensor)
       sensors_.push_back(
           node.advertise<sensor_msgs::PointCloud2>(fmt::format("sensors/{}/points", sensor), 1, true));
+    for (int camera = 0; camera < setup_.cameras; ++camera) {
+      sensors_.push_back(
+          node.advertise<sensor_msgs::Image>(fmt::format("cameras/{}/image", camera), 1, true));
+      lenses_.push_back(
+          node.advertise<sensor_msgs::CameraInfo>(fmt::format("cameras/{}/camera_info", camera), 1, true));
+    }
     clock_ = node.createWallTimer(ros::WallDuration(0.2), [this](const ros::WallTimerEvent&) { go_on(); });
   }
 
@@ -72,23 +84,51 @@ class SimulatedBooth {
     scanner.seed = customer;
     scanner.points = setup_.points;
     const virtual_body::VirtualBody body = virtual_booth::random_customer(setup_.family, customer);
-    const std::vector<virtual_booth::SensorScan> scans =
-        virtual_booth::by_sensor(virtual_booth::scan_body(body.mesh, scanner));
+    if (setup_.cameras > 0)
+      publish_images(body.mesh, scanner);
+    else
+      publish_clouds(body.mesh, scanner);
+    ROS_INFO("simulated_booth: scanned customer %d", customer);
+  }
+
+  void publish_clouds(const geometry::TriangleMesh& body, const virtual_booth::ScannerOptions& scanner) {
+    const virtual_booth::VirtualScan scan = virtual_booth::scan_body(body, scanner);
+    const std::vector<virtual_booth::SensorScan> scans = virtual_booth::by_sensor(scan);
     const ros::Time stamp = ros::Time::now();
-    poses_.publish(virtual_booth::sensor_poses(scans, setup_.frame_id, setup_.sensor_frames, stamp));
+    poses_.publish(virtual_booth::sensor_poses(scan.sensors, setup_.frame_id, setup_.sensor_frames, stamp));
     for (int sensor = 0; sensor < kSensors; ++sensor)
       if (sensor != setup_.silent)
-        sensors_[sensor].publish(virtual_booth::sensor_cloud(scans[sensor],
-                                                             setup_.sensor_frames + std::to_string(sensor),
-                                                             stamp + ros::Duration(0.001 * sensor)));
-    ROS_INFO("simulated_booth: scanned customer %d", customer);
+        sensors_[sensor].publish(
+            virtual_booth::sensor_cloud(scans[sensor], frame_of(sensor), seen_at(stamp, sensor)));
+  }
+
+  void publish_images(const geometry::TriangleMesh& body, virtual_booth::ScannerOptions scanner) {
+    scanner.sensors_per_column = setup_.cameras / kColumns;
+    const std::vector<virtual_booth::DepthPicture> pictures =
+        virtual_booth::depth_pictures(body, scanner, virtual_booth::kWideLens);
+    std::vector<virtual_booth::SensorPose> poses;
+    for (const virtual_booth::DepthPicture& picture : pictures) poses.push_back(picture.pose);
+    const ros::Time stamp = ros::Time::now();
+    poses_.publish(virtual_booth::sensor_poses(poses, setup_.frame_id, setup_.sensor_frames, stamp));
+    for (int camera = 0; camera < setup_.cameras; ++camera) {
+      if (camera == setup_.silent) continue;
+      lenses_[camera].publish(
+          virtual_booth::camera_info(pictures[camera], frame_of(camera), seen_at(stamp, camera)));
+      sensors_[camera].publish(
+          virtual_booth::depth_image(pictures[camera], frame_of(camera), seen_at(stamp, camera)));
+    }
+  }
+
+  std::string frame_of(int sensor) const { return setup_.sensor_frames + std::to_string(sensor); }
+  static ros::Time seen_at(const ros::Time& stamp, int sensor) {
+    return stamp + ros::Duration(0.001 * sensor);
   }
 
   const Setup setup_;
   int next_;        // customer
   double due_ = 0;  // when she comes, seconds of the steady clock
   ros::Publisher poses_;
-  std::vector<ros::Publisher> sensors_;
+  std::vector<ros::Publisher> sensors_, lenses_;  // lenses of cameras alone
   ros::ServiceServer service_;
   ros::WallTimer clock_;
 };

@@ -23,8 +23,18 @@ using namespace tensegric_fit;
 
 constexpr int kUsage = 2, kRefused = 3;
 
+/// What a booth of so many depth cameras on four columns sees of her.
+void write_cameras(const virtual_body::VirtualBody& subject, virtual_booth::ScannerOptions scanner,
+                   int cameras, const std::filesystem::path& out, const ros::Time& stamp) {
+  scanner.sensors_per_column = cameras / scanner.columns;
+  const std::vector<virtual_booth::DepthPicture> pictures =
+      virtual_booth::depth_pictures(subject.mesh, scanner, virtual_booth::kWideLens);
+  virtual_booth::write_camera_bag(out / "cameras.bag", pictures, "booth", stamp);
+  virtual_booth::write_camera_poses(out / "cameras.yaml", pictures);
+}
+
 void write_scan(const virtual_body::VirtualBody& subject, const virtual_booth::ScannerOptions& scanner,
-                bool each_sensor, const std::filesystem::path& out) {
+                bool each_sensor, int cameras, const std::filesystem::path& out) {
   const virtual_booth::VirtualScan scan = virtual_booth::scan_body(subject.mesh, scanner);
   std::filesystem::create_directories(out);
   geometry::write_ply_mesh(out / "body.ply", subject.mesh);
@@ -34,6 +44,7 @@ void write_scan(const virtual_body::VirtualBody& subject, const virtual_booth::S
   scan_files::write_bag_scan(out / "scan.bag", scan.cloud, "booth", stamp);
   if (each_sensor)
     virtual_booth::write_sensor_bag(out / "sensors.bag", virtual_booth::by_sensor(scan), "booth", stamp);
+  if (cameras > 0) write_cameras(subject, scanner, cameras, out, stamp);
   virtual_booth::write_truth(out / "truth.json", subject, scanner);
   std::cout << fmt::format("{}: {} points of a body of {} triangles\n", out.string(),
                            scan.cloud.points.size(), subject.mesh.triangles.size());
@@ -57,6 +68,7 @@ struct Request {
   std::string family = "model", out = "virtual_booth", shape;
   std::uint64_t customer = 0;
   bool is_customer = false, each_sensor = false;
+  int cameras = 0;
   virtual_body::BodyParameters body;  // of the implicit family; what was asked for of the model's, too
   virtual_booth::ScannerOptions scanner;
   std::vector<std::string> asked;  // options of the body that were given
@@ -84,7 +96,7 @@ void run(const Request& request) {
                                                : virtual_body::make_body(request.body);
   write_scan(subject,
              request.is_customer ? virtual_booth::random_scanner(request.customer, subject) : request.scanner,
-             request.each_sensor, request.out);
+             request.each_sensor, request.cameras, request.out);
 }
 
 /// All options of the program. \throw CLI::ParseError
@@ -102,6 +114,10 @@ void parse(int argc, char** argv, CLI::App& app, Request& request) {
       ->check(CLI::IsMember(virtual_body::example_shapes()));
   const CLI::Option* sensors =
       app.add_flag("--sensors", request.each_sensor, "write sensors.bag, too: each sensor's cloud and tf");
+  app.add_option("--depth-cameras", request.cameras,
+                 "write cameras.bag, too: depth images and CameraInfo of so many cameras with lenses, and "
+                 "cameras.yaml, where they stand")
+      ->check(CLI::IsMember({0, 4, 8, 12, 16}));
   CLI::Option* customer = app.add_option(
       "--customer", request.customer,
       "body and booth number N, drawn at random; only --family, --out and --sensors go with it");

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/range.hpp"
 #include "geometry/status.hpp"
@@ -75,12 +76,14 @@ geometry::TriangleMesh booth_frame() {
   return frame;
 }
 
+int pixels(double half, double pixels_per_unit) {
+  return std::max(8, static_cast<int>(2 * half * pixels_per_unit));
+}
+
 std::vector<Hit> look(const Sensor& sensor, const geometry::TriangleMesh& body, const ScannerOptions& options,
                       double pixels_per_unit) {
-  const auto pixels = [pixels_per_unit](double half) {
-    return std::max(8, static_cast<int>(2 * half * pixels_per_unit));
-  };
-  DepthImage image(sensor, pixels(sensor.half_height), pixels(sensor.half_width));
+  DepthImage image(sensor, pixels(sensor.half_height, pixels_per_unit),
+                   pixels(sensor.half_width, pixels_per_unit));
   image.draw(body);
   if (options.frame) image.draw(booth_frame());
   if (options.floor) image.draw_floor(options.floor_radius);
@@ -141,11 +144,22 @@ Eigen::Isometry3d optical_frame(const Sensor& sensor) {
   return booth_from_sensor;
 }
 
-// In the booth's own frame.
-VirtualScan scan_upright(const geometry::TriangleMesh& body, const ScannerOptions& options) {
+// How far along its ray a point is seen from where it is.
+double off_along_ray(virtual_body::Random& random, const ScannerOptions& options) {
+  constexpr double kFarthestOutlier = 0.050;
+  return random.uniform() < options.outliers ? kFarthestOutlier * (2 * random.uniform() - 1)
+                                             : options.noise * random.normal();
+}
+
+double height_of(const geometry::TriangleMesh& body) {
   const double height = body.vertices.empty() ? 0 : geometry::bounding_box(body.vertices)[1].z();
   geometry::check_option("height of the body over z = 0", height, {0.1, 3.0});
-  const std::vector<Sensor> all = sensors(options, body, height);
+  return height;
+}
+
+// In the booth's own frame.
+VirtualScan scan_upright(const geometry::TriangleMesh& body, const ScannerOptions& options) {
+  const std::vector<Sensor> all = sensors(options, body, height_of(body));
   const double pixels_per_unit = resolution(all, body, options);
 
   virtual_body::Random random(options.seed);
@@ -161,9 +175,7 @@ VirtualScan scan_upright(const geometry::TriangleMesh& body, const ScannerOption
           return_share(hit.incidence, options.grazing) * bright_share(hit.point, options.dark))
         continue;
       const Vector3d ray = (hit.point - all[s].position).normalized();
-      constexpr double kFarthestOutlier = 0.050;
-      const double off = random.uniform() < options.outliers ? kFarthestOutlier * (2 * random.uniform() - 1)
-                                                             : options.noise * random.normal();
+      const double off = off_along_ray(random, options);
       const Vector3d skin = fractured(hit.point, options.fracture, column);
       points.emplace_back(error * Vector3d(skin + off * ray), static_cast<int>(s));
     }
@@ -200,6 +212,44 @@ VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& 
     sensor.error = back * sensor.error * booth;
   }
   return scan;
+}
+
+std::vector<DepthPicture> depth_pictures(const geometry::TriangleMesh& body, const ScannerOptions& options,
+                                         const Lens& lens) {
+  check_options(options);
+  geometry::check_mesh(body);
+  std::vector<Sensor> all = sensors(options, body, height_of(body));
+  for (Sensor& sensor : all) sensor.lens = lens;
+  const double pixels_per_unit = resolution(all, body, options);
+  virtual_body::Random random(options.seed);
+  std::vector<DepthPicture> pictures;
+  Eigen::Isometry3d error = Eigen::Isometry3d::Identity();
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    const Sensor& sensor = all[s];
+    if (s % options.sensors_per_column == 0) error = column_error(random, options.misregistration);
+    DepthPicture picture;
+    picture.rows = pixels(sensor.half_height, pixels_per_unit);
+    picture.columns = pixels(sensor.half_width, pixels_per_unit);
+    picture.fx = picture.columns / (2 * sensor.half_width);
+    picture.fy = picture.rows / (2 * sensor.half_height);
+    picture.cx = (picture.columns - 1) / 2.0;
+    picture.cy = (picture.rows - 1) / 2.0;
+    picture.lens = lens;
+    picture.pose = {static_cast<int>(s) / options.sensors_per_column, error * optical_frame(sensor), error};
+    picture.depth.assign(static_cast<std::size_t>(picture.rows) * picture.columns,
+                         std::numeric_limits<float>::quiet_NaN());
+    for (const Hit& hit : look(sensor, body, options, pixels_per_unit)) {
+      if (random.uniform() >=
+          return_share(hit.incidence, options.grazing) * bright_share(hit.point, options.dark))
+        continue;
+      const Vector3d way = hit.point - sensor.position;
+      const Vector3d seen = way + off_along_ray(random, options) * way.normalized();
+      picture.depth[static_cast<std::size_t>(hit.row) * picture.columns + hit.column] =
+          static_cast<float>(sensor.axes.row(2).dot(seen));
+    }
+    pictures.push_back(std::move(picture));
+  }
+  return pictures;
 }
 
 std::vector<SensorScan> by_sensor(const VirtualScan& scan) {

@@ -7,6 +7,7 @@
 
 #include "geometry/point_cloud.hpp"
 #include "geometry/triangle_mesh.hpp"
+#include "virtual_booth/depth_image.hpp"
 
 namespace tensegric_fit::virtual_booth {
 
@@ -66,11 +67,29 @@ struct SensorScan {
   SensorPose pose;             ///< its viewpoint is booth_from_sensor's translation
 };
 
+/// What one sensor sees as a depth camera with a lens.
+struct DepthPicture {
+  int rows, columns;
+  std::vector<float> depth;  ///< metres along z of the sensor's frame, row by row; NaN where nothing was seen
+  double fx, fy, cx, cy;     ///< of the camera matrix, pixels
+  Lens lens;
+  SensorPose pose;
+};
+
 /// Every point is where a ray meets the first surface on its way, so occlusion is real. Same arguments, same
 /// bits. \throw Refusal bad_option naming the option and its range
 VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& options);
 
 /// The same points, one cloud a sensor, in the order of VirtualScan::sensors.
 std::vector<SensorScan> by_sensor(const VirtualScan& scan);
+
+/// A lens as those of wide depth cameras: straight lines at the edge bend by some tens of pixels.
+inline constexpr Lens kWideLens{-0.18, 0.04, 0.001, -0.0008, 0};
+
+/// One picture a sensor, in the order of VirtualScan::sensors, with noise, outliers, misregistration and what
+/// does not return as in scan_body, and about as many points. \pre options.booth_from_scan is the identity;
+/// there is no fracture. Same arguments, same bits. \throw Refusal as scan_body
+std::vector<DepthPicture> depth_pictures(const geometry::TriangleMesh& body, const ScannerOptions& options,
+                                         const Lens& lens);
 
 }  // namespace tensegric_fit::virtual_booth

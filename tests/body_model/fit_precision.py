@@ -61,7 +61,7 @@ def truth_of(truth, frame, kind, name):
         loose = truth.get('loose', {}).get(name)
         return frame[:3, :3] @ np.array(p) + frame[:3, 3], None if loose is None else frame[:3, :3] @ np.array(loose)
     if kind == 'girth' and name == 'neck':
-        return np.array([truth['girths']['neck_min'], 0, 0]), None
+        return np.array([truth['girths'].get('neck_min', truth['girths']['neck']), 0, 0]), None  # one reading: the least girth
     v = truth[kind + 's'].get(name)
     return None if v is None else (np.array([v, 0, 0]), None)
 

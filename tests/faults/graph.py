@@ -24,7 +24,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.dont_write_bytecode = True  # not into the sources
 sys.path.insert(0, str(HERE.parent))
-from launched import free_port, program, wait_until
+from launched import free_port, nodes_at, program, wait_until
 
 BOOTHS = ("left", "right")
 STAGES = ("reconstruction", "landmarks", "control_mesh", "tensegric", "tffd")
@@ -119,19 +119,7 @@ class Graph:
 
     def processes(self):
         """booth/node -> process."""
-        found = {}
-        for command in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
-            try:
-                words = command.read_bytes().decode(errors="replace").split("\0")
-                environment = (command.parent / "environ").read_bytes().decode(errors="replace").split("\0")
-            except OSError:
-                continue
-            name = next((word[8:] for word in words if word.startswith("__name:=")), None)
-            if name not in NODES or f"ROS_MASTER_URI=http://localhost:{self.port}" not in environment:
-                continue
-            space = next((word[14:] for word in environment if word.startswith("ROS_NAMESPACE=")), "").strip("/")
-            found[f"{space}/{name}"] = int(command.parent.name)
-        return found
+        return nodes_at(f"http://localhost:{self.port}", NODES)
 
     def wait(self, booth, stamp, seconds):
         """The result of that scan."""

@@ -94,6 +94,10 @@ def run(command, limit=None):
         return -1
 
 
+def build_of(clone, room):
+    return ['cmake', '--build', clone / 'build', '--target', f'tensegric_fit_{room}']
+
+
 def baseline(clone, room):
     """Unit tests of a room and the seconds that each takes, the quickest first."""
     folder = clone / 'build/devel/lib/tensegric_fit'
@@ -116,8 +120,7 @@ def verdict_on(clone, mutant, tests):
     lines[mutant['line'] - 1] = line[:column] + mutant['new'] + line[column + len(old):]
     try:
         path.write_text('\n'.join(lines))
-        library = f"tensegric_fit_{mutant['room']}/fast"
-        if run(['make', '-C', clone / 'build', library]) != 0:
+        if run(build_of(clone, mutant['room'])) != 0:
             return 'does not compile'
         for test, seconds in tests.items():
             code = run([test, '--gtest_fail_fast'], max(AT_LEAST, TIMES_AS_LONG * seconds))
@@ -135,22 +138,29 @@ def campaign(clone, results, count, seed):
     known = {(m['file'], m['line'], m['column'], m['old'], m['new']): m for m in done}
     counted = 0
     tests = {}
+    commit = subprocess.check_output(['git', '-C', clone, 'rev-parse', '--short', 'HEAD'], text=True).strip()
+    changed = None  # the room whose library is still that of a mutant
     for mutant in drawn(clone, count, seed):
         if counted == count:
             break
         before = known.get((mutant['file'], mutant['line'], mutant['column'], mutant['old'], mutant['new']))
         if before is None:
             room = mutant['room']
+            if changed != room:  # tests link other rooms, too
+                for other in [changed] if changed else ROOMS:
+                    run(build_of(clone, other))
+            changed = room
             tests[room] = tests.get(room) or baseline(clone, room)
             start = time.monotonic()
             mutant['verdict'] = verdict_on(clone, mutant, tests[room])
+            mutant['commit'] = commit
             mutant['seconds'] = round(time.monotonic() - start, 1)
             with results.open('a') as file:
                 file.write(json.dumps(mutant) + '\n')
             before = mutant
         counted += before['verdict'] != 'does not compile'
     for room in tests:  # the libraries as they are without a change
-        run(['make', '-C', clone / 'build', f'tensegric_fit_{room}'])
+        run(build_of(clone, room))
 
 
 def report(results):

@@ -11,6 +11,7 @@ namespace tensegric_fit::regression {
 namespace {
 
 using gauge::distances;
+using gauge::normal_angles;
 using gauge::quantile;
 
 double largest_move(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to) {
@@ -141,6 +142,9 @@ Metrics errors_of(const Recording& recording, const Customer& customer) {
   const std::vector<double> off = distances(body.vertices, node::filled_in(*recording.body), skin);
   errors["error/surface/median"] = quantile(off, 0.5);
   errors["error/surface/p95"] = quantile(off, 0.95);
+  const std::vector<double> turned = normal_angles(body, node::filled_in(*recording.body), skin);
+  errors["error/normals/median"] = quantile(turned, 0.5);
+  errors["error/normals/p95"] = quantile(turned, 0.95);
   errors["noise/median"] = quantile(distances(customer.scan.points, {}, body), 0.5);
   if (!recording.landmarks) return errors;
 

@@ -14,6 +14,9 @@ import subprocess
 import sys
 import time
 
+import numpy as np
+from matplotlib import image
+
 sys.dont_write_bytecode = True  # not into the sources
 from session import HERE, LAUNCH, Session, run_test, wait_for
 
@@ -110,6 +113,39 @@ def a_garment_file_spoilt_while_it_is_worn(shop):
     shop.wear(path)
     shop.comes_to(0.95)
     shop.wear("B1")
+
+
+def the_scan_over_beside_and_wiped_against_the_garment(shop):
+    """The list of Compare, from the keyboard; each picture is another, and the first comes back."""
+    view = "840x709+0+62"
+    shown = {}
+    shop.press("alt+c", "Home")
+    time.sleep(2)
+    for way in ("alone", "ghost", "beside", "wipe", "fade"):
+        path = os.path.join(shop.out, way + ".png")
+        shop.picture(path, view)
+        shown[way] = np.rint(255 * image.imread(path)[:, :, :3]).astype(int)
+        shop.press("Down")
+        time.sleep(2)
+    shop.press("Home")
+    time.sleep(2)
+    shop.picture(os.path.join(shop.out, "alone_again.png"), view)
+
+    def differs(one, other, part=slice(None)):
+        return (np.abs(one[:, part] - other[:, part]).max(axis=2) > 8).mean()
+
+    half = shown["alone"].shape[1] // 2
+    assert differs(shown["alone"], shown["ghost"]) > 0.003, "no ghost"
+    assert differs(shown["alone"], shown["beside"]) > 0.1, "nothing stands beside"
+    assert differs(shown["alone"], shown["wipe"], slice(0, half - 20)) > 0.003, "left of the wipe is not the scan"
+    right = shown["wipe"][:600, half + 20:], shown["alone"][:600, half + 20:]  # above the scale of colours
+    assert differs(*right) < 0.002, "right of the wipe is not the garment"
+    # Coupled and of one size: where nothing moved (above the bust) both parts are the same picture but for landmarks and tapes.
+    top = shown["beside"][40:200]
+    same = differs(top[:, 4:half - 8], top[:, half + 4:2 * half - 8])
+    assert same < 0.05, "the two bodies are not of one size and view: %g" % same
+    again = np.rint(255 * image.imread(os.path.join(shop.out, "alone_again.png"))[:, :, :3]).astype(int)
+    assert differs(shown["alone"], again) < 0.001, "the view did not come back"
 
 
 def messages_that_are_no_good(shop):
@@ -230,7 +266,8 @@ def the_pipeline_gone_and_back(shop):
     shop.picture(os.path.join(shop.out, "back.png"))
 
 
-SCENES = (sliders_at_their_ends_and_nonsense_typed, a_garment_file_spoilt_while_it_is_worn, messages_that_are_no_good,
+SCENES = (sliders_at_their_ends_and_nonsense_typed, a_garment_file_spoilt_while_it_is_worn,
+          the_scan_over_beside_and_wiped_against_the_garment, messages_that_are_no_good,
           exports_are_of_the_scan_that_is_shown, exports_that_cannot_be_written, two_panels_at_once, the_pipeline_gone_and_back)
 
 

@@ -5,12 +5,14 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "geometry/checked_yaml.hpp"
 #include "geometry/control_mesh.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/section.hpp"
+#include "geometry/shading_normals.hpp"
 #include "geometry/status.hpp"
 #include "geometry/triangle_mesh.hpp"
 
@@ -93,6 +95,34 @@ TEST(TriangleMesh, NormalsOfASpherePointOutwards) {
   const auto normals = vertex_normals(mesh.vertices, mesh.triangles);
   for (std::size_t v = 0; v < normals.size(); ++v)
     EXPECT_GT(normals[v].dot(mesh.vertices[v].normalized()), 0.99);
+}
+
+TEST(ShadingNormals, NoiseIsShadedLessAndAnEdgeStays) {
+  TriangleMesh ball = sphere(1, 40, 60);
+  const std::vector<Eigen::Vector3d> smooth = ball.vertices;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> noise(-0.01, 0.01);
+  for (Eigen::Vector3d& v : ball.vertices) v *= 1 + noise(random);
+  const auto mean_error = [&](const std::vector<Eigen::Vector3d>& normals) {
+    double sum = 0;
+    for (std::size_t v = 0; v < normals.size(); ++v)
+      sum += std::acos(std::min(1.0, normals[v].dot(smooth[v].normalized())));
+    return sum / static_cast<double>(normals.size());
+  };
+  EXPECT_LT(mean_error(shading_normals(ball.vertices, ball.triangles)),
+            0.7 * mean_error(vertex_normals(ball.vertices, ball.triangles)));
+
+  // a roof of two planes with two rows of vertices on each: away from the ridge they keep their own normal
+  const std::vector<Eigen::Vector3d> roof{{0, -2, 0}, {1, -2, 0}, {0, -1, 1}, {1, -1, 1}, {0, 0, 2},
+                                          {1, 0, 2},  {0, 1, 1},  {1, 1, 1},  {0, 2, 0},  {1, 2, 0}};
+  std::vector<Eigen::Vector3i> tiles;
+  for (int row = 0; row < 8; row += 2) {
+    tiles.emplace_back(row, row + 1, row + 3);
+    tiles.emplace_back(row, row + 3, row + 2);
+  }
+  const std::vector<Eigen::Vector3d> normals = shading_normals(roof, tiles);
+  EXPECT_NEAR(normals[0].dot(Eigen::Vector3d(0, -1, 1).normalized()), 1, 1e-3);
+  EXPECT_NEAR(normals[4].z(), 1, 0.1);
 }
 
 TEST(TriangleMesh, ComponentsAreCounted) {

@@ -63,5 +63,14 @@ TEST(Lit, IsBrightestTowardsTheLightAndKeepsTheHue) {
   EXPECT_GT(result[5][0], 0);  // nothing is black
 }
 
+TEST(Colours, SkinThatIsNotHeldIsGreenAndStillShowsWhatIsUnderIt) {
+  const std::vector<Colour> skin{kNeutral, {178, 24, 43}, {178, 24, 43}};
+  const std::vector<Colour> shown = with_unheld(skin, {1});
+  EXPECT_EQ(shown[0], skin[0]);
+  EXPECT_EQ(shown[2], skin[2]);
+  EXPECT_GT(shown[1][1], skin[1][1]);
+  EXPECT_NE(shown[1], kUnheldColour);
+}
+
 }  // namespace
 }  // namespace tensegric_fit::inspect

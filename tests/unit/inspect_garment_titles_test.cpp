@@ -13,12 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(GarmentTitlesTest, EveryShippedGarmentHasItsOwnTitleAndASentence) {
+TEST(GarmentTitlesTest, EveryShippedGarmentHasItsOwnTitleASentenceAndAPicture) {
   const auto garments = garments_in(TENSEGRIC_FIT_SOURCE_DIR "/launch/garments");
   std::set<std::string> titles;
   for (const GarmentTitle& garment : garments) {
     EXPECT_TRUE(titles.insert(garment.title).second) << garment.name;
     EXPECT_NE(garment.title, "") << garment.name;
+    EXPECT_NE(garment.picture, "") << garment.name << ": tests/garment_pictures.py makes it";
     EXPECT_EQ(garment.about.substr(garment.about.size() - 1), ".") << garment.name;
   }
   EXPECT_EQ(garments.size(), 8u);
@@ -35,6 +36,7 @@ TEST(GarmentTitlesTest, ABrokenFileIsListedWithoutATitleAndAMissingFolderIsEmpty
   EXPECT_EQ(garments[0].name, "a");
   EXPECT_EQ(garments[0].title, "");
   EXPECT_EQ(garments[1].title, "");
+  EXPECT_EQ(garments[1].picture, "");
   fs::remove_all(folder);
   EXPECT_TRUE(garments_in(folder).empty());
 }

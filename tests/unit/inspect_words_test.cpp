@@ -25,10 +25,12 @@ TEST(Words, SayPullsInNewtons) {
   EXPECT_EQ(pull_help(23.4, 0).find("kPa"), std::string::npos);
 }
 
-TEST(Words, WarnOfOverConstrictionOnly) {
+TEST(Words, WarnOfSkinThatIsPressedOrStretchedTooFarOnly) {
   EXPECT_EQ(over_constriction(0.85, "left bust point"), "");
   EXPECT_NE(over_constriction(0.72, "left bust point").find("near the left bust point"), std::string::npos);
   EXPECT_NE(over_constriction(0.72, "").find("72.0 %"), std::string::npos);
+  EXPECT_EQ(over_constriction(1.2, "navel"), "");
+  EXPECT_NE(over_constriction(1.4, "navel").find("Over-stretched near the navel"), std::string::npos);
 
   EXPECT_EQ(line_warning({0.9, 0.9, 0.4, 0.5, false}), "");
   EXPECT_NE(line_warning({0.6, 0.7, 3, 0.412, true}).find("cannot become shorter than 41.2 cm (70.0 %)"),

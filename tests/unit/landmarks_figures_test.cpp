@@ -23,7 +23,9 @@ constexpr double kOfMesh = 0.003, kOfModel = 0.005, kHalfWidth = 2, kDisagreemen
 Precision precision() {
   const FigurePrecision p{{0, 0.0018, 0, 0.8}, {0, 0.00064, 2, 1}, kDisagreement, kHalfWidth};
   return {{{"girth bust", p}, {"point bust_point", p}},
-          {{"girth bust", {{0, 0.0018, 0, 0.8}, {0, 0.00064, 2, 1}, kDisagreement, 2 * kHalfWidth}}}};
+          {{"girth bust", {{0, 0.0018, 0, 0.8}, {0, 0.00064, 2, 1}, kDisagreement, 2 * kHalfWidth}}},
+          {},
+          {}};
 }
 
 Figure girth(std::optional<double> on_mesh, std::optional<double> on_model) {
@@ -54,6 +56,23 @@ TEST(Settle, TwoReadingsCountByTheirPrecision) {
   const Settled agreed = settle(girth(0.9, 0.9), precision(), false);
   EXPECT_LT(agreed.half_width, both.half_width);
   EXPECT_LT(agreed.half_width, settle(girth(0.9, {}), precision(), false).half_width);
+}
+
+TEST(Settle, OutsideTheModelsSpanReadingsAreLessSureByDegrees) {
+  const auto half_width = [](double misfit, bool scanned) {
+    Precision precision{{}, {}, {0.002, 0.003}, {0.003, 0.005}};
+    precision.of_mesh["girth bust"] = precision.of_scan["girth bust"] = {
+        {0, 0.001, 0, 0, 0.002}, {0, 0.004, 0, 0}, kDisagreement, kHalfWidth};
+    Figure figure = girth(0.9, {});
+    figure.misfit = misfit;
+    return settle(figure, precision, scanned).half_width;
+  };
+  EXPECT_EQ(half_width(0.001, false), kHalfWidth * 0.001);
+  EXPECT_EQ(half_width(0.002, false), kHalfWidth * 0.001);  // no step where it begins
+  EXPECT_NEAR(half_width(0.0025, false), kHalfWidth * std::hypot(0.001, 0.001), 1e-12);
+  EXPECT_NEAR(half_width(0.003, false), kHalfWidth * std::hypot(0.001, 0.002), 1e-12);
+  EXPECT_EQ(half_width(0.1, false), half_width(0.003, false));  // and it ends
+  EXPECT_NEAR(half_width(0.004, true), kHalfWidth * std::hypot(0.001, 0.001), 1e-12);
 }
 
 TEST(Settle, AReadingGrosslyOffIsLeftOut) {
@@ -139,14 +158,15 @@ class PrecisionFile : public testing::Test {
 };
 
 const std::string kFigure =
-    "{mesh: {bias: -0.002, base: 0.001, growth: 0, support: 0.1}, model: {bias: 0, base: 1, growth: 1.5, "
-    "support: 0.2}, "
+    "{mesh: {bias: -0.002, base: 0.001, growth: 0, support: 0.1, outside: 0.3}, model: {bias: 0, base: 1, "
+    "growth: 1.5, support: 0.2, outside: 0}, "
     "disagreement: "
     "0.1, half_width: 2}";
 
 std::string file_with(const std::string& of_bust) {
-  return "made: 2026-01-01\nbodies: none\nmesh:\n  girth bust: " + of_bust +
-         "\nscan:\n  girth bust: " + kFigure + "\n";
+  return "made: 2026-01-01\nbodies: none\nspan: {mesh: [0.002, 0.003], scan: [0.003, 0.004]}\nmesh:\n  girth "
+         "bust: " +
+         of_bust + "\nscan:\n  girth bust: " + kFigure + "\n";
 }
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
   const std::size_t at = text.find(what);
@@ -162,6 +182,11 @@ TEST_F(PrecisionFile, IsReadAsWritten) {
   EXPECT_EQ(bust.mesh.bias, -0.002);
   EXPECT_EQ(bust.mesh.base, 0.001);
   EXPECT_EQ(bust.mesh.support, 0.1);
+  EXPECT_EQ(bust.mesh.outside, 0.3);
+  EXPECT_EQ(read.mesh_span.women, 0.002);
+  EXPECT_EQ(read.mesh_span.others, 0.003);
+  EXPECT_EQ(read.scan_span.women, 0.003);
+  EXPECT_EQ(read.scan_span.others, 0.004);
   EXPECT_EQ(bust.model.base, 1);
   EXPECT_EQ(bust.model.growth, 1.5);
   EXPECT_EQ(bust.model.support, 0.2);
@@ -182,7 +207,11 @@ TEST_F(PrecisionFile, IsRefusedByTheNameOfWhatIsWrong) {
   expect_named(file_with(replaced(kFigure, "base: 0.001", "base: wide")), "base");
   expect_named(file_with(replaced(kFigure, ", disagreement: 0.1", "")), "disagreement");
   expect_named(replaced(file_with(kFigure), "scan:", "cloud:"), "cloud");
-  expect_named("made: x\nbodies: y\nmesh: {}\n", "scan");
+  expect_named(file_with(replaced(kFigure, ", outside: 0}", "}")), "outside");
+  expect_named(replaced(file_with(kFigure), "span", "range"), "range");
+  expect_named(replaced(file_with(kFigure), "[0.003, 0.004]", "[0.004, 0.003]"), "span: scan");
+  expect_named(replaced(file_with(kFigure), "[0.003, 0.004]", "[0.003]"), "span: scan");
+  expect_named("made: x\nbodies: y\nspan: {mesh: [1, 2], scan: [1, 2]}\nmesh: {}\n", "scan");
   expect_named("mesh: [1, 2]\nscan: {}\n", "mesh");
   expect_named("no map", path_);
   EXPECT_THROW(load_precision(path_ + ".none"), geometry::Refusal);

@@ -186,6 +186,20 @@ TEST_F(Folding, NothingTurnsOverAt15Percent) {
   }
 }
 
+TEST_F(Folding, APatchWithTurnedTrianglesIsInfeasible) {
+  int turned = 0;
+  for (const double pull : {0.002, 30.0, 200.0, 300.0}) {
+    SolverOptions options;
+    options.gravity = {0, 0, -pull};
+    const Solution s = solve(model, {}, options);  // no line: nothing else is out of reach
+    const bool over = triangle_change(model, positions(s)).turned_over > 0;
+    turned += over;
+    if (s.residual > 1e-8) continue;  // no balance
+    EXPECT_EQ(s.status, over ? Status::infeasible : Status::converged) << pull << s.note;
+  }
+  EXPECT_GT(turned, 0);
+}
+
 TEST_F(Folding, MeritNeverRises) {
   for (double ratio : {0.95, 0.85, 0.5})
     for (const Iterate& iterate : solve(model, chest(ratio), {}).history)

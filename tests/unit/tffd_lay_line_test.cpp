@@ -62,6 +62,16 @@ TEST_F(Slab, ABandSpreadsOverItsWidthAndStaysOnTheSkin) {
   EXPECT_GT(widest, 0.014);
 }
 
+TEST_F(Slab, FibresLieInOrderFromRightToLeft) {
+  const auto fibres = lay_line({over_the_bump(), 0.03}, body, binding);  // along x, seen from above
+  double last = -1;
+  for (const geometry::Fibre& fibre : fibres) {
+    const double y = fibre.points[fibre.points.size() / 2].rest.y();
+    EXPECT_GT(y, last);
+    last = y;
+  }
+}
+
 TEST_F(Slab, SmoothingShortensWhereTheBandBends) {
   const double thread = length_at_rest(lay_line({over_the_bump(), 0, 0}, body, binding));
   const double smooth = length_at_rest(lay_line({over_the_bump(), 0, 0.02}, body, binding));

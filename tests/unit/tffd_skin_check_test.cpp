@@ -80,6 +80,17 @@ TEST(SkinCheck, StepOfKnownAngles) {
   }
 }
 
+TEST(SkinCheck, OfAPlaceWithSeveralAnglesTheSteepestIsNamed) {
+  const geometry::TriangleMesh mesh = sheet();
+  std::vector<Vector3d> moved = stepped(mesh, 10, 12, 80 * kDegree);
+  const std::vector<Vector3d> second = stepped(mesh, 12, 14, 65 * kDegree);
+  for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += second[i] - mesh.vertices[i];
+  const auto shelves =
+      with_code(check_skin({mesh.vertices, moved, mesh.triangles}, line_at(0.05)), geometry::warning::kShelf);
+  ASSERT_EQ(shelves.size(), 1u);
+  EXPECT_NEAR(shelves[0].value, 80 * kDegree, 1e-9);
+}
+
 TEST(SkinCheck, TurnedOverIsNamed) {
   const geometry::TriangleMesh mesh = sheet();
   const std::vector<Vector3d> moved = stepped(mesh, 10, 14, 150 * kDegree);

@@ -1,0 +1,73 @@
+#include "depth_cameras/camera_message.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "geometry/status.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+using geometry::Refusal;
+namespace refusal = geometry::refusal;
+
+template <typename Numbers>
+bool all_finite(const Numbers& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
+}
+
+void check_pixels(const sensor_msgs::Image& image) {
+  static const std::map<std::string, std::size_t> kBytes = {{"16UC1", 2}, {"32FC1", 4}};
+  const auto bytes = kBytes.find(image.encoding);
+  if (bytes == kBytes.end())
+    throw Refusal(
+        refusal::kWrongFields,
+        fmt::format("the depth image's encoding is '{}'; 16UC1 (millimetres) and 32FC1 (metres) are read",
+                    image.encoding.substr(0, 40)));
+  if (image.is_bigendian) throw Refusal(refusal::kWrongFields, "the depth image is big-endian");
+  constexpr std::uint32_t kLargest = 8192;
+  if (image.width == 0 || image.height == 0 || image.width > kLargest || image.height > kLargest ||
+      image.step < image.width * bytes->second ||
+      image.data.size() != static_cast<std::size_t>(image.step) * image.height)
+    throw Refusal(refusal::kBrokenFile,
+                  fmt::format("the depth image of {} x {} pixels, {} bytes a row, has {} bytes", image.width,
+                              image.height, image.step, image.data.size()));
+}
+
+void check_lens(const sensor_msgs::CameraInfo& info) {
+  const auto refuse = [](const std::string& why) { throw Refusal(refusal::kWrongFields, why); };
+  if (!all_finite(info.K) || !all_finite(info.P) || !all_finite(info.R) || !all_finite(info.D))
+    refuse("CameraInfo has numbers that are not finite");
+  if (!(info.K[0] > 0) || !(info.K[4] > 0))
+    refuse("CameraInfo has no focal length in K: calibrate the camera");
+  if (!(info.P[0] > 0) || !(info.P[5] > 0))
+    refuse("CameraInfo has no focal length in P: calibrate the camera");
+  static const std::map<std::string, std::set<std::size_t>> kModels = {{"plumb_bob", {4, 5}},
+                                                                       {"rational_polynomial", {8, 12, 14}}};
+  if (info.D.empty()) return;
+  const auto model = kModels.find(info.distortion_model);
+  if (model == kModels.end())
+    refuse(fmt::format("the lens model '{}' is not known; plumb_bob and rational_polynomial are",
+                       info.distortion_model.substr(0, 40)));
+  if (model->second.count(info.D.size()) == 0)
+    refuse(fmt::format("CameraInfo has {} numbers in D, which are none of '{}'", info.D.size(),
+                       info.distortion_model));
+}
+
+}  // namespace
+
+void check_depth_image(const sensor_msgs::Image& image, const sensor_msgs::CameraInfo& info) {
+  if (image.header.stamp.isZero())
+    throw Refusal(refusal::kNoStamp, "the depth image says not when it was seen");
+  check_pixels(image);
+  if (info.width != image.width || info.height != image.height)
+    throw Refusal(refusal::kWrongFields, fmt::format("CameraInfo is of {} x {} pixels, the image has {} x {}",
+                                                     info.width, info.height, image.width, image.height));
+  check_lens(info);
+}
+
+}  // namespace tensegric_fit::node

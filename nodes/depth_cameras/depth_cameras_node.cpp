@@ -1,0 +1,225 @@
+/// depth_cameras: depth images -> the clouds that the assembler takes, through Debian's image_proc and
+/// depth_image_proc, which run as nodelets in this process. Says where the cameras stand, where a file has
+/// it.
+#include <fmt/format.h>
+#include <message_filters/time_synchronizer.h>
+#include <nodelet/loader.h>
+#include <ros/callback_queue.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <regex>
+#include <set>
+
+#include "depth_cameras/camera_message.hpp"
+#include "depth_cameras/camera_poses.hpp"
+#include "ros/parameters.hpp"
+#include "ros/run_node.hpp"
+#include "ros/stage.hpp"
+#include "ros/transform_message.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+using geometry::Refusal;
+using sensor_msgs::CameraInfo;
+using sensor_msgs::Image;
+namespace refusal = geometry::refusal;
+
+constexpr std::size_t kMostCameras = 16;
+
+struct Setup {
+  std::vector<std::string> cameras;
+  std::string frame_id, camera_frames;
+  std::vector<Eigen::Isometry3d> poses;  // booth_from_camera; empty: tf has them
+  bool on_demand;
+  double timeout;
+};
+
+std::vector<std::string> check_names(std::vector<std::string> names) {
+  const std::set<std::string> different(names.begin(), names.end());
+  if (names.empty() || names.size() > kMostCameras || different.size() != names.size())
+    throw Refusal(refusal::kBadOption,
+                  fmt::format("parameter 'cameras' must list 1 to {} names, each once", kMostCameras));
+  for (const std::string& name : names)
+    if (!std::regex_match(name, std::regex("[A-Za-z0-9_]+")))
+      throw Refusal(refusal::kBadOption,
+                    "parameter 'cameras': '" + name + "' is no name of letters and digits");
+  return names;
+}
+
+Setup setup_from(Parameters parameters) {
+  Setup setup;
+  setup.cameras = check_names(parameters.texts("cameras"));
+  setup.frame_id = parameters.frame("frame_id", "booth");
+  setup.camera_frames = parameters.frame("camera_frames", "camera_");
+  const std::string extrinsics = parameters.text("extrinsics", "");
+  setup.on_demand = parameters.flag("on_demand", false);
+  setup.timeout = parameters.number("timeout", 2, {0.01, 600});
+  parameters.check_all_known();
+  if (!extrinsics.empty()) setup.poses = depth_cameras::load_camera_poses(extrinsics, setup.cameras);
+  return setup;
+}
+
+/// One camera: images in, those that make a scan handed on to its nodelets.
+class Camera {
+ public:
+  using Pair = boost::function<void(const Image::ConstPtr&, const CameraInfo::ConstPtr&)>;
+
+  Camera(ros::NodeHandle node, const std::string& name, nodelet::Loader& loader, Pair pair)
+      : node_(node), name_(name), both_(kQueue) {
+    advertise();
+    image_ = node.subscribe<Image>(
+        fmt::format("cameras/{}/image", name), kQueue,
+        [this](const Image::ConstPtr& image) { both_.add<0>(ros::MessageEvent<Image const>(image)); });
+    info_ = node.subscribe<CameraInfo>(fmt::format("cameras/{}/camera_info", name), kQueue,
+                                       [this](const CameraInfo::ConstPtr& info) {
+                                         both_.add<1>(ros::MessageEvent<CameraInfo const>(info));
+                                       });
+    const std::string self = ros::this_node::getName(), here = node.resolveName("cameras/" + name),
+                      rectify = self + "_rectify_" + name;
+    // Nearest pixel: depths of two surfaces have no mean between them.
+    ros::param::set(rectify + "/interpolation", 0);
+    load(loader, rectify, "image_proc/rectify",
+         {{node.resolveName("image_mono"), here + "/taken/image"},
+          {node.resolveName("image_rect"), here + "/taken/image_rect"}});
+    load(loader, self + "_points_" + name, "depth_image_proc/point_cloud_xyz",
+         {{node.resolveName("image_rect"), here + "/taken/image_rect"},
+          {node.resolveName("points"), here + "/points"}});
+    both_.registerCallback(boost::bind(pair, boost::placeholders::_1, boost::placeholders::_2));
+  }
+
+  /// Both with `frame`, unless it is empty.
+  void take(Image image, CameraInfo info, const std::string& frame) {
+    if (!frame.empty()) image.header.frame_id = info.header.frame_id = frame;
+    info_out_.publish(info);
+    image_out_.publish(image);
+    taken_ = true;
+  }
+
+  /// True where there was something to let go of.
+  bool forget() {
+    if (!taken_) return false;
+    image_out_.shutdown();
+    info_out_.shutdown();
+    advertise();
+    taken_ = false;
+    return true;
+  }
+
+  const std::string& name() const { return name_; }
+
+ private:
+  static constexpr int kQueue = 5;  // pairs of image and CameraInfo that wait for each other
+
+  void advertise() {  // latched: the nodelets connect when the assembler does
+    image_out_ = node_.advertise<Image>(fmt::format("cameras/{}/taken/image", name_), 1, true);
+    info_out_ = node_.advertise<CameraInfo>(fmt::format("cameras/{}/taken/camera_info", name_), 1, true);
+  }
+
+  static void load(nodelet::Loader& loader, const std::string& name, const std::string& type,
+                   const nodelet::M_string& names) {
+    if (!loader.load(name, type, names, {}))
+      throw std::runtime_error(type + " cannot be loaded; are the packages of package.xml installed?");
+  }
+
+  ros::NodeHandle node_;
+  std::string name_;
+  message_filters::TimeSynchronizer<Image, CameraInfo> both_;
+  ros::Subscriber image_, info_;
+  ros::Publisher image_out_, info_out_;
+  bool taken_ = false;
+};
+
+class DepthCameras {
+ public:
+  DepthCameras(ros::NodeHandle node, ros::NodeHandle private_node)
+      : setup_(setup_from(Parameters(private_node))), loader_(false), stage_("depth_cameras", node) {
+    publish_poses();
+    for (std::size_t i = 0; i < setup_.cameras.size(); ++i)
+      cameras_.push_back(
+          std::make_unique<Camera>(node, setup_.cameras[i], loader_,
+                                   [this, i](const Image::ConstPtr& image, const CameraInfo::ConstPtr& info) {
+                                     on_pair(i, *image, *info);
+                                   }));
+    if (!setup_.on_demand) return;
+    private_node.setCallbackQueue(&calls_);
+    service_ = private_node.advertiseService("scan", &DepthCameras::on_scan, this);
+    caller_.start();
+  }
+
+  /// The clouds are the nodelets' to publish and the assembler's to keep.
+  void forget(const ForgetOrder&, ForgetAnswer& done) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    bool any = false;
+    for (const auto& camera : cameras_) any |= camera->forget();
+    if (any) done.removed = {"the latched depth images"};
+  }
+
+ private:
+  void publish_poses() {
+    std::vector<geometry_msgs::TransformStamped> poses(setup_.poses.size());
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      poses[i].header.stamp = ros::Time::now();
+      poses[i].header.frame_id = setup_.frame_id;
+      poses[i].child_frame_id = setup_.camera_frames + setup_.cameras[i];
+      poses[i].transform = transform_of(setup_.poses[i]);
+    }
+    if (!poses.empty()) broadcaster_.sendTransform(poses);
+  }
+
+  void on_pair(std::size_t camera, const Image& image, const CameraInfo& info) {
+    try {
+      check_depth_image(image, info);
+    } catch (const Refusal& refused) {
+      stage_.drop("", Refusal(refused.code(), "cameras/" + setup_.cameras[camera] + ": " + refused.what()));
+      return;
+    }
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (setup_.on_demand && (image.header.stamp < since_ || wanted_.erase(camera) == 0)) return;
+    cameras_[camera]->take(image, info,
+                           setup_.poses.empty() ? "" : setup_.camera_frames + setup_.cameras[camera]);
+    taken_.notify_all();
+  }
+
+  bool on_scan(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    since_ = ros::Time::now();
+    for (std::size_t i = 0; i < cameras_.size(); ++i) wanted_.insert(i);
+    taken_.wait_for(lock, std::chrono::duration<double>(setup_.timeout), [this] { return wanted_.empty(); });
+    std::vector<std::string> missing;
+    for (std::size_t i : wanted_) missing.push_back("cameras/" + setup_.cameras[i]);
+    wanted_.clear();
+    response.success = missing.empty();
+    response.message = missing.empty() ? fmt::format("{} depth images taken", cameras_.size())
+                                       : fmt::format(
+                                             "no depth image with CameraInfo of the same stamp within "
+                                             "{} s from: {}",
+                                             setup_.timeout, fmt::join(missing, ", "));
+    if (!missing.empty()) stage_.drop("", Refusal(refusal::kMissingSensor, response.message));
+    return true;
+  }
+
+  const Setup setup_;
+  tf2_ros::StaticTransformBroadcaster broadcaster_;
+  nodelet::Loader loader_;
+  std::mutex mutex_;  // guards cameras_ once they run, and the next three
+  std::condition_variable taken_;
+  ros::Time since_;
+  std::set<std::size_t> wanted_;
+  std::vector<std::unique_ptr<Camera>> cameras_;
+  ros::CallbackQueue calls_;
+  ros::AsyncSpinner caller_{1, &calls_};  // the service waits for images, which come on the main queue
+  ros::ServiceServer service_;
+  Stage stage_;
+};
+
+}  // namespace
+}  // namespace tensegric_fit::node
+
+int main(int argc, char** argv) {
+  return tensegric_fit::node::run_node<tensegric_fit::node::DepthCameras>(argc, argv, "depth_cameras");
+}
