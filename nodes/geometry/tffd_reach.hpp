@@ -7,6 +7,6 @@ namespace tensegric_fit::geometry {
 
 /// In a triangle's mean radii; 0 stands for the setting's own. Below 1 the local kernels leave gaps between
 /// the triangles; far above, every triangle carries everything.
-inline constexpr Range kBeta{1, 20};
+inline constexpr geometry::Range kBeta{1, 20};
 
 }  // namespace tensegric_fit::geometry
