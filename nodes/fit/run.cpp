@@ -52,7 +52,8 @@ class Run {
     const std::size_t triangles = done_.body.mesh.mesh.triangles.size();
     if (!line_.exports.empty() && triangles > kMostMakerTriangles)
       fmt::print(stderr,
-                 "note: the exported meshes have {} triangles; CLO takes {} at most: reduce them there, or scan with "
+                 "note: the exported meshes have {} triangles; CLO takes {} at most: reduce them there, or "
+                 "scan with "
                  "--body-triangles {}\n",
                  triangles, kMostMakerTriangles, kMostMakerTriangles);
     write_json(path("report.json"), done_.report());
@@ -90,8 +91,12 @@ class Run {
       }
     }
     std::vector<std::function<void()>> pictures{
-        [&] { save_picture("front.png", beside_measured(inspect::front_picture, inspect::front_picture(scene))); },
-        [&] { save_picture("side.png", beside_measured(inspect::side_picture, inspect::side_picture(scene))); },
+        [&] {
+          save_picture("front.png", beside_measured(inspect::front_picture, inspect::front_picture(scene)));
+        },
+        [&] {
+          save_picture("side.png", beside_measured(inspect::side_picture, inspect::side_picture(scene)));
+        },
         [&] { save_picture("distortion.png", inspect::distortion_picture(scene)); }};
     if (std::any_of(scene.parts.begin(), scene.parts.end(), [](const auto& part) { return part.behind; }))
       pictures.emplace_back([&] { save_picture("back.png", inspect::back_picture(scene)); });

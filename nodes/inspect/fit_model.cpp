@@ -64,8 +64,11 @@ std::string fit_glb(const FitModel& model) {
     mesh_files::GlbMesh mesh{"line " + line.name, tube(line.before)};
     mesh.morphs = {{kMorph, tube(line.after).vertices}};
     mesh.colour = kTubeColour;
-    mesh.extras = {
-        {"surface", false}, {"line", line.name}, {"initial", line.initial}, {"final", line.final}, {"tension", line.tension}};
+    mesh.extras = {{"surface", false},
+                   {"line", line.name},
+                   {"initial", line.initial},
+                   {"final", line.final},
+                   {"tension", line.tension}};
     meshes.push_back(std::move(mesh));
   }
   return mesh_files::glb_bytes(meshes);
