@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
 #include <set>
 
 #include "geometry/status.hpp"
@@ -68,6 +71,26 @@ void check_depth_image(const sensor_msgs::Image& image, const sensor_msgs::Camer
     throw Refusal(refusal::kWrongFields, fmt::format("CameraInfo is of {} x {} pixels, the image has {} x {}",
                                                      info.width, info.height, image.width, image.height));
   check_lens(info);
+}
+
+sensor_msgs::Image rectified(const sensor_msgs::Image& image, const sensor_msgs::CameraInfo& info) {
+  if (std::all_of(info.D.begin(), info.D.end(), [](double d) { return d == 0; })) return image;
+  const cv::Mat_<double> k(3, 3, const_cast<double*>(info.K.data())),
+      r(3, 3, const_cast<double*>(info.R.data())), p(3, 4, const_cast<double*>(info.P.data())),
+      d(info.D, true);
+  const bool turned = cv::countNonZero(r) > 0;  // all zero where a driver leaves it out
+  const cv::Size size(static_cast<int>(image.width), static_cast<int>(image.height));
+  cv::Mat columns, rows;
+  cv::initUndistortRectifyMap(k, d, turned ? cv::Mat(r) : cv::Mat(), p.colRange(0, 3), size, CV_32FC1,
+                              columns, rows);
+  const bool metres = image.encoding == "32FC1";
+  const cv::Mat seen(size, metres ? CV_32FC1 : CV_16UC1, const_cast<std::uint8_t*>(image.data.data()),
+                     image.step);
+  sensor_msgs::Image result = image;
+  cv::Mat straight(size, seen.type(), result.data.data(), result.step);
+  cv::remap(seen, straight, columns, rows, cv::INTER_NEAREST, cv::BORDER_CONSTANT,
+            metres ? std::numeric_limits<double>::quiet_NaN() : 0);
+  return result;
 }
 
 }  // namespace tensegric_fit::node

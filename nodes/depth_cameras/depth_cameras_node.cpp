@@ -1,6 +1,5 @@
-/// depth_cameras: depth images -> the clouds that the assembler takes, through Debian's image_proc and
-/// depth_image_proc, which run as nodelets in this process. Says where the cameras stand, where a file has
-/// it.
+/// depth_cameras: depth images -> the clouds that the assembler takes, through Debian's depth_image_proc, the
+/// nodelets of which run in this process. Says where the cameras stand, where a file has it.
 #include <fmt/format.h>
 #include <message_filters/time_synchronizer.h>
 #include <nodelet/loader.h>
@@ -79,21 +78,16 @@ class Camera {
                                        [this](const CameraInfo::ConstPtr& info) {
                                          both_.add<1>(ros::MessageEvent<CameraInfo const>(info));
                                        });
-    const std::string self = ros::this_node::getName(), here = node.resolveName("cameras/" + name),
-                      rectify = self + "_rectify_" + name;
-    // Nearest pixel: depths of two surfaces have no mean between them.
-    ros::param::set(rectify + "/interpolation", 0);
-    load(loader, rectify, "image_proc/rectify",
-         {{node.resolveName("image_mono"), here + "/taken/image"},
-          {node.resolveName("image_rect"), here + "/taken/image_rect"}});
+    const std::string self = ros::this_node::getName(), here = node.resolveName("cameras/" + name);
     load(loader, self + "_points_" + name, "depth_image_proc/point_cloud_xyz",
-         {{node.resolveName("image_rect"), here + "/taken/image_rect"},
+         {{node.resolveName("image_rect"), here + "/taken/image"},
           {node.resolveName("points"), here + "/points"}});
     both_.registerCallback(boost::bind(pair, boost::placeholders::_1, boost::placeholders::_2));
   }
 
   /// Both with `frame`, unless it is empty.
-  void take(Image image, CameraInfo info, const std::string& frame) {
+  void take(const Image& seen, CameraInfo info, const std::string& frame) {
+    Image image = rectified(seen, info);
     if (!frame.empty()) image.header.frame_id = info.header.frame_id = frame;
     info_out_.publish(info);
     image_out_.publish(image);
