@@ -8,8 +8,8 @@ namespace tensegric_fit::inspect {
 namespace {
 
 constexpr int kSmallestBandSize = 60, kLargestBandSize = 140;  // bands
-constexpr double kBandStep = 5, kCupStep = 2;          // cm
-constexpr double kSmallestCup = 10, kNoise = 1e-6;     // cm; what binary fractions add to decimal ones
+constexpr double kBandStep = 5, kCupStep = 2;                  // cm
+constexpr double kSmallestCup = 10, kNoise = 1e-6;  // cm; what binary fractions add to decimal ones
 
 /// A value of a normal variable of deviation 1, and its share of all.
 struct Likely {
@@ -36,7 +36,8 @@ std::optional<BraSize> bra_size(double bust, double underbust) {
   const double band = kBandStep * std::floor((100 * underbust + kNoise) / kBandStep + 0.5);
   const double cup = std::ceil((100 * (bust - underbust) - kSmallestCup - kNoise) / kCupStep);
   constexpr int kCups = 27;  // AA, and the alphabet
-  if (!(band >= kSmallestBandSize && band <= kLargestBandSize && cup >= 1 && cup <= kCups)) return std::nullopt;
+  if (!(band >= kSmallestBandSize && band <= kLargestBandSize && cup >= 1 && cup <= kCups))
+    return std::nullopt;
   const int letter = static_cast<int>(cup) - 2;
   return BraSize{static_cast<int>(band), letter < 0 ? "AA" : std::string(1, static_cast<char>('A' + letter))};
 }
