@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kOpacity = 0.4;
 constexpr double kOutline = 0.002;  // m
+constexpr double kWithin = 0.0005;  // m: skin that did not move shows no ghost
 constexpr Colour kGhostColour{120, 150, 190}, kOutlineColour{30, 60, 110};
 constexpr Ogre::uint8 kQueue = Ogre::RENDER_QUEUE_9;  // after all bodies
 
@@ -30,10 +31,13 @@ void Ghost::set_body(const std::vector<Eigen::Vector3i>& triangles,
                      const std::vector<Eigen::Vector3d>& vertices,
                      const std::vector<Eigen::Vector3d>& normals) {
   for (OgreBody* body : {&skin_, &mask_, &outline_}) body->set_triangles(triangles, vertices.size());
-  skin_.set_vertices(vertices, normals);
+  std::vector<Eigen::Vector3d> within(vertices), around(vertices);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    within[v] -= kWithin * normals[v];
+    around[v] += kOutline * normals[v];
+  }
+  skin_.set_vertices(within, normals);
   mask_.set_vertices(vertices, normals);
-  std::vector<Eigen::Vector3d> around(vertices);
-  for (std::size_t v = 0; v < around.size(); ++v) around[v] += kOutline * normals[v];
   outline_.set_vertices(around, normals);
   skin_.set_colours(std::vector<Colour>(vertices.size(), kGhostColour));
   outline_.set_colours(std::vector<Colour>(vertices.size(), kOutlineColour));
