@@ -1,5 +1,6 @@
-/// Depth images with lens distortion in, a body and its measures out, against the truth of the virtual body. Its cameras
-/// stand where they are believed to: what all columns are off together is no fault of the way from images to measures.
+/// Depth images with lens distortion in, a body and its measures out, against the truth of the virtual body.
+/// Its cameras stand where they are believed to: what all columns are off together is no fault of the way
+/// from images to measures.
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
