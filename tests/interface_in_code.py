@@ -170,7 +170,7 @@ def constants():
     found = {"M_PI": [("", "", repr(math.pi))]}
     for file in all_sources():
         text = source(file)
-        for match in re.finditer(r"constexpr\s+(?:int|double|float|std::size_t|auto|geometry::Range)\s+(k\w+[^;]*);", text):
+        for match in re.finditer(r"constexpr\s+(?:int|double|float|std::size_t|auto|(?:geometry::)?Range)\s+(k\w+[^;]*);", text):
             space = (re.findall(r"namespace tensegric_fit(?:::(\w+))?\s*\{", text[:match.start()]) or [""])[-1]
             for part in split_at_commas(match[1]):
                 word = re.fullmatch(r"(k\w+)\s*(?:=\s*)?(.+)", part)

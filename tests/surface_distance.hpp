@@ -15,8 +15,8 @@ double quantile(std::vector<double> values, double share);
 std::vector<double> distances(const std::vector<Eigen::Vector3d>& points, const std::vector<char>& left_out,
                               const geometry::TriangleMesh& surface);
 
-/// Angle between the normal at a vertex of `mesh` and the one of `surface` at the nearest place, smooth normals
-/// both; degrees. Vertices and `left_out` as the points above.
+/// Angle between the normal at a vertex of `mesh` and the one of `surface` at the nearest place, smooth
+/// normals both; degrees. Vertices and `left_out` as the points above.
 std::vector<double> normal_angles(const geometry::TriangleMesh& mesh, const std::vector<char>& left_out,
                                   const geometry::TriangleMesh& surface);
 

@@ -17,8 +17,10 @@ bool same(const tffd::LineOnBody& a, const tffd::LineOnBody& b) {
 class BoundBody : public tensegric::BodyUnderGarment {
  public:
   BoundBody(std::function<geometry::TriangleMesh()> body, const geometry::ControlMesh& control,
-            const geometry::BoneFrames& bones)
-      : body_(std::move(body)), control_(control), bones_(bones) {}
+            const geometry::BoneFrames& bones, double beta)
+      : body_(std::move(body)), control_(control), bones_(bones) {
+    options_.beta = beta;
+  }
 
   std::vector<geometry::LaidLine> lay(const tensegric::Garment& garment) const override {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -56,7 +58,7 @@ class BoundBody : public tensegric::BodyUnderGarment {
   const Bound& bound() const {
     if (bound_) return *bound_;
     geometry::TriangleMesh mesh = body_();
-    tffd::Binding binding = tffd::Binding(mesh, control_, {}).posed(bones_);
+    tffd::Binding binding = tffd::Binding(mesh, control_, options_).posed(bones_);
     bound_ = std::make_unique<const Bound>(Bound{std::move(mesh), std::move(binding)});
     return *bound_;
   }
@@ -64,6 +66,7 @@ class BoundBody : public tensegric::BodyUnderGarment {
   const std::function<geometry::TriangleMesh()> body_;
   const geometry::ControlMesh control_;
   const geometry::BoneFrames bones_;
+  tffd::Options options_;
   mutable std::mutex mutex_;
   mutable std::unique_ptr<const Bound> bound_;
   mutable std::vector<Line> lines_;  // of the last garment
@@ -88,8 +91,8 @@ std::vector<tensegric::VolumeFunction> body_volumes(const tffd::Binding& binding
 
 std::unique_ptr<const tensegric::BodyUnderGarment> bind_body(std::function<geometry::TriangleMesh()> body,
                                                              const geometry::ControlMesh& control,
-                                                             const geometry::BoneFrames& bones) {
-  return std::make_unique<const BoundBody>(std::move(body), control, bones);
+                                                             const geometry::BoneFrames& bones, double beta) {
+  return std::make_unique<const BoundBody>(std::move(body), control, bones, beta);
 }
 
 }  // namespace tensegric_fit::fit

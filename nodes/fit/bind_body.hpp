@@ -23,6 +23,6 @@ std::vector<tensegric::VolumeFunction> body_volumes(const tffd::Binding& binding
 /// Lines stay laid while they are asked for: a change of ratio does not move them.
 std::unique_ptr<const tensegric::BodyUnderGarment> bind_body(std::function<geometry::TriangleMesh()> body,
                                                              const geometry::ControlMesh& control,
-                                                             const geometry::BoneFrames& bones);
+                                                             const geometry::BoneFrames& bones, double beta);
 
 }  // namespace tensegric_fit::fit

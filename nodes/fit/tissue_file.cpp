@@ -13,10 +13,10 @@ std::string tissue_yaml(const Settings& settings) {
       "{:.4g}\nskin: "
       "{:.4g}\nvolume_stiffness: "
       "{:.4g}\nstiffening: {:.4g}\nmodulus: {:.4g}\n"
-      "prestress: {:.4g}\nthickness: {:.4g}\n",
+      "prestress: {:.4g}\nthickness: {:.4g}\nbeta: {:.4g}\n",
       to_string(model.inner), model.layers, model.uniform, model.strut_stiffness, model.lateral_stiffness,
       model.skin, model.volume_stiffness, model.stiffening, model.modulus, model.prestress,
-      settings.control_mesh.thickness);
+      settings.control_mesh.thickness, settings.tffd.beta);
 }
 
 void take_tissue(const std::string& path, Settings& settings) {
@@ -26,7 +26,7 @@ void take_tissue(const std::string& path, Settings& settings) {
   geometry::check_keys(
       file,
       {"inner_nodes", "layers", "uniform_stiffness", "strut_stiffness", "lateral_stiffness", "skin",
-       "volume_stiffness", "stiffening", "modulus", "prestress", "thickness", "evidence"},
+       "volume_stiffness", "stiffening", "modulus", "prestress", "thickness", "beta", "evidence"},
       path, code);
   tensegric::ModelOptions& model = settings.model;
   const auto take = [&](const char* key, double& value, const geometry::Range& range) {
@@ -46,6 +46,7 @@ void take_tissue(const std::string& path, Settings& settings) {
   take("modulus", model.modulus, tensegric::kModulus);
   take("prestress", model.prestress, tensegric::kPrestress);
   take("thickness", settings.control_mesh.thickness, control_mesh::kThickness);
+  take("beta", settings.tffd.beta, {0, geometry::kBeta.high});
 }
 
 }  // namespace tensegric_fit::fit

@@ -7,9 +7,9 @@
 namespace tensegric_fit::inspect {
 
 struct GarmentTitle {
-  std::string name;   ///< of the file, without .yaml: what the pipeline knows it by
-  std::string title;  ///< a few words; empty: the file has none, or cannot be read
-  std::string about;  ///< a sentence, or empty
+  std::string name;     ///< of the file, without .yaml: what the pipeline knows it by
+  std::string title;    ///< a few words; empty: the file has none, or cannot be read
+  std::string about;    ///< a sentence, or empty
   std::string picture;  ///< path of NAME.png beside the file; empty: there is none
 };
 

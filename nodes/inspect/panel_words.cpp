@@ -91,7 +91,8 @@ std::string line_warning(const LineOutcome& line) {
 std::string over_constriction(double area, const std::string& landmark) {
   const std::string near = landmark.empty() ? "" : " near the " + landmark;
   if (area < kOverConstricted)
-    return fmt::format("Over-constricted{}: the skin is drawn together to {} of its area.", near, per_cent(area));
+    return fmt::format("Over-constricted{}: the skin is drawn together to {} of its area.", near,
+                       per_cent(area));
   if (area > kOverStretched)
     return fmt::format("Over-stretched{}: the skin is drawn out to {} of its area.", near, per_cent(area));
   return "";

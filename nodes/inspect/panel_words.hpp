@@ -10,9 +10,9 @@ namespace tensegric_fit::inspect::words {
 
 // Labels; an ampersand comes before the key that reaches it with Alt.
 inline constexpr char kGarment[] = "&Garment", kPutOn[] = "&Put on", kUndo[] = "&Undo", kRedo[] = "R&edo",
-                      kLinked[] = "&Both sides alike", kReset[] = "&Reset",
-                      kCompare[] = "&Compare", kExport[] = "E&xport", kFolder[] = "&Folder",
-                      kCustomer[] = "C&ustomer", kBlendLabel[] = "&Scan to garment", kRegions[] = "Regions";
+                      kLinked[] = "&Both sides alike", kReset[] = "&Reset", kCompare[] = "&Compare",
+                      kExport[] = "E&xport", kFolder[] = "&Folder", kCustomer[] = "C&ustomer",
+                      kBlendLabel[] = "&Scan to garment", kRegions[] = "Regions";
 // How the body before is shown with the worn one.
 inline constexpr char kAlone[] = "garment alone", kAsGhost[] = "scan as a ghost",
                       kBothSides[] = "scan left, garment right", kAsWipe[] = "wipe from scan to garment",

@@ -18,7 +18,8 @@ inline constexpr char kFixed[] = "Fixed", kAutomatic[] = "Automatic";
 // The display: help.
 inline constexpr char
     kShowHelp[] =
-        "The body under the garment, as scanned, both side by side, between the two, with the scan as a ghost "
+        "The body under the garment, as scanned, both side by side, between the two, with the scan as a "
+        "ghost "
         "over it, or the scan left and the garment right of a border.",
     kBlendHelp[] = "Blend: 0 is the body as scanned, 1 under the garment. Wipe: where the border lies.",
     kPaleHelp[] = "What is shown is of an earlier scan: all of it pale. The panel sets it.",

@@ -188,18 +188,18 @@ std::string facts_of(const FitFigures& figures) {
 /// What is worn, with title, sentence and picture where it is a shipped garment (or several joined by +).
 std::string garment_of(const std::string& name) {
   std::string shown;
-  const std::vector<inspect::GarmentTitle> known =
-      inspect::garments_in(geometry::shipped_folder("garments"));
+  const std::vector<inspect::GarmentTitle> known = inspect::garments_in(geometry::shipped_folder("garments"));
   std::istringstream parts(name);
   for (std::string part; std::getline(parts, part, '+');)
     for (const inspect::GarmentTitle& garment : known) {
       if (garment.name != part) continue;
-      const std::string picture =
-          garment.picture.empty()
-              ? ""
-              : "<img alt=\"\" src=\"data:image/png;base64," + files::base64(files::bytes_of(garment.picture)) + "\">";
-      shown += fmt::format("<p class=\"garment\">{}<span><b>{}: {}.</b> {}</span></p>\n", picture,
-                           html_escaped(garment.name), html_escaped(garment.title), html_escaped(garment.about));
+      const std::string picture = garment.picture.empty()
+                                      ? ""
+                                      : "<img alt=\"\" src=\"data:image/png;base64," +
+                                            files::base64(files::bytes_of(garment.picture)) + "\">";
+      shown +=
+          fmt::format("<p class=\"garment\">{}<span><b>{}: {}.</b> {}</span></p>\n", picture,
+                      html_escaped(garment.name), html_escaped(garment.title), html_escaped(garment.about));
     }
   return shown;
 }

@@ -48,7 +48,8 @@ BodyMeshDisplay::~BodyMeshDisplay() {
 }
 
 void BodyMeshDisplay::onInitialize() {
-  const BodyScene::Parts parts{context_->visibilityBits()->allocBit(), context_->visibilityBits()->allocBit()};
+  const BodyScene::Parts parts{context_->visibilityBits()->allocBit(),
+                               context_->visibilityBits()->allocBit()};
   view_bits_ = parts.before | parts.worn;
   scene_ = std::make_unique<BodyScene>(scene_manager_, scene_node_, parts);
   rviz::RenderPanel* panel = context_->getViewManager()->getRenderPanel();

@@ -56,8 +56,8 @@ class BodyScene {
   /// The legend with the rest: it lies over the view, not in the scene.
   void show(bool visible);
 
-  /// The ray is in the scene's world; it meets the body before where that is asked for, else the one under the
-  /// garment or the only one shown.
+  /// The ray is in the scene's world; it meets the body before where that is asked for, else the one under
+  /// the garment or the only one shown.
   std::optional<Pointed> point_at(const Ogre::Ray& ray, bool before, const BodyView& body,
                                   Overlays& overlays) const;
   /// A dot there, and words in the legend, until the next drawing; null: none.

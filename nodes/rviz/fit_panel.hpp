@@ -92,7 +92,7 @@ class FitPanel : public rviz::Panel {
   void follow_view();
   void show_state();
   void show_age(const PipelineWatch::State& state);
-  std::string extreme_skin(bool tightest) const;  // a sentence, "" where it bears it
+  std::string extreme_skin(bool tightest) const;             // a sentence, "" where it bears it
   void answer(const std::string& words, bool done = false);  // to the clerk, and to the log
 
   using Clock = std::chrono::steady_clock;

@@ -47,7 +47,8 @@ void Ghost::show(bool visible) {
 }
 
 void Ghost::renderQueueStarted(Ogre::uint8 queue, const Ogre::String&, bool&) {
-  if (visible_ && queue == kQueue) Ogre::Root::getSingleton().getRenderSystem()->clearFrameBuffer(Ogre::FBT_DEPTH);
+  if (visible_ && queue == kQueue)
+    Ogre::Root::getSingleton().getRenderSystem()->clearFrameBuffer(Ogre::FBT_DEPTH);
 }
 
 }  // namespace tensegric_fit::inspect

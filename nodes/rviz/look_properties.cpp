@@ -97,8 +97,8 @@ LookProperties::LookProperties(rviz::Property* parent, QObject* receiver, const 
   members = topic<MemberForces>("Members", "tensegric/members", words::kMembersHelp, topics, receiver,
                                 topics_changed);
 
-  warnings = topic<FitWarnings>("Warnings", "body/warnings", words::kUnheldHelp, topics, receiver,
-                                topics_changed);
+  warnings =
+      topic<FitWarnings>("Warnings", "body/warnings", words::kUnheldHelp, topics, receiver, topics_changed);
 
   auto* pointed = new rviz::Property("Pointed at", QVariant(), words::kPointedHelp, parent);
   value_ = answer("Value", words::kPointedHelp, pointed);

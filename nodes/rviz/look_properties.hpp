@@ -34,7 +34,8 @@ class LookProperties {
  private:
   rviz::EnumProperty *show_, *colour_by_, *scale_;
   rviz::FloatProperty *blend_, *opacity_;
-  rviz::BoolProperty *legend_, *landmarks_, *names_, *girths_, *model_, *control_mesh_, *members_, *lines_, *pale_;
+  rviz::BoolProperty *legend_, *landmarks_, *names_, *girths_, *model_, *control_mesh_, *members_, *lines_,
+      *pale_;
   rviz::StringProperty *value_, *position_, *nearest_;
 };
 

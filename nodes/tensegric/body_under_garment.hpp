@@ -29,9 +29,9 @@ class BodyUnderGarment {
 
 /// Binds a body to its control mesh. `body` gives the mesh and is called when it is needed first, if ever:
 /// strings need none. How a body follows its control mesh is the t-FFD's (tffd/), which this stage does not
-/// know: fit/bind_body.hpp.
+/// know: fit/bind_body.hpp. `beta`: the reach that it carries the skin with (geometry/tffd_reach.hpp).
 using BindBody = std::function<std::unique_ptr<const BodyUnderGarment>(
     std::function<geometry::TriangleMesh()> body, const geometry::ControlMesh& control,
-    const geometry::BoneFrames& bones)>;
+    const geometry::BoneFrames& bones, double beta)>;
 
 }  // namespace tensegric_fit::tensegric

@@ -54,7 +54,7 @@ void GarmentFitter::take(const FittingScene& scene) {
                            : geometry::BoneFrames();
   const std::shared_ptr<const Wearer> wearer(
       new Wearer{tensegric::build_model(control, options_.model),
-                 bind_body_([body = scene.body] { return mesh_in(*body); }, control, bones_)});
+                 bind_body_([body = scene.body] { return mesh_in(*body); }, control, bones_, options_.beta)});
   const bool keeps_body = options_.solver.volume == tensegric::KeptVolume::body;
   body_volumes_ = keeps_body ? wearer->body->volumes() : std::vector<tensegric::VolumeFunction>();
   scene_ = scene;

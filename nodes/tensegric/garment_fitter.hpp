@@ -30,6 +30,7 @@ struct FitterOptions {
   tensegric::ModelOptions model;
   tensegric::SolverOptions solver;
   geometry::Posture posture;
+  double beta = 0;  ///< of the binding; the tffd stage's parameter of that name has to be the same
 };
 
 /// Keeps the model of the newest control mesh, and the last solution on it for a warm start.

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "geometry/shipped_files.hpp"
+#include "geometry/tffd_reach.hpp"
 #include "tensegric/kept_garment.hpp"
 
 namespace tensegric_fit::node {
@@ -35,6 +36,9 @@ TensegricHandler::Setup TensegricHandler::setup_from(Parameters& parameters) {
   model.strut_stiffness =
       parameters.number("strut_stiffness", model.strut_stiffness, tensegric::kStrutStiffness);
   model.prestress = parameters.number("prestress", model.prestress, tensegric::kPrestress);
+  FitterOptions& fitter = setup.fitter;
+  fitter.beta = parameters.number("beta", fitter.beta, {0, geometry::kBeta.high});
+  if (fitter.beta != 0) geometry::check_option("beta", fitter.beta, geometry::kBeta);
   tensegric::SolverOptions& solver = setup.fitter.solver;
   solver.solver = tensegric::solver_from(
       parameters.choice("solver", to_string(solver.solver), {"equilibrium", "adaptive", "relaxation"}));

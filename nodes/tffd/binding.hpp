@@ -7,6 +7,7 @@
 #include "geometry/control_mesh.hpp"
 #include "geometry/posture.hpp"
 #include "geometry/range.hpp"
+#include "geometry/tffd_reach.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "tffd/reach.hpp"
 #include "tffd/untangle.hpp"
@@ -24,8 +25,6 @@ enum class Setting { standard, paper };
 /// mm of `reference`, which is double throughout.
 enum class Precision { reference, fast };
 
-/// Below 1 the local kernels leave gaps between the triangles; far above, every triangle carries everything.
-inline constexpr geometry::Range kBeta{1, 20};
 inline constexpr geometry::Range kTruncation{0, 0.1};
 
 /// Field defaults are the parameters' defaults.

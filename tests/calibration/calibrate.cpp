@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -121,7 +122,20 @@ Cases read_cases(const std::string& path, const fit::Settings& settings) {
   return cases;
 }
 
-void print_errors(const Cases& cases, const fit::Settings& settings) {
+// vertex, deformed place: a file for each case.
+void write_fields(const std::string& folder, const calibration::CalibrationCase& one,
+                  const calibration::CaseOutcome& out) {
+  std::string name = one.name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  std::ofstream file(fs::path(folder) / (name + ".csv"));
+  file << "vertex,x,y,z\n";
+  for (const int v : one.reference.vertices)
+    file << fmt::format("{},{:.7f},{:.7f},{:.7f}\n", v, out.deformed[v].x(), out.deformed[v].y(),
+                        out.deformed[v].z());
+  if (!file.flush()) throw std::runtime_error(folder + ": cannot be written");
+}
+
+void print_errors(const Cases& cases, const fit::Settings& settings, const std::string& fields) {
   fmt::print("{:20s} {:>7s} {:>6s} {:>11s} {:>10s} {:>7s}  tension (reference, N)\n", "case", "still", "rms",
              "status", "iterations", "ms");
   for (const calibration::CalibrationBody& body : cases.bodies) {
@@ -129,6 +143,7 @@ void print_errors(const Cases& cases, const fit::Settings& settings) {
     for (std::size_t c = 0; c < outcomes.size(); ++c) {
       const calibration::CalibrationCase& one = body.cases[c];
       const calibration::CaseOutcome& out = outcomes[c];
+      if (!fields.empty()) write_fields(fields, one, out);
       fmt::print("{:20s} {:7.2f} {:6.2f} {:>11s} {:10d} {:7.1f}  {:.4g}", one.name,
                  1e3 * calibration::not_moving(one.reference), 1e3 * out.error, to_string(out.status),
                  out.iterations, out.milliseconds, fmt::join(out.tensions, " "));
@@ -164,9 +179,12 @@ int main(int argc, char** argv) {
                  "Control triangles, at least")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
-  app.add_option("--beta", settings.tffd.beta,
-                 "Reach of t-FFD's triangles in their mean radii; 0: the default")
+  double beta = 0;
+  app.add_option("--beta", beta, "Reach of t-FFD's triangles in their mean radii; 0: the tissue's")
       ->check(CLI::Range(0.0, 20.0));
+  std::string fields;
+  app.add_option("--fields", fields, "With --errors: a folder for each case's deformed skin, as CSV")
+      ->check(CLI::ExistingDirectory);
   bool errors = false;
   app.add_flag("--errors", errors, "Fits nothing: errors, iterations and tensions by case, as things are");
   try {
@@ -176,9 +194,10 @@ int main(int argc, char** argv) {
   }
   try {
     if (!tissue.empty()) fit::take_tissue(tissue, settings);
+    if (beta != 0) settings.tffd.beta = beta;
     const Cases all = read_cases(cases, settings);
     if (errors)
-      print_errors(all, settings);
+      print_errors(all, settings, fields);
     else
       run(all, out, settings);
     return 0;

@@ -98,6 +98,7 @@ TEST(Parameters, ThatANodeTakesAreNotRefusedByItsCore) {
   EXPECT_EQ(end("min_points", 499), "parameter '/stage/min_points' is 499, not in [500, 1000000]");
   EXPECT_NE(end("max_points", 4999), "accepted");  // fewer than the least
   EXPECT_NE(refusal_of([] { TffdHandler{parameters("{beta: 0.5}")}; }), "accepted");
+  EXPECT_NE(refusal_of([] { TensegricHandler(parameters("{beta: 0.5}"), fit::bind_body); }), "accepted");
 }
 
 /// Messages of scans that all have the same bust.
