@@ -405,7 +405,7 @@ cv::Mat shown(const fs::path& page, const std::string& address) {
   const fs::path picture = page.parent_path() / "shown.png", profile = page.parent_path() / "profile";
   fs::remove(picture);
   const std::string command =
-      "timeout 60 chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader "
+      "timeout 120 chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader "
       "--enable-unsafe-swiftshader --window-size=390,900 --virtual-time-budget=8000 --user-data-dir='" +
       profile.string() + "' --screenshot='" + picture.string() + "' 'file://" + page.string() + "#" +
       address + "' > /dev/null 2>&1";
