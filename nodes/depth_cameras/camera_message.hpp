@@ -7,8 +7,8 @@
 namespace tensegric_fit::node {
 
 /// Depth along the optical axis: 16UC1 in millimetres, 0 where nothing was seen, or 32FC1 in metres, NaN
-/// there; and the lens as plumb_bob or rational_polynomial. image_proc and depth_image_proc end the process
-/// on some of what is refused here. \throw Refusal no_stamp, broken_file (lengths), wrong_fields (another
+/// there; and the lens as plumb_bob or rational_polynomial. depth_image_proc ends the process on some of
+/// what is refused here. \throw Refusal no_stamp, broken_file (lengths), wrong_fields (another
 /// encoding; CameraInfo of another size, without focal length, or of another lens model: there would be no
 /// usable points)
 void check_depth_image(const sensor_msgs::Image& image, const sensor_msgs::CameraInfo& info);

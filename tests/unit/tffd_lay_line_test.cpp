@@ -64,6 +64,7 @@ TEST_F(Slab, ABandSpreadsOverItsWidthAndStaysOnTheSkin) {
 
 TEST_F(Slab, FibresLieInOrderFromRightToLeft) {
   const auto fibres = lay_line({over_the_bump(), 0.03}, body, binding);  // along x, seen from above
+  ASSERT_GT(fibres.size(), 1u);
   double last = -1;
   for (const geometry::Fibre& fibre : fibres) {
     const double y = fibre.points[fibre.points.size() / 2].rest.y();
