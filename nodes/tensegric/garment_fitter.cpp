@@ -31,7 +31,10 @@ std::optional<tensegric::Solution> GarmentFitter::fit(const FittingScene& scene,
         stopped = !progress(iterate, outer, inner);
         return !stopped;
       },
-      body_volumes_, now->body->lay(request.garment));
+      body_volumes_, now->body->lay(request.garment),
+      [&now](const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner) {
+        return now->body->folds(outer, inner);
+      });
   if (stopped) return std::nullopt;
   last_ = std::move(solution);
   last_rest_ = rest;
