@@ -22,7 +22,7 @@ constexpr double kTrue = 1e-6;       // of a length: README.md, Exactness
 constexpr double kSamePlace = 1e-9;  // m
 // What is handed back of an unfinished way: pulls that are left over are below the tissue's own.
 constexpr Tolerance kHandedBack{1, 1e-9, 1};
-constexpr double kNearFold = 1.0 / 64;  // of the way to the request: a millimetre of a chest at 0.90
+constexpr double kNearFold = 0.002;  // of a line's length: a millimetre of a chest
 constexpr int kMostPerLoad = 60, kMostAtEnd = 80, kMostCorrections = 10;
 constexpr int kMostFromRest = 300, kMostWarm = 100;  // a start that leads nowhere soon is none
 // Under a weight a shape may buckle and go over to another balance, by up to twice its length in steps of
@@ -139,10 +139,17 @@ class LoadPath {
     return tolerance;
   }
 
-  double first_load_step() const {
-    double change = problem_.options.gravity == first_.gravity ? 0 : 4 * kFirstRatioStep;
+  // Of neutral lengths over the whole way, relative.
+  double length_change() const {
+    double change = 0;
     for (std::size_t b = 0; b < bands_; ++b)
       change = std::max(change, std::abs(1 - problem_.bands[b].neutral / first_.neutral[b]));
+    return change;
+  }
+
+  double first_load_step() const {
+    double change = problem_.options.gravity == first_.gravity ? 0 : 4 * kFirstRatioStep;
+    change = std::max(change, length_change());
     const Positions before = posed(problem_, first_posture_), after = posed(problem_, 1);
     for (std::size_t i = 0; i < before.size(); ++i)
       change = std::max(change, kFirstRatioStep * (after[i] - before[i]).norm() / newton_.longest_move());
@@ -213,12 +220,12 @@ class LoadPath {
   // The load is the garment's alone: a part of it is a looser garment.
   bool goes_back() const { return problem_.options.bones.still() && problem_.options.gravity.isZero(0); }
 
-  // From rest to the farthest share of the way, but for kNearFold of it, where no skin is turned over.
+  // From rest to the farthest share of the way, but for kNearFold of a line, where no skin is turned over.
   // `share`: where it is.
   double go_back(Balance& at, double share) {
     double smooth = 0;
     at = start_of_way();
-    while (share - smooth > kNearFold && !stopped()) {
+    while ((share - smooth) * length_change() > kNearFold && !stopped()) {
       const double middle = (smooth + share) / 2;
       Balance next = at;
       if (newton_.settle(next, load_at(middle), kExact, kMostPerLoad) && !skin_folds(problem_, next.x)) {
