@@ -8,6 +8,7 @@
 #include "geometry/status.hpp"
 #include "inspect/panel_words.hpp"
 #include "inspect/pointing.hpp"
+#include "inspect/pressure_words.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/flat.hpp"
 #include "ros/line_force.hpp"
@@ -201,7 +202,9 @@ void FitPanel::take_fit(const FitState& fit) {
 void FitPanel::show_outcome() {
   if (!fitted_) return;
   const FitState& fit = *fitted_;
-  show_words(fit_, words::fit_ended(fit.garment, fit.status, fit.note, fit.milliseconds));
+  const std::string ended = words::fit_ended(fit.garment, fit.status, fit.note, fit.milliseconds);
+  fit_->setText(text(words::without_details(ended)));
+  fit_->setToolTip(text(ended));
   std::map<std::string, std::string> regions;
   std::vector<std::string> messages;
   for (std::size_t i = 0; i < fit.lines.size(); ++i) {
@@ -214,10 +217,18 @@ void FitPanel::show_outcome() {
     if (!warning.empty()) messages.push_back("'" + line.name + "': " + warning);
     if (warning.empty()) warning = lack_of(line);
     const auto force = node::force_of(forces_, fit, i);
+    const std::string pressed = force ? words::pressure_warning(force->kilopascals) : "";
+    if (!pressed.empty()) messages.push_back("'" + line.name + "': " + pressed);
+    if (warning.empty()) warning = pressed;
     for (LineRow* row : rows_)
-      if (row->line() == line.name)
-        row->set_outcome(line.ratio, force ? words::pull(force->newtons) : "",
-                         force ? words::pull_help(force->newtons, force->kilopascals) : "", warning);
+      if (row->line() == line.name) {
+        row->set_outcome(line.ratio, warning);
+        if (force)
+          row->set_force(words::pull(force->newtons), words::pressure(force->kilopascals),
+                         words::pull_help(force->newtons, force->kilopascals));
+        else
+          row->set_force("", "", "");
+      }
   }
   session_.place(regions);
   show_warnings(messages);
@@ -407,6 +418,8 @@ void FitPanel::show_state() {
   const QString garment = text(session_.now().garment);
   if (!(typing_ && garment_->hasFocus()) && !client_->is_asking() && garment_->currentText() != garment)
     garment_->setCurrentText(garment);
+  const QSignalBlocker quiet(marks_);
+  marks_->setChecked(marks_shown());
   progress_->setMaximum(state.all);
   progress_->setValue(state.done);
   if (client_->is_asking() && Clock::now() - asked_at_ > kPatience) answer(words::kNoAnswer);

@@ -129,7 +129,8 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   row->addWidget(reset_ = new QPushButton(words::kReset));
   layout->addLayout(row);
   auto* choices = new QHBoxLayout;
-  choices->addWidget(linked_ = new QCheckBox(words::kLinked), 1);
+  choices->addWidget(linked_ = new QCheckBox(words::kLinked));
+  choices->addWidget(marks_ = new QCheckBox(words::kMarks), 1);
   auto* comparing = new QLabel(words::kCompare);
   compare_ = new QComboBox;
   compare_->setToolTip(words::kCompareHelp);
@@ -145,6 +146,8 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   undo_->setEnabled(false);
   redo_->setEnabled(false);
   linked_->setChecked(true);
+  marks_->setChecked(true);
+  marks_->setToolTip(words::kMarksHelp);
   auto* blending = new QHBoxLayout;
   auto* label = new QLabel(words::kBlendLabel);
   blend_ = new QSlider(Qt::Horizontal);
@@ -158,6 +161,7 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   connect(undo_, &QPushButton::clicked, this, &FitPanel::undo);
   connect(redo_, &QPushButton::clicked, this, &FitPanel::redo);
   connect(linked_, &QCheckBox::toggled, this, [this](bool on) { session_.link_sides(on); });
+  connect(marks_, &QCheckBox::toggled, this, &FitPanel::show_marks);
   connect(reset_, &QPushButton::clicked, this, [this] {
     changed_here_ = false;
     asked_at_ = Clock::now();
@@ -227,7 +231,8 @@ void FitPanel::order_tabs() {
     last = next;
   };
   for (QCheckBox* box : regions_box_->findChildren<QCheckBox*>()) follow(box);
-  for (QWidget* next : std::initializer_list<QWidget*>{undo_, redo_, reset_, linked_, compare_, blend_})
+  for (QWidget* next :
+       std::initializer_list<QWidget*>{undo_, redo_, reset_, linked_, marks_, compare_, blend_})
     follow(next);
   for (QWidget* next : view_->controls()) follow(next);
   for (QWidget* next : std::initializer_list<QWidget*>{table_, folder_, export_}) follow(next);
@@ -262,6 +267,17 @@ void FitPanel::build_regions() {
   }
   for (QCheckBox* box : regions_box_->findChildren<QCheckBox*>())
     box->setChecked(wish.off.count(box->text().toStdString()) == 0);
+}
+
+void FitPanel::show_marks(bool on) {
+  for (const char* marks : {"Landmarks", "Girths"}) set_display(marks, on);
+}
+
+bool FitPanel::marks_shown() const {
+  for (rviz::Display* display : displays(vis_manager_))
+    if (display->subProp("Landmarks")->getValue().toBool() || display->subProp("Girths")->getValue().toBool())
+      return true;
+  return false;
 }
 
 void FitPanel::set_display(const char* property, const QVariant& value) {
