@@ -46,7 +46,8 @@ std::string pull_help(double newtons, double kilopascals) {
 
 std::string pressure_warning(double kilopascals) {
   if (kilopascals <= kComplaints) return "";
-  return fmt::format("Presses with up to {}: {}.", pressure(kilopascals), pressure_meaning(kilopascals));
+  return fmt::format("Presses with an estimated {}: {}.", pressure(kilopascals),
+                     pressure_meaning(kilopascals));
 }
 
 }  // namespace tensegric_fit::inspect::words

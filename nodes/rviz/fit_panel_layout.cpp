@@ -129,8 +129,7 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   row->addWidget(reset_ = new QPushButton(words::kReset));
   layout->addLayout(row);
   auto* choices = new QHBoxLayout;
-  choices->addWidget(linked_ = new QCheckBox(words::kLinked));
-  choices->addWidget(marks_ = new QCheckBox(words::kMarks), 1);
+  choices->addWidget(linked_ = new QCheckBox(words::kLinked), 1);
   auto* comparing = new QLabel(words::kCompare);
   compare_ = new QComboBox;
   compare_->setToolTip(words::kCompareHelp);
@@ -146,8 +145,6 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   undo_->setEnabled(false);
   redo_->setEnabled(false);
   linked_->setChecked(true);
-  marks_->setChecked(true);
-  marks_->setToolTip(words::kMarksHelp);
   auto* blending = new QHBoxLayout;
   auto* label = new QLabel(words::kBlendLabel);
   blend_ = new QSlider(Qt::Horizontal);
@@ -156,6 +153,9 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   label->setBuddy(blend_);
   blending->addWidget(label);
   blending->addWidget(blend_, 1);
+  blending->addWidget(marks_ = new QCheckBox(words::kMarks));
+  marks_->setChecked(true);
+  marks_->setToolTip(words::kMarksHelp);
   layout->addLayout(blending);
   layout->addWidget(view_ = new ViewRow);
   connect(undo_, &QPushButton::clicked, this, &FitPanel::undo);
@@ -232,7 +232,7 @@ void FitPanel::order_tabs() {
   };
   for (QCheckBox* box : regions_box_->findChildren<QCheckBox*>()) follow(box);
   for (QWidget* next :
-       std::initializer_list<QWidget*>{undo_, redo_, reset_, linked_, marks_, compare_, blend_})
+       std::initializer_list<QWidget*>{undo_, redo_, reset_, linked_, compare_, blend_, marks_})
     follow(next);
   for (QWidget* next : view_->controls()) follow(next);
   for (QWidget* next : std::initializer_list<QWidget*>{table_, folder_, export_}) follow(next);
