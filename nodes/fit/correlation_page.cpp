@@ -126,6 +126,7 @@ std::string lines_of(const FittedFolder& fitted) {
 
 std::string correlation_page(const Correlated& correlated, const std::vector<PagePicture>& pictures,
                              const std::string& model) {
+  const std::string end = fmt::format("{:.0f} mm", 1e3 * inspect::kFarthestDistance);
   const inspect::PageView view{
       model,
       "The simulated body",
