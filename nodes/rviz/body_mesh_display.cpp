@@ -11,6 +11,7 @@
 #include <QMouseEvent>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "geometry/fit_warning.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
 #include "inspect/words.hpp"
@@ -189,7 +190,7 @@ std::vector<int> BodyMeshDisplay::unheld_skin() const {
   std::vector<int> skin;
   if (warnings_.scan_id != body_.scan_id() || warnings_.garment != body_.garment()) return skin;
   for (const FitWarning& notice : warnings_.notices)
-    if (notice.code == FitWarning::UNDER_CONSTRICTED)
+    if (notice.code == geometry::notice::kUnderConstricted)
       for (const std::uint32_t v : notice.vertices)
         if (v < body_.mesh().vertices.size()) skin.push_back(static_cast<int>(v));
   return with_rim(skin);

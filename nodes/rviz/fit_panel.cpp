@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "geometry/fit_warning.hpp"
 #include "geometry/moved_skin.hpp"
 #include "geometry/status.hpp"
 #include "inspect/panel_words.hpp"
@@ -266,8 +267,9 @@ void FitPanel::show_whose() {
 void FitPanel::show_warnings(std::vector<std::string> messages) {
   for (const FitWarning& warning : warnings_.warnings) messages.push_back(warning.message);
   for (const FitWarning& notice : warnings_.notices)
-    if (notice.code == FitWarning::OVER_STRETCHED || notice.code == FitWarning::PRESSED_TOGETHER ||
-        notice.code == FitWarning::UNDER_CONSTRICTED)
+    if (notice.code == geometry::notice::kOverStretched ||
+        notice.code == geometry::notice::kPressedTogether ||
+        notice.code == geometry::notice::kUnderConstricted)
       messages.push_back(notice.message);
   const std::string words = words::warnings(messages);
   if (!words.empty() && folds_->toolTip() != text(words))
@@ -278,7 +280,7 @@ void FitPanel::show_warnings(std::vector<std::string> messages) {
 std::string FitPanel::lack_of(const LineResult& line) const {
   if (!fitted_ || warnings_.scan_id != fitted_->scan_id || warnings_.garment != fitted_->garment) return "";
   for (const FitWarning& notice : warnings_.notices)
-    if (notice.code == FitWarning::UNDER_CONSTRICTED && notice.line == line.name) return notice.message;
+    if (notice.code == geometry::notice::kUnderConstricted && notice.line == line.name) return notice.message;
   return "";
 }
 
