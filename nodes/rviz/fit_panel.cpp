@@ -266,10 +266,14 @@ void FitPanel::show_whose() {
 
 void FitPanel::show_warnings(std::vector<std::string> messages) {
   for (const FitWarning& warning : warnings_.warnings) messages.push_back(warning.message);
+  const auto is_said = [messages](const std::string& line) {  // of the line, by its figures
+    return std::any_of(messages.begin(), messages.end(),
+                       [&](const std::string& message) { return message.rfind("'" + line + "': ", 0) == 0; });
+  };
   for (const FitWarning& notice : warnings_.notices)
     if (notice.code == geometry::notice::kOverStretched ||
         notice.code == geometry::notice::kPressedTogether ||
-        notice.code == geometry::notice::kUnderConstricted)
+        (notice.code == geometry::notice::kUnderConstricted && !is_said(notice.line)))
       messages.push_back(notice.message);
   const std::string words = words::warnings(messages);
   if (!words.empty() && folds_->toolTip() != text(words))
