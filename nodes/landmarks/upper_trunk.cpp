@@ -20,6 +20,16 @@ Vector3d mean_of(const std::vector<Vector3d>& points) {
   return sum / static_cast<double>(points.size());
 }
 
+/// Whether a loop goes round the body, and not round a hollow within: a fold that the scan did not see into
+/// may go on inside the mesh.
+bool is_outline(const SectionLoop& loop, const Vector3d& normal) {
+  Vector3d twice_area = Vector3d::Zero();
+  const Vector3d& first = loop.points.front();
+  for (std::size_t i = 1; i + 1 < loop.points.size(); ++i)
+    twice_area += (loop.points[i] - first).cross(loop.points[i + 1] - first);
+  return loop.closed && twice_area.dot(normal) > 0;
+}
+
 /// Middle of the gap between arm and trunk in a plane; nothing where they are one.
 std::optional<Vector3d> gap(const Surface& surface, Side side, double height, double rise) {
   const double tilt = kSign[side] * rise;
@@ -28,7 +38,7 @@ std::optional<Vector3d> gap(const Surface& surface, Side side, double height, do
   const SectionLoop *trunk = nullptr, *arm = nullptr;
   double widest = 0;
   for (const SectionLoop& loop : loops) {
-    if (!loop.closed) continue;
+    if (!is_outline(loop, normal)) continue;
     const auto box = geometry::bounding_box(loop.points);
     const bool middle = box[0].y() < 0.05 && box[1].y() > -0.05;
     const double width = box[1].y() - box[0].y() + (middle ? 10 : 0);
@@ -39,7 +49,7 @@ std::optional<Vector3d> gap(const Surface& surface, Side side, double height, do
   if (trunk == nullptr) return std::nullopt;
   const double middle = mean_of(trunk->points).y();
   for (const SectionLoop& loop : loops) {
-    if (!loop.closed || &loop == trunk || kSign[side] * (mean_of(loop.points).y() - middle) < kArmBeside)
+    if (!is_outline(loop, normal) || &loop == trunk || kSign[side] * (mean_of(loop.points).y() - middle) < kArmBeside)
       continue;
     if (arm == nullptr || loop.points.size() > arm->points.size()) arm = &loop;
   }

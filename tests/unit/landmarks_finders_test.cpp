@@ -235,6 +235,22 @@ TEST(AxillaFinder, OfALevelArmTheCornerUnderIt) {
   EXPECT_NEAR(axilla->y(), kTrunkRadius, 0.005);
 }
 
+TEST(AxillaFinder, AHollowInsideTheTrunkIsNoArm) {
+  const Vector3d shoulder(0, 0.10, 1.35), hand(0, 0.40, 0.88);
+  // Where a scan does not see into the armpit, its wedge may go on inside the mesh, up to the shoulder.
+  const Vector3d end = find_axilla(with_arm(shoulder, hand), kLeft, 1.0, 1.4, 0).value();
+  const Surface hollow = skin(test::surface_of(
+      [&](const Vector3d& p) {
+        const double trunk = std::max(std::hypot(p.x(), p.y()) - kTrunkRadius, std::abs(p.z() - 1.15) - 0.25);
+        const double body = std::min(trunk, capsule(p, shoulder, hand, kArmRadius, kArmRadius));
+        return std::max(body, -capsule(p, end, end + Vector3d(0, -0.02, 0.06), 0.012, 0.012));
+      },
+      {-0.13, -0.13, 0.79}, {0.13, 0.45, 1.43}, 0.0041));
+  const auto axilla = find_axilla(hollow, kLeft, 1.0, 1.4, 0);
+  ASSERT_TRUE(axilla);
+  EXPECT_NEAR(axilla->z(), end.z(), 0.020);  // the hollow's mouth; its top is 70 mm up
+}
+
 TEST(AxillaFinder, WithoutAnArmThereIsNone) {
   const Surface surface = with_arm({0, 0.10, 1.35}, {0, 0.40, 0.88});
   EXPECT_FALSE(find_axilla(surface, kRight, 1.0, 1.4, 0));
