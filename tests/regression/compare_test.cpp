@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <boost/make_shared.hpp>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
