@@ -68,11 +68,9 @@ Json figures_of(Json report, Json& cost) {
 }
 
 Json fitted(const std::vector<std::string>& arguments, Json& cost) {
-  std::vector<const char*> words{"fit_batch"};
-  for (const std::string& argument : arguments) words.push_back(argument.c_str());
   fit::CommandLine line;
   std::ostringstream errors;
-  if (fit::parse(static_cast<int>(words.size()), words.data(), line, errors))
+  if (fit::parse(arguments, line, errors))
     return {{"status", "failed"}, {"reason", reason("usage", errors.str())}};
   fit::Computed computed;
   try {

@@ -5,9 +5,13 @@
 
 #include "files/html.hpp"
 #include "fit/correlation_report.hpp"
+<<<<<<< HEAD
 #include "inspect/colours.hpp"
 #include "inspect/correlation_model.hpp"
 #include "inspect/page_view.hpp"
+=======
+#include "inspect/words.hpp"
+>>>>>>> rooms
 
 namespace tensegric_fit::fit {
 namespace {
@@ -58,26 +62,12 @@ figcaption, footer, .note {{ font-size: 8pt; color: #666 }}
 </html>
 )";
 
-// "upper_arm_L" and "girth": left upper arm girth; bust_point_spread stays as it is.
-std::string words_of(std::string name, const std::string& kind) {
-  std::string side;
-  for (const auto& [ending, word] : {std::pair{"_L", "left "}, {"_R", "right "}}) {
-    if (name.size() < 2 || name.compare(name.size() - 2, 2, ending) != 0) continue;
-    side = word;
-    name.resize(name.size() - 2);
-  }
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return side + name + (kind.empty() || name == "stature" ? "" : " " + kind);
-}
-
 std::string centimetres(const std::optional<double>& metres) {
   return metres ? fmt::format("{:.1f}", 100 * *metres) : "";
 }
 
 std::string change(const std::optional<double>& from, const std::optional<double>& to) {
-  if (!from || !to) return "";
-  const double millimetres = std::round(1e3 * (*to - *from));
-  return millimetres == 0 ? "0" : fmt::format("{:+.1f}", millimetres / 10);
+  return from && to ? inspect::words::centimetre_change(*to - *from) : "";
 }
 
 struct Rows {
@@ -87,7 +77,7 @@ struct Rows {
 void add_rows(const std::vector<Difference>& differences, const std::string& kind, Rows& rows) {
   for (const Difference& d : differences) {
     if (kind == "height" && (d.name == "bust" || d.name == "hip")) continue;  // as bust point and buttock
-    const std::string name = html_escaped(words_of(d.name, kind));
+    const std::string name = html_escaped(inspect::words::measure(d.name, kind));
     const bool unsure = d.confidence < kUnsure;
     rows.table += fmt::format(
         "<tr><td>{}{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", name,

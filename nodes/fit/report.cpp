@@ -8,7 +8,11 @@
 
 #include "files/csv.hpp"
 #include "fit/effects.hpp"
+<<<<<<< HEAD
 #include "inspect/colour_scale.hpp"
+=======
+#include "geometry/json.hpp"
+>>>>>>> rooms
 #include "inspect/warning_words.hpp"
 #include "tffd/under_constriction.hpp"
 
@@ -16,20 +20,7 @@ namespace tensegric_fit::fit {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json json_of(const Eigen::Vector3d& v) {
-  return Json::array({v.x(), v.y(), v.z()});
-}
-
-Json json_of(const Eigen::Isometry3d& pose) {
-  Json rows = Json::array();
-  for (int r = 0; r < 4; ++r) {
-    Json row = Json::array();
-    for (int c = 0; c < 4; ++c) row.push_back(pose.matrix()(r, c));
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
+using geometry::json_of;
 
 Json axes_of(const mesh_files::Reading& reading) {
   Json rows = Json::array();

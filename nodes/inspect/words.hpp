@@ -63,4 +63,9 @@ std::string nearest(const std::string& landmark, double distance);
 /// Value and landmark, beside the mark on the skin.
 std::string pointed(ColourBy by, double value, const std::string& landmark, double distance);
 
+// Reports. "upper_arm_L" and "girth": left upper arm girth; "stature" needs no kind.
+std::string measure(const std::string& name, const std::string& kind);
+/// In centimetres with a sign, and none where nothing is seen of it.
+std::string centimetre_change(double metres);
+
 }  // namespace tensegric_fit::inspect::words

@@ -14,8 +14,12 @@
 #include "geometry/shipped_files.hpp"
 #include "inspect/carried_points.hpp"
 #include "inspect/garment_titles.hpp"
+<<<<<<< HEAD
 #include "inspect/page_view.hpp"
 #include "inspect/pressure_words.hpp"
+=======
+#include "inspect/words.hpp"
+>>>>>>> rooms
 #include "mesh_files/frame.hpp"
 #include "ros/line_force.hpp"
 
@@ -27,27 +31,8 @@ using geometry::ChangedMeasure;
 
 constexpr double kUnsure = 0.5;  // confidences below come with a reason
 
-/// "upper_arm_L" and "girth": left upper arm girth.
-std::string words_of(std::string name, const std::string& kind) {
-  std::string side;
-  for (const auto& [ending, word] : {std::pair{"_L", "left "}, {"_R", "right "}}) {
-    const std::size_t at = name.size() - std::min<std::size_t>(name.size(), 2);
-    if (name.compare(at, 2, ending) != 0) continue;
-    side = word;
-    name.resize(at);
-  }
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return side + name + (name == "stature" ? "" : " " + kind);
-}
-
 std::string centimetres(double metres) {
   return fmt::format("{:.1f}", 100 * metres);
-}
-
-/// With a sign, and none where nothing is seen of it.
-std::string change(double metres) {
-  const double millimetres = std::round(1e3 * metres);
-  return millimetres == 0 ? "0" : fmt::format("{:+.1f}", millimetres / 10);
 }
 
 std::string row(const std::vector<std::string>& cells) {
@@ -58,7 +43,7 @@ std::string row(const std::vector<std::string>& cells) {
 
 /// `name` is a button that shows where a girth's tape runs, where its tape is known.
 std::string row_of(const FitFigures& figures, const std::string& kind, const ChangedMeasure& measure) {
-  std::string name = html_escaped(words_of(measure.before.name, kind));
+  std::string name = html_escaped(inspect::words::measure(measure.before.name, kind));
   const auto& loops = figures.measures.loops;
   if (kind == "girth" && std::any_of(loops.begin(), loops.end(), [&](const geometry::GirthLoop& loop) {
         return loop.name == measure.before.name;
@@ -67,7 +52,7 @@ std::string row_of(const FitFigures& figures, const std::string& kind, const Cha
                        html_escaped(measure.before.name), name);
   return row({name + (measure.before.confidence < kUnsure ? "*" : ""), centimetres(measure.before.metres),
               measure.after ? centimetres(*measure.after) : "",
-              measure.after ? change(measure.change()) : ""});
+              measure.after ? inspect::words::centimetre_change(measure.change()) : ""});
 }
 
 std::string rows_of(const FitFigures& figures, const std::string& kind,
@@ -83,15 +68,15 @@ std::string first_rows(const FitFigures& figures) {
   for (const char* name : {"bust", "underbust"})
     for (const ChangedMeasure& measure : figures.girths)
       if (measure.before.name == name)
-        rows += row({html_escaped(words_of(name, "girth")) + ", cm", centimetres(measure.before.metres),
-                     measure.after ? centimetres(*measure.after) : "",
-                     measure.after ? change(measure.change()) : ""});
+        rows += row({html_escaped(inspect::words::measure(name, "girth")) + ", cm",
+                     centimetres(measure.before.metres), measure.after ? centimetres(*measure.after) : "",
+                     measure.after ? inspect::words::centimetre_change(measure.change()) : ""});
   for (const ChangedMeasure& measure : figures.heights)
     if (measure.before.name == "bust" && measure.after)
       rows += row({"lift of the bust, mm", "", "", fmt::format("{:+.0f}", 1e3 * measure.change() + 0.0)});
   if (const auto apart = geometry::bust_points_apart(figures.measures, {figures.body, figures.deformed}))
     rows += row({"bust points apart, cm", centimetres(apart->before.metres), centimetres(*apart->after),
-                 change(apart->change())});
+                 inspect::words::centimetre_change(apart->change())});
   return rows;
 }
 
@@ -143,9 +128,9 @@ std::string notes_of(const FitFigures& figures) {
   for (const auto& [kind, measures] : {std::pair{"height", &figures.heights}, {"girth", &figures.girths}})
     for (const ChangedMeasure& measure : *measures)
       if (measure.before.confidence < kUnsure)
-        notes +=
-            fmt::format("<p>* {}: uncertain; {}.</p>\n", html_escaped(words_of(measure.before.name, kind)),
-                        html_escaped(measure.before.reason));
+        notes += fmt::format("<p>* {}: uncertain; {}.</p>\n",
+                             html_escaped(inspect::words::measure(measure.before.name, kind)),
+                             html_escaped(measure.before.reason));
   return notes;
 }
 

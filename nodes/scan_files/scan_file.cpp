@@ -104,10 +104,6 @@ ScanFile read_scan_file(const std::string& path) {
   return scan;
 }
 
-pcl::PCLPointCloud2 read_scan(const std::string& path) {
-  return read_scan_file(path).cloud;
-}
-
 mesh_files::Reading reading_of(const std::vector<ScanFile>& files, const mesh_files::Asked& asked) {
   mesh_files::check_asked(asked);
   mesh_files::Kind kind{true, ""};

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -36,7 +37,7 @@ struct Extras {
 
 /// What a booth of so many depth cameras on four columns sees of her.
 void write_cameras(const virtual_body::VirtualBody& subject, virtual_booth::ScannerOptions scanner,
-                   int cameras, const std::filesystem::path& out, const ros::Time& stamp) {
+                   int cameras, const std::filesystem::path& out, std::chrono::nanoseconds stamp) {
   scanner.sensors_per_column = cameras / scanner.columns;
   const std::vector<virtual_booth::DepthPicture> pictures =
       virtual_booth::depth_pictures(subject.mesh, scanner, virtual_booth::kWideLens);
@@ -61,7 +62,7 @@ void write_scan(const virtual_body::VirtualBody& subject, const virtual_booth::S
   geometry::write_ply_mesh(out / "body.ply", subject.mesh);
   geometry::write_ply_mesh(out / "scan.ply", {scan.cloud.points, {}});
   // Any fixed time will do, as long as no two seeds share one.
-  const ros::Time stamp(static_cast<std::uint32_t>(1000000000 + scanner.seed % 1000000000), 0);
+  const std::chrono::seconds stamp(1000000000 + scanner.seed % 1000000000);
   scan_files::write_bag_scan(out / "scan.bag", scan.cloud, "booth", stamp);
   if (extras.each_sensor)
     virtual_booth::write_sensor_bag(out / "sensors.bag", virtual_booth::by_sensor(scan), "booth", stamp);
