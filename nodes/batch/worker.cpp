@@ -62,7 +62,7 @@ Json figures_of(Json report, Json& cost) {
   }
   if (report.contains("solver")) report["solver"].erase("ms");
   if (report.contains("distortion"))
-    for (const char* key : {"over_constricted", "under_constricted"})
+    for (const char* key : {"over_constricted", "over_stretched", "under_constricted"})
       report["distortion"][key] = report["distortion"][key].size();
   return report;
 }

@@ -5,6 +5,7 @@
 
 #include "tensegric/band.hpp"
 #include "tffd/body_volume.hpp"
+#include "tffd/skin_check.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -43,6 +44,12 @@ class BoundBody : public tensegric::BodyUnderGarment {
     const std::lock_guard<std::mutex> lock(mutex_);
     return body_volumes(bound().binding,
                         tffd::carried_triangles(bound().binding, bound().mesh.triangles, control_), control_);
+  }
+
+  bool folds(const std::vector<Eigen::Vector3d>& outer,
+             const std::vector<Eigen::Vector3d>& inner) const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return skin_folds(bound().binding, bound().mesh.triangles, outer, inner);
   }
 
  private:
@@ -87,6 +94,12 @@ std::vector<tensegric::VolumeFunction> body_volumes(const tffd::Binding& binding
     volumes.push_back(
         tffd::BodyVolume(binding, carried[r], geometry::region_apex(control, control.regions[r])));
   return volumes;
+}
+
+bool skin_folds(const tffd::Binding& binding, const std::vector<Eigen::Vector3i>& triangles,
+                const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner) {
+  const std::vector<Eigen::Vector3d> worn = binding.deform(outer, inner);
+  return tffd::turns_over({binding.vertices(), worn, triangles});
 }
 
 std::unique_ptr<const tensegric::BodyUnderGarment> bind_body(std::function<geometry::TriangleMesh()> body,

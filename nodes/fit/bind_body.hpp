@@ -19,7 +19,11 @@ std::vector<tensegric::VolumeFunction> body_volumes(const tffd::Binding& binding
                                                     const std::vector<std::vector<Eigen::Vector3i>>& carried,
                                                     const geometry::ControlMesh& control);
 
-/// A tensegric::BindBody: `body` is called and bound when the first line is laid or volumes are asked for.
+/// Whether the body's skin is turned over where its control nodes are here. \pre the nodes are the binding's
+bool skin_folds(const tffd::Binding& binding, const std::vector<Eigen::Vector3i>& triangles,
+                const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner);
+
+/// A tensegric::BindBody: `body` is called and bound when it is first asked for anything.
 /// Lines stay laid while they are asked for: a change of ratio does not move them.
 std::unique_ptr<const tensegric::BodyUnderGarment> bind_body(std::function<geometry::TriangleMesh()> body,
                                                              const geometry::ControlMesh& control,

@@ -125,8 +125,11 @@ Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& gar
   }
   {
     const Stopwatch watch(times.tensegric);
-    fit.solution =
-        tensegric::solve(fitting.model, garment, settings.solver, start, {}, fitting.body_volumes, laid);
+    fit.solution = tensegric::solve(
+        fitting.model, garment, settings.solver, start, {}, fitting.body_volumes, laid,
+        [&](const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner) {
+          return skin_folds(fitting.binding, body.mesh.mesh.triangles, outer, inner);
+        });
   }
   const Stopwatch watch(times.tffd);
   fit.deformed = fitting.binding.deform(fit.solution.outer, fit.solution.inner);

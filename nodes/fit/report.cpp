@@ -8,7 +8,11 @@
 
 #include "files/csv.hpp"
 #include "fit/effects.hpp"
+<<<<<<< HEAD
+#include "inspect/colour_scale.hpp"
+=======
 #include "geometry/json.hpp"
+>>>>>>> rooms
 #include "inspect/warning_words.hpp"
 #include "tffd/under_constriction.hpp"
 
@@ -138,12 +142,15 @@ void add_fit(const Body& body, const Fitting& fitting, const Fit& fit,
     report["effects"][effect.name] = {
         {"before", effect.before}, {"after", effect.after}, {"mm", 1e3 * (effect.after - effect.before)}};
   const auto [low, high] = std::minmax_element(fit.distortion.begin(), fit.distortion.end());
-  Json tight = Json::array();
-  for (std::size_t v = 0; v < fit.distortion.size(); ++v)
-    if (fit.distortion[v] < kOverConstricted) tight.push_back(v);
+  Json tight = Json::array(), stretched = Json::array();
+  for (std::size_t v = 0; v < fit.distortion.size(); ++v) {
+    if (fit.distortion[v] < inspect::kOverConstricted) tight.push_back(v);
+    if (fit.distortion[v] > inspect::kOverStretched) stretched.push_back(v);
+  }
   report["distortion"] = {{"min", *low},
                           {"max", *high},
                           {"over_constricted", std::move(tight)},
+                          {"over_stretched", std::move(stretched)},
                           {"under_constricted", tffd::under_constricted_skin(warnings)}};
   report["warnings"] = report["notices"] = Json::array();
   for (const geometry::FitWarning& warning : warnings)

@@ -24,6 +24,7 @@ inline constexpr char
     kBlendHelp[] = "Blend: 0 is the body as scanned, 1 under the garment. Wipe: where the border lies.",
     kPaleHelp[] = "What is shown is of an earlier scan: all of it pale. The panel sets it.",
     kUnheldHelp[] = "Skin that the garment does not reach or hold is green.",
+    kUnheldLegend[] = "not reached or not held by the garment",
     kColourHelp[] =
         "What the colours of the skin stand for: its area or its length after / before, or how far it moved.",
     kScaleHelp[] = "Fixed: the same colours for every body. Automatic: as wide as this body's values.",

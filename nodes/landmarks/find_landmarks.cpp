@@ -214,7 +214,8 @@ class Reader {
   }
 
   void crotch() {
-    const Vector3d there = shaped("crotch");
+    Vector3d there = shaped("crotch");
+    there.y() = midline();
     auto on_mesh = find_crotch(mesh_.surface, there);
     if (on_mesh && unseen_share(mesh_.surface, *on_mesh, kPerineum) > 0.5)
       on_mesh.reset();  // a filled gap has its own lowest place
@@ -237,6 +238,10 @@ class Reader {
               find_buttock(skin_.trunk, *rearmost), support_at(*rearmost));
   }
   double expected_crotch_y() const { return expected("crotch").y(); }
+  /// Of pose and shape alone: a displacement of 4 mm to the side leads the crotch's section into a thigh.
+  double midline() const {
+    return (frame_ * body_model::skin_point(*body_.model, body_.posed, "crotch")).y();
+  }
 
   void waist() {
     if (find(Kind::height, "hip") == nullptr || find(Kind::height, "underbust") == nullptr) return;

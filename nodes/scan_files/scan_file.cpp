@@ -57,7 +57,7 @@ void take_faces(const std::string& path, const pcl::PolygonMesh& file, ScanFile&
     }
   }
   if (2 * static_cast<std::size_t>(std::count(used.begin(), used.end(), 1)) < used.size()) return;
-  scan.cloud = message_of(mesh_files::surface_samples(mesh));
+  scan.cloud = message_of(mesh_files::surface_samples(mesh_files::tidy(mesh)));
   scan.kind.surface = true;
 }
 

@@ -25,11 +25,15 @@ class BodyUnderGarment {
 
   /// One per region of the control mesh.
   virtual std::vector<VolumeFunction> volumes() const = 0;
+
+  /// A SkinFolds. \pre one place a node
+  virtual bool folds(const std::vector<Eigen::Vector3d>& outer,
+                     const std::vector<Eigen::Vector3d>& inner) const = 0;
 };
 
-/// Binds a body to its control mesh. `body` gives the mesh and is called when it is needed first, if ever:
-/// strings need none. How a body follows its control mesh is the t-FFD's (tffd/), which this stage does not
-/// know: fit/bind_body.hpp. `beta`: the reach that it carries the skin with (geometry/tffd_reach.hpp).
+/// Binds a body to its control mesh. `body` gives the mesh and is called when it is needed first. How a body
+/// follows its control mesh is the t-FFD's (tffd/), which this stage does not know: fit/bind_body.hpp.
+/// `beta`: the reach that it carries the skin with (geometry/tffd_reach.hpp).
 using BindBody = std::function<std::unique_ptr<const BodyUnderGarment>(
     std::function<geometry::TriangleMesh()> body, const geometry::ControlMesh& control,
     const geometry::BoneFrames& bones, double beta)>;

@@ -6,6 +6,7 @@
 
 #include "tensegric/band_length.hpp"
 #include "tensegric/newton.hpp"
+#include "tensegric/shape_check.hpp"
 
 namespace tensegric_fit::tensegric {
 namespace {
@@ -21,6 +22,7 @@ constexpr double kTrue = 1e-6;       // of a length: README.md, Exactness
 constexpr double kSamePlace = 1e-9;  // m
 // What is handed back of an unfinished way: pulls that are left over are below the tissue's own.
 constexpr Tolerance kHandedBack{1, 1e-9, 1};
+constexpr double kNearFold = 0.002;  // of a line's length: a millimetre of a chest
 constexpr int kMostPerLoad = 60, kMostAtEnd = 80, kMostCorrections = 10;
 constexpr int kMostFromRest = 300, kMostWarm = 100;  // a start that leads nowhere soon is none
 // Under a weight a shape may buckle and go over to another balance, by up to twice its length in steps of
@@ -37,16 +39,12 @@ class LoadPath {
  public:
   /// `spent`: iterations before it. `most`: of its own, where the caller sets no bound.
   LoadPath(Problem& problem, Recorder& recorder, int spent, int most)
-      : problem_(problem), newton_(problem, recorder, spent, most), bands_(problem.bands.size()) {}
+      : problem_(problem),
+        recorder_(recorder),
+        newton_(problem, recorder, spent, most),
+        bands_(problem.bands.size()) {}
 
-  Outcome from_rest() {
-    Balance at = at_rest();
-    for (std::size_t b = 0; b < bands_; ++b) {
-      const Band& band = problem_.bands[b];
-      if (band.steep && band.neutral < band.initial && can_hold(band)) at.holds[b] = Hold::length;
-    }
-    return follow(at);
-  }
+  Outcome from_rest() { return follow(start_of_way()); }
 
   Outcome from_solution(const Solution& start) {
     Balance at{positions_of(start),
@@ -70,6 +68,7 @@ class LoadPath {
       if (band.steep && !can_hold(band)) at.holds[b] = Hold::slack;
     }
     first_posture_ = 1;
+    warm_ = true;
     carry(at.x, 1, 1);
     newton_.kkt().guess_multipliers(at, first_);
     return follow(at);
@@ -102,6 +101,16 @@ class LoadPath {
     return at;
   }
 
+  // Rest, with the lines that are to be shortened kept at their lengths.
+  Balance start_of_way() {
+    Balance at = at_rest();
+    for (std::size_t b = 0; b < bands_; ++b) {
+      const Band& band = problem_.bands[b];
+      if (band.steep && band.neutral < band.initial && can_hold(band)) at.holds[b] = Hold::length;
+    }
+    return at;
+  }
+
   Load end_load() const {
     Load load;
     for (const Band& band : problem_.bands) {
@@ -130,10 +139,17 @@ class LoadPath {
     return tolerance;
   }
 
-  double first_load_step() const {
-    double change = problem_.options.gravity == first_.gravity ? 0 : 4 * kFirstRatioStep;
+  // Of neutral lengths over the whole way, relative.
+  double length_change() const {
+    double change = 0;
     for (std::size_t b = 0; b < bands_; ++b)
       change = std::max(change, std::abs(1 - problem_.bands[b].neutral / first_.neutral[b]));
+    return change;
+  }
+
+  double first_load_step() const {
+    double change = problem_.options.gravity == first_.gravity ? 0 : 4 * kFirstRatioStep;
+    change = std::max(change, length_change());
     const Positions before = posed(problem_, first_posture_), after = posed(problem_, 1);
     for (std::size_t i = 0; i < before.size(); ++i)
       change = std::max(change, kFirstRatioStep * (after[i] - before[i]).norm() / newton_.longest_move());
@@ -178,6 +194,11 @@ class LoadPath {
         if (load_step < kShortestLoadStep) break;
       }
     }
+    folded_ = skin_folds(problem_, at.x);
+    if (folded_ && goes_back()) {
+      if (!warm_) share = go_back(at, share);
+      return outcome(at, load_at(share), share, !warm_ && !stopped());
+    }
     Load load = load_at(share);
     bool true_lengths = true;
     if (share == 1) {
@@ -194,6 +215,28 @@ class LoadPath {
       }
     }
     return outcome(at, load, share, true_lengths);
+  }
+
+  // The load is the garment's alone: a part of it is a looser garment.
+  bool goes_back() const { return problem_.options.bones.still() && problem_.options.gravity.isZero(0); }
+
+  // From rest to the farthest share of the way, but for kNearFold of a line, where no skin is turned over.
+  // `share`: where it is.
+  double go_back(Balance& at, double share) {
+    double smooth = 0;
+    at = start_of_way();
+    while ((share - smooth) * length_change() > kNearFold && !stopped()) {
+      const double middle = (smooth + share) / 2;
+      Balance next = at;
+      if (newton_.settle(next, load_at(middle), kExact, kMostPerLoad) && !skin_folds(problem_, next.x)) {
+        smooth = middle;
+        at = next;
+      } else {
+        share = middle;
+      }
+    }
+    recorder_.record(newton_.iterations(), at.x, newton_.kkt().defect(at, load_at(smooth)).residual);
+    return smooth;
   }
 
   // Where a segment is shorter than the smooth length resolves, the neutral lengths are moved by as much as
@@ -222,7 +265,7 @@ class LoadPath {
 
   Outcome outcome(const Balance& at, const Load& load, double share, bool true_lengths) {
     const KktResidual defect = newton_.kkt().defect(at, load);
-    settled_ = share == 1 && true_lengths && within(defect, kWanted);
+    settled_ = (share == 1 || (folded_ && goes_back())) && true_lengths && within(defect, kWanted);
     Outcome result;
     result.state.x = at.x;
     result.iterations = newton_.iterations();
@@ -234,10 +277,14 @@ class LoadPath {
       at_limit = at_limit || stuck || at.holds[b] == Hold::limit;
       result.state.tensions.push_back(at.holds[b] == Hold::slack ? 0 : std::max(0.0, at.tensions[b]));
     }
-    result.status = !settled_ ? Status::capped : at_limit ? Status::infeasible : Status::converged;
+    result.status = !settled_ ? Status::capped : at_limit || folded_ ? Status::infeasible : Status::converged;
     if (!settled_)
       result.note =
           why_stopped() + ": this is the last balance on the way, at " + per_cent(share) + " of the request.";
+    else if (folded_)
+      result.note = share < 1 ? "Further on skin would turn over: this is the last smooth shape, at " +
+                                    per_cent(share) + " of the request."
+                              : kSkinTurnsOver;
     else if (newton_.branch_near())
       result.note = "Another balance was near: the tissue may settle to either side.";
     return result;
@@ -258,11 +305,14 @@ class LoadPath {
   }
 
   Problem& problem_;
+  Recorder& recorder_;
   Newton newton_;
   std::size_t bands_;
   Load first_;
   double first_posture_ = 0;
   bool settled_ = false;
+  bool warm_ = false;    // from an earlier solution
+  bool folded_ = false;  // skin is turned over where the request was, or the balances ended
 };
 
 // Without load and with lines as long as at rest, rest is the balance.

@@ -98,7 +98,8 @@ Problem lay_garment(const Model& model, const Garment& garment, const SolverOpti
                   {},
                   {},
                   {},
-                  model.mean_tension()};
+                  model.mean_tension(),
+                  {}};
   number_free_nodes(problem);
   const Positions at_end = posed(problem, 1);
   for (Band& band : problem.bands) band.straight = straight_way(model, band, at_end);
@@ -127,6 +128,13 @@ void pose_problem(Problem& problem, double share) {
     problem.volumes[r].apex =
         problem.options.bones.moved(geometry::region_apex(control, control.regions[r]), share);
   for (Band& band : problem.bands) pose_band(band, problem.rest, problem.options.bones, share);
+}
+
+bool skin_folds(const Problem& problem, const Positions& x) {
+  if (!problem.folds || problem.bands.empty()) return false;
+  Solution shape;
+  put_positions(x, problem.model, shape);
+  return problem.folds(shape.outer, shape.inner);
 }
 
 bool is_held(const Problem& problem, int node) {

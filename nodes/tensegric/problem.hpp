@@ -23,6 +23,7 @@ struct Problem {
   std::vector<UnitVolume> units;
   std::vector<UnitPressure> pressures;
   double force_scale;  ///< mean tension of the tensile parts at rest
+  SkinFolds folds;     ///< empty: nothing is known of the skin
 };
 
 /// Where a solver is, and what the bands pull.
@@ -50,6 +51,9 @@ Positions posed(const Problem& problem, double share);
 
 /// Carries what is not a node to `share` of the posture: the apexes of the regions, bands on the body.
 void pose_problem(Problem& problem, double share);
+
+/// Whether skin over the nodes is turned over, as far as the caller knows.
+bool skin_folds(const Problem& problem, const Positions& x);
 
 /// The model's fixed nodes, and with a posture all inner nodes.
 bool is_held(const Problem& problem, int node);

@@ -8,6 +8,10 @@
 
 namespace tensegric_fit::tensegric {
 
+/// The sentence on a shape over which skin is turned over.
+inline constexpr char kSkinTurnsOver[] =
+    "Skin turns over: the shape is not to be trusted; loosen the garment.";
+
 /// How many control triangles were compressed below half their area, and how many turned over: by more than
 /// 90 degrees where bones hold the inner nodes, against the next triangle by more than 120 where nothing
 /// does.

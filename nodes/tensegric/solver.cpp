@@ -121,6 +121,16 @@ Outcome relax_from(Problem& problem, const Solution* start, Recorder& recorder) 
   return relax(problem, &from, adaptive, recorder);
 }
 
+// The papers' solvers know no way back to a shape that was smooth.
+Outcome relax_and_check(Problem& problem, const Solution* start, Recorder& recorder) {
+  Outcome outcome = relax_from(problem, start, recorder);
+  if (outcome.status == Status::converged && skin_folds(problem, outcome.state.x)) {
+    outcome.status = Status::infeasible;
+    outcome.note = kSkinTurnsOver;
+  }
+  return outcome;
+}
+
 }  // namespace
 
 std::string to_string(SolverName name) {
@@ -159,15 +169,17 @@ SolverName solver_from(const std::string& word) {
 
 Solution solve(const Model& model, const Garment& garment, const SolverOptions& options,
                const Solution* start, const Progress& progress,
-               const std::vector<VolumeFunction>& body_volumes, const std::vector<geometry::LaidLine>& laid) {
+               const std::vector<VolumeFunction>& body_volumes, const std::vector<geometry::LaidLine>& laid,
+               const SkinFolds& folds) {
   if (start != nullptr) check_start(model, *start);
   Problem problem = lay_garment(model, garment, options, body_volumes, laid);
+  problem.folds = folds;
   Recorder recorder(problem, progress);
   recorder.record(0, start == nullptr ? problem.rest : positions_of(*start),
                   start == nullptr ? 0 : start->residual);
   const Outcome outcome = options.solver == SolverName::equilibrium
                               ? find_equilibrium(problem, start, recorder)
-                              : relax_from(problem, start, recorder);
+                              : relax_and_check(problem, start, recorder);
   return report(problem, outcome, std::move(recorder.history));
 }
 

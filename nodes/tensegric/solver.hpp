@@ -94,6 +94,10 @@ struct Solution {
   std::string note;  ///< a sentence for people where the status or the shape needs one
 };
 
+/// Whether skin over these nodes (scan frame) is turned over: a shape that no body can take.
+using SkinFolds =
+    std::function<bool(const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner)>;
+
 /// Called after each iteration with the state as it stands; return false to cancel (status capped: the
 /// equilibrium solver's result is then the last state on the way to the request that was in balance, with its
 /// volumes kept, or rest where there was none; as it is when the time budget or the iterations end).
@@ -103,11 +107,13 @@ using Progress = std::function<bool(const Iterate&, const std::vector<Eigen::Vec
 /// Deforms the model under the garment's lines at constant region volumes. Pieces of the control mesh that no
 /// line touches stay at rest, bit for bit, where there is no gravity and no posture. `start` is null (from
 /// rest) or an earlier solution of the same model (warm start). `body_volumes`: for KeptVolume::body, one a
-/// region of the control mesh. `laid`: the garment's lines that lie on the body. Never returns a
-/// non-finite position. \throw Refusal unknown_line, bad_garment, bad_option
+/// region of the control mesh. `laid`: the garment's lines that lie on the body. `folds`: where it
+/// says so of the shape asked for, the equilibrium solver goes back along the load to the last shape of which
+/// it does not (infeasible); the others, and under gravity or in a posture, keep the shape, infeasible too.
+/// Never returns a non-finite position. \throw Refusal unknown_line, bad_garment, bad_option
 Solution solve(const Model& model, const Garment& garment, const SolverOptions& options,
                const Solution* start = nullptr, const Progress& progress = {},
                const std::vector<VolumeFunction>& body_volumes = {},
-               const std::vector<geometry::LaidLine>& laid = {});
+               const std::vector<geometry::LaidLine>& laid = {}, const SkinFolds& folds = {});
 
 }  // namespace tensegric_fit::tensegric

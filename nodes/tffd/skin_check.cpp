@@ -185,6 +185,16 @@ double from_course(const Eigen::Vector3d& point, const std::vector<Eigen::Vector
   return std::sqrt(nearest);
 }
 
+bool turns_over(const WornSkin& skin) {
+  double over = 0;
+  for (const Eigen::Vector3i& t : skin.triangles) {
+    const Eigen::Vector3d after = geometry::area_vector(skin.worn[t[0]], skin.worn[t[1]], skin.worn[t[2]]),
+                          before = geometry::area_vector(skin.rest[t[0]], skin.rest[t[1]], skin.rest[t[2]]);
+    if (before.dot(after) < 0) over += before.norm();
+  }
+  return over >= kGrain;
+}
+
 std::vector<FitWarning> check_skin(const WornSkin& skin, const std::vector<WornLine>& lines) {
   if (skin.worn.size() != skin.rest.size())
     throw geometry::Refusal(geometry::refusal::kBadMesh, "skin check: not one worn place a vertex");

@@ -57,4 +57,8 @@ double from_course(const Eigen::Vector3d& point, const std::vector<Eigen::Vector
 /// \throw Refusal bad_mesh: not one worn place a vertex
 std::vector<geometry::FitWarning> check_skin(const WornSkin& skin, const std::vector<WornLine>& lines);
 
+/// Whether kGrain of skin and more, in all, is turned by more than kTurnedOver: no shape of skin.
+/// \pre as many worn places as vertices
+bool turns_over(const WornSkin& skin);
+
 }  // namespace tensegric_fit::tffd

@@ -69,6 +69,8 @@ TEST_F(FitProgram, SaysWhatIsTooMuchAndWhatIsTooLittle) {
   EXPECT_EQ(report()["notices"].at(0)["lack"], "slack");
   EXPECT_GT(report()["distortion"]["under_constricted"].size(), 10u);
   ASSERT_EQ(fit(body + "0.75"), 0) << read_file(file("log"));
+  EXPECT_EQ(report()["distortion"]["over_stretched"].size() > 0, report()["distortion"]["max"] > 1.25);
+  EXPECT_EQ(report()["distortion"]["over_constricted"].size() > 0, report()["distortion"]["min"] < 0.8);
   EXPECT_EQ(codes("warnings").count("shelf"), 1u);
   const json shelf = report()["warnings"].at(0);
   EXPECT_EQ(shelf["line"], "chest");

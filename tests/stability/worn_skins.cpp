@@ -1,13 +1,16 @@
-// Every shipped garment on bodies, for shelves.py: BODY.ply, BODY_GARMENT_PERCENT.ply and warnings.csv.
+// Every shipped garment on bodies, for shelves.py: BODY.ply, BODY_GARMENT_PERCENT.ply, warnings.csv and
+// moves.csv.
 //   worn_skins --out DIR BODY.ply...
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
 #include "control_mesh/template.hpp"
 #include "fit/chain.hpp"
+#include "fit/tissue_file.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
@@ -19,8 +22,36 @@ namespace fs = std::filesystem;
 
 const char* const kGarments[] = {"B1", "B2", "B3", "B4", "H1", "H2", "H3", "H4"};
 
+// The largest of a vertex's move over the farthest of the nodes that carry it, of vertices that move a
+// millimetre and more; and what share of these vertices is above 1.3.
+std::pair<double, double> overshoot(const fit::Body& body, const fit::Fitting& fitting, const fit::Fit& fit) {
+  const geometry::ControlMesh& control = fitting.control;
+  const std::size_t outer = control.outer.size();
+  std::vector<double> moves(2 * outer);
+  for (std::size_t i = 0; i < outer; ++i) {
+    moves[i] = (fit.solution.outer[i] - control.outer[i]).norm();
+    moves[outer + i] = (fit.solution.inner[i] - control.inner[i]).norm();
+  }
+  double most = 0, moved = 0, above = 0;
+  const auto& rows = fitting.binding.weights().nodes;
+  for (Eigen::Index v = 0; v < rows.outerSize(); ++v) {
+    const double own = (fit.deformed[v] - body.mesh.mesh.vertices[v]).norm();
+    if (own < 1e-3) continue;
+    double farthest = 0;
+    for (tffd::SparseRows::InnerIterator m(rows, v); m; ++m) farthest = std::max(farthest, moves[m.col()]);
+    most = std::max(most, own / farthest);
+    ++moved;
+    above += own > 1.3 * farthest;
+  }
+  return {most, moved > 0 ? above / moved : 0};
+}
+
+struct Tables {
+  std::FILE *warnings, *moves;
+};
+
 void wear_all(const std::string& file, const std::vector<double>& ratios, bool strings,
-              const fit::Settings& settings, const fs::path& out, std::FILE* table) {
+              const fit::Settings& settings, const fs::path& out, const Tables& tables) {
   fit::StageTimes times;
   const fit::Body body = fit::measure_mesh(geometry::read_ply_mesh(file), settings, times);
   const std::string name = fs::path(file).stem().string();
@@ -44,10 +75,12 @@ void wear_all(const std::string& file, const std::vector<double>& ratios, bool s
         geometry::write_ply_mesh((out / (run + ".ply")).string(), {fit.deformed, body.mesh.mesh.triangles});
         const std::string ended =
             fmt::format("{},{},{},{}", name, run, to_string(fit.solution.status), fit.solution.iterations);
+        const auto [most, above] = overshoot(body, fitting, fit);
+        fmt::print(tables.moves, "{},{},{:.3f},{:.5f}\n", name, run, most, above);
         const auto warnings = fit::warnings_of(body, fitting, fit, settings);
-        if (warnings.empty()) fmt::print(table, "{},,,,,\n", ended);
+        if (warnings.empty()) fmt::print(tables.warnings, "{},,,,,\n", ended);
         for (const geometry::FitWarning& warning : warnings)
-          fmt::print(table, "{},{},{},{:.2f},{:.2f},{:.3f}\n", ended, warning.code, warning.line,
+          fmt::print(tables.warnings, "{},{},{},{:.2f},{:.2f},{:.3f}\n", ended, warning.code, warning.line,
                      1e4 * warning.area, 1e4 * warning.shelf_area, warning.value);
       }
     }
@@ -66,6 +99,9 @@ int main(int argc, char** argv) {
   app.add_option("--ratio", ratios, "Ratios of all lines")->capture_default_str()->allow_extra_args(false);
   app.add_option("--out", out, "Folder")->required();
   tensegric_fit::fit::Settings settings;
+  std::string tissue;
+  app.add_option("--tissue", tissue, "Parameter file of another tissue");
+  app.add_option("--control-triangles", settings.control_mesh.control_triangles, "At least");
   app.add_option("--beta", settings.tffd.beta,
                  "Reach of t-FFD's triangles in their mean radii; 0: the default")
       ->check(CLI::Range(0.0, 20.0));
@@ -73,19 +109,28 @@ int main(int argc, char** argv) {
   app.add_flag("--strings", strings, "Lines without width, over the control mesh, as the papers have them");
   CLI11_PARSE(app, argc, argv);
   std::filesystem::create_directories(out);
-  std::FILE* table = std::fopen((out + "/warnings.csv").c_str(), "w");
-  if (table == nullptr) {
+  const tensegric_fit::Tables tables{std::fopen((out + "/warnings.csv").c_str(), "w"),
+                                     std::fopen((out + "/moves.csv").c_str(), "w")};
+  if (tables.warnings == nullptr || tables.moves == nullptr) {
     fmt::print(stderr, "{}: cannot be written\n", out);
     return 1;
   }
-  fmt::print(table, "body,run,status,iterations,code,line,area_cm2,shelf_cm2,value\n");
+  fmt::print(tables.warnings, "body,run,status,iterations,code,line,area_cm2,shelf_cm2,value\n");
+  fmt::print(tables.moves, "body,run,overshoot,share_above_1.3\n");
+  try {
+    if (!tissue.empty()) tensegric_fit::fit::take_tissue(tissue, settings);
+  } catch (const tensegric_fit::geometry::Refusal& refusal) {
+    fmt::print(stderr, "{}: {}\n", tissue, refusal.what());
+    return 3;
+  }
   for (const std::string& body : bodies) {
     try {
-      tensegric_fit::wear_all(body, ratios, strings, settings, out, table);
+      tensegric_fit::wear_all(body, ratios, strings, settings, out, tables);
     } catch (const tensegric_fit::geometry::Refusal& refusal) {
       fmt::print(stderr, "{} refused {}: {}\n", body, refusal.code(), refusal.what());
     }
   }
-  std::fclose(table);
+  std::fclose(tables.warnings);
+  std::fclose(tables.moves);
   return 0;
 }

@@ -6,6 +6,7 @@
 
 #include "fit/fitted_folder.hpp"
 #include "geometry/ply.hpp"
+#include "mesh_files/read_mesh.hpp"
 #include "ros_exported_scan.hpp"
 
 namespace tensegric_fit::node {
@@ -34,7 +35,7 @@ TEST_F(ExportFitTest, CorrelateReadsItAgain) {
 
 TEST_F(ExportFitTest, WritesMeshesMeasuresPicturesAndParameters) {
   const fs::path folder = root_ / "one";
-  EXPECT_EQ(export_fit(scan_, folder, kWhole).size(), 11u);
+  EXPECT_EQ(export_fit(scan_, folder, kWhole).size(), 15u);
   const geometry::TriangleMesh deformed = geometry::read_ply_mesh(folder / "deformed.ply");
   EXPECT_EQ(deformed.triangles, geometry::read_ply_mesh(folder / "body.ply").triangles);
   EXPECT_NEAR(deformed.vertices.at(0).x(), 0.135, 1e-7);  // float32
@@ -55,7 +56,7 @@ TEST_F(ExportFitTest, WritesMeshesMeasuresPicturesAndParameters) {
   EXPECT_EQ(fit["body"]["bra_size"]["before"], "75D");
   EXPECT_TRUE(fit["body"]["bra_size"]["after"].is_null());
   EXPECT_NEAR(fit["body"]["landmarks"][0]["after_mm"][0], 135, 1e-3);
-  EXPECT_EQ(fit["files"].size(), 11u);
+  EXPECT_EQ(fit["files"].size(), 15u);
   for (const std::string name : fit["files"]) EXPECT_GT(fs::file_size(folder / name), 0u) << name;
 }
 
@@ -146,6 +147,14 @@ TEST_F(ExportFitTest, TheHeadIsCutOffJustAboveTheTapeOfTheNeck) {
   EXPECT_EQ(fit["body"]["heights"][1]["before_mm"], 1700);  // stature
   EXPECT_TRUE(is_valid(folder / "fit.json"));
   EXPECT_LT(fs::file_size(folder / "fit.glb"), fs::file_size(root_ / "whole" / "fit.glb"));
+  for (const auto& [name, of] : {std::pair("body", &body), {"deformed", &deformed}})
+    for (const char* ending : {".obj", ".stl"}) {
+      const geometry::TriangleMesh read = mesh_files::read_mesh(folder / (std::string(name) + ending));
+      const auto box = geometry::bounding_box(read.vertices), true_box = geometry::bounding_box(of->vertices);
+      EXPECT_EQ(read.triangles.size(), of->triangles.size()) << name << ending;
+      EXPECT_NEAR(box[1].y(), 1339, 1e-2) << name << ending << ": millimetres, y up";
+      EXPECT_NEAR(box[1].x(), 1e3 * true_box[1].y(), 1e-2) << name << ending << ": x to her left";
+    }
 }
 
 TEST_F(ExportFitTest, WithoutANeckNothingIsExportedButOnRequest) {
@@ -159,7 +168,7 @@ TEST_F(ExportFitTest, WithoutANeckNothingIsExportedButOnRequest) {
     EXPECT_EQ(refusal.code(), "missing_part:neck");
   }
   EXPECT_FALSE(fs::exists(root_ / "one"));
-  EXPECT_EQ(export_fit(scan_, root_ / "one", kWhole).size(), 11u);
+  EXPECT_EQ(export_fit(scan_, root_ / "one", kWhole).size(), 15u);
 }
 
 TEST_F(ExportFitTest, WhatDoesNotFitTogetherOrIsNoNumberIsNotExported) {

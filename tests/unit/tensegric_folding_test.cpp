@@ -168,6 +168,27 @@ TEST(FoldingUnits, NearlyFlatOnesTakeFewSteps) {
   }
 }
 
+// Tissue of 0.8 mm gives way until the band's greatest pull; of 0.1 mm no iterations are enough, and the last
+// shape on the way says so.
+TEST(FoldingUnits, TissueBelowAMillimetreIsSolvedOrSaysWhyNot) {
+  for (double depth : {8e-4, 1e-4}) {
+    geometry::ControlMesh control = bust_mesh();
+    for (std::size_t i = 0; i < control.inner.size(); ++i)
+      control.inner[i] = control.outer[i] + depth * (control.inner[i] - control.outer[i]).normalized();
+    const Model thin = build_model(control, {});
+    const Solution s = solve(thin, chest(0.97), {});
+    EXPECT_EQ(triangle_change(thin, positions(s)).turned_over, 0);
+    if (depth > 5e-4) {
+      EXPECT_EQ(s.status, Status::infeasible) << s.note;
+      expect_balance(s);
+      EXPECT_NE(s.note.find("came down to"), std::string::npos) << s.note;
+    } else {
+      EXPECT_EQ(s.status, Status::capped) << s.note;
+      EXPECT_NE(s.note.find("last balance on the way"), std::string::npos) << s.note;
+    }
+  }
+}
+
 TEST_F(Folding, NothingTurnsOverAt15Percent) {
   for (int refinement : {1, 2}) {
     BustShape shape;
@@ -198,6 +219,72 @@ TEST_F(Folding, APatchWithTurnedTrianglesIsInfeasible) {
     EXPECT_EQ(s.status, over ? Status::infeasible : Status::converged) << pull << s.note;
   }
   EXPECT_GT(turned, 0);
+}
+
+// Skin that is turned over where the chest line is shorter than `share` of its length at rest.
+SkinFolds folds_below(const geometry::ControlMesh& control, double share) {
+  const std::vector<int> nodes = control.lines.front().nodes;
+  const auto length = [nodes](const std::vector<Eigen::Vector3d>& outer) {
+    double sum = 0;
+    for (std::size_t i = 1; i < nodes.size(); ++i) sum += (outer[nodes[i]] - outer[nodes[i - 1]]).norm();
+    return sum;
+  };
+  const double least = share * length(control.outer);
+  return [=](const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>&) {
+    return length(outer) < least;
+  };
+}
+
+TEST_F(Folding, GoesBackToTheLastShapeWhoseSkinIsNotTurnedOver) {
+  constexpr double kShare = 0.93;
+  const SkinFolds folds = folds_below(control, kShare);
+  const Solution loose = solve(model, chest(0.96), {}, nullptr, {}, {}, {}, folds);
+  ASSERT_EQ(loose.status, Status::converged);
+  for (double ratio : {0.90, 0.80}) {
+    const Solution s = solve(model, chest(ratio), {}, nullptr, {}, {}, {}, folds);
+    EXPECT_EQ(s.status, Status::infeasible) << s.note;
+    EXPECT_NE(s.note.find("skin would turn over"), std::string::npos) << s.note;
+    expect_balance(s);
+    EXPECT_FALSE(folds(s.outer, s.inner));
+    const LineResult& line = s.lines[0];
+    EXPECT_EQ(line.request, ratio);
+    EXPECT_GE(line.final / line.initial, kShare);
+    EXPECT_LE(line.final / line.initial, kShare + 0.002);
+    EXPECT_EQ(s.history.back().line_ratios[0], line.final / line.initial);
+    const Solution warm = solve(model, chest(ratio), {}, &loose, {}, {}, {}, folds);
+    EXPECT_EQ(warm.outer, s.outer);  // wherever it began
+    EXPECT_EQ(warm.status, s.status);
+  }
+}
+
+TEST_F(Folding, SmoothSkinChangesNothing) {
+  const Solution plain = solve(model, chest(0.90), {});
+  const Solution s = solve(model, chest(0.90), {}, nullptr, {}, {}, {}, folds_below(control, 0.5));
+  EXPECT_EQ(s.outer, plain.outer);
+  EXPECT_EQ(s.status, plain.status);
+  EXPECT_EQ(s.iterations, plain.iterations);
+}
+
+TEST_F(Folding, SkinThatIsTurnedOverAllTheWayLeavesRest) {
+  const Solution s = solve(model, chest(0.90), {}, nullptr, {}, {}, {}, folds_below(control, 2));
+  EXPECT_EQ(s.status, Status::infeasible);
+  EXPECT_EQ(s.outer, control.outer);
+}
+
+// Part of a weight is no looser garment: there the shape stays, and is not called a fit.
+TEST_F(Folding, TurnedSkinIsNeverConverged) {
+  SolverOptions weighed;
+  weighed.gravity = {0, 0, -0.01};
+  const Solution plain = solve(model, chest(0.95), weighed);
+  ASSERT_EQ(plain.status, Status::converged);
+  const Solution s = solve(model, chest(0.95), weighed, nullptr, {}, {}, {}, folds_below(control, 2));
+  EXPECT_EQ(s.status, Status::infeasible);
+  EXPECT_EQ(s.outer, plain.outer);
+  SolverOptions papers;
+  papers.solver = SolverName::relaxation;
+  ASSERT_EQ(solve(model, chest(0.99), papers).status, Status::converged);
+  EXPECT_EQ(solve(model, chest(0.99), papers, nullptr, {}, {}, {}, folds_below(control, 2)).status,
+            Status::infeasible);
 }
 
 TEST_F(Folding, MeritNeverRises) {

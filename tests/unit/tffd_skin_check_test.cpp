@@ -109,6 +109,19 @@ TEST(SkinCheck, TurnedOverIsNamed) {
   for (const FitWarning& notice : notices) EXPECT_FALSE(notice.is_warning());
 }
 
+TEST(SkinCheck, SkinTurnsOverAtARightAngle) {
+  const geometry::TriangleMesh mesh = sheet();
+  for (const double degrees : {0.0, 80.0, 89.0, 91.0, 180.0})
+    EXPECT_EQ(turns_over({mesh.vertices, stepped(mesh, 10, 14, degrees * kDegree), mesh.triangles}),
+              degrees > 90)
+        << degrees;
+  // A needle of the mesh, a tenth of a triangle that counts, is no fold.
+  const std::vector<Vector3d> needle{{0, 0, 0}, {0.01, 0, 0}, {0.005, 0.0005, 0}};
+  std::vector<Vector3d> over = needle;
+  over[2].y() = -0.0005;
+  EXPECT_FALSE(turns_over({needle, over, {{0, 1, 2}}}));
+}
+
 TEST(SkinCheck, LittleShelvesAddUpAndEachIsNamed) {
   geometry::TriangleMesh mesh = sheet();
   // A row of separate teeth: single vertices lifted steeply, each less than a square centimetre of skin.
