@@ -5,13 +5,10 @@
 
 #include "files/html.hpp"
 #include "fit/correlation_report.hpp"
-<<<<<<< HEAD
 #include "inspect/colours.hpp"
 #include "inspect/correlation_model.hpp"
 #include "inspect/page_view.hpp"
-=======
 #include "inspect/words.hpp"
->>>>>>> rooms
 
 namespace tensegric_fit::fit {
 namespace {

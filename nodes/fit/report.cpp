@@ -8,11 +8,8 @@
 
 #include "files/csv.hpp"
 #include "fit/effects.hpp"
-<<<<<<< HEAD
-#include "inspect/colour_scale.hpp"
-=======
 #include "geometry/json.hpp"
->>>>>>> rooms
+#include "inspect/colour_scale.hpp"
 #include "inspect/warning_words.hpp"
 #include "tffd/under_constriction.hpp"
 

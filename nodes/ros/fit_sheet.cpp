@@ -14,12 +14,9 @@
 #include "geometry/shipped_files.hpp"
 #include "inspect/carried_points.hpp"
 #include "inspect/garment_titles.hpp"
-<<<<<<< HEAD
 #include "inspect/page_view.hpp"
 #include "inspect/pressure_words.hpp"
-=======
 #include "inspect/words.hpp"
->>>>>>> rooms
 #include "mesh_files/frame.hpp"
 #include "ros/line_force.hpp"
 

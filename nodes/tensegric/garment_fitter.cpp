@@ -24,14 +24,10 @@ std::optional<Solution> GarmentFitter::fit(const Garment& garment, SolverName so
         stopped = !progress(iterate, outer, inner);
         return !stopped;
       },
-<<<<<<< HEAD
-      body_volumes_, now->body->lay(request.garment),
+      body_volumes_, now->body->lay(garment),
       [&now](const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner) {
         return now->body->folds(outer, inner);
       });
-=======
-      body_volumes_, now->body->lay(garment));
->>>>>>> rooms
   if (stopped) return std::nullopt;
   last_ = std::move(solution);
   last_rest_ = rest;
