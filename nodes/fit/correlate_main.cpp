@@ -6,6 +6,7 @@
 #include "fit/correlation_report.hpp"
 #include "fit/result_folder.hpp"
 #include "geometry/ply.hpp"
+#include "inspect/correlation_model.hpp"
 #include "inspect/correlation_pictures.hpp"
 #include "scan_files/scan_file.hpp"
 
@@ -101,7 +102,8 @@ class Run {
         save("silhouettes.png", silhouette_picture(scene),
              "Silhouettes from the front or back of the garment and from her left: worn grey, simulated dark "
              "line, before dotted")};
-    write_text(path("correlate.html"), correlation_page(correlated, pictures));
+    write_text(path("correlate.html"),
+               correlation_page(correlated, pictures, inspect::correlation_glb(scene)));
     write_json(path("correlate.json"), report_of(correlated));
   }
 
