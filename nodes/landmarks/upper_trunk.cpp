@@ -49,7 +49,8 @@ std::optional<Vector3d> gap(const Surface& surface, Side side, double height, do
   if (trunk == nullptr) return std::nullopt;
   const double middle = mean_of(trunk->points).y();
   for (const SectionLoop& loop : loops) {
-    if (!is_outline(loop, normal) || &loop == trunk || kSign[side] * (mean_of(loop.points).y() - middle) < kArmBeside)
+    if (!is_outline(loop, normal) || &loop == trunk ||
+        kSign[side] * (mean_of(loop.points).y() - middle) < kArmBeside)
       continue;
     if (arm == nullptr || loop.points.size() > arm->points.size()) arm = &loop;
   }
