@@ -23,6 +23,11 @@ std::optional<tensegric::Solution> GarmentFitter::fit(const FittingScene& scene,
   options.bones = bones_;
   options.solver = solver_of(request);
   const bool warm = last_ && last_rest_ == rest && last_->status == tensegric::Status::converged;
+  tensegric::SkinFolds folds;
+  if (scene.body)
+    folds = [&now](const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner) {
+      return now->body->folds(outer, inner);
+    };
   bool stopped = false;
   tensegric::Solution solution = tensegric::solve(
       now->model, request.garment, options, warm ? &*last_ : nullptr,
@@ -31,10 +36,7 @@ std::optional<tensegric::Solution> GarmentFitter::fit(const FittingScene& scene,
         stopped = !progress(iterate, outer, inner);
         return !stopped;
       },
-      body_volumes_, now->body->lay(request.garment),
-      [&now](const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner) {
-        return now->body->folds(outer, inner);
-      });
+      body_volumes_, now->body->lay(request.garment), folds);
   if (stopped) return std::nullopt;
   last_ = std::move(solution);
   last_rest_ = rest;

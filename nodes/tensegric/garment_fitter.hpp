@@ -22,7 +22,7 @@ namespace tensegric_fit::node {
 struct FittingScene {
   ControlMesh::ConstPtr control;
   Landmarks::ConstPtr landmarks;  ///< needed for a posture, else null
-  TriangleMesh::ConstPtr body;
+  TriangleMesh::ConstPtr body;    ///< needed for bands; null: nothing is known of the skin
 };
 
 /// Field defaults are the parameters' defaults.
