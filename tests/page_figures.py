@@ -13,59 +13,14 @@ import re
 import subprocess
 import sys
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
-PICTURES = ROOT / "launch/pictures"
-SKIN = np.array([0.86, 0.74, 0.68])
+from page_figure_parts import (ROOT, draw_body, draw_section, level_axes, read_arrays, read_ply, report_of, save, section,
+                               to_body, write_points)
+
 NOISE = 0.001  # m, of the second scan that the correlation's figure makes
-
-
-# Files ------------------------------------------------------------------------------------------------------------
-
-
-def read_ply(path):
-    """(vertices n x 3, triangles m x 3) of a binary PLY as the project writes it."""
-    data = path.read_bytes()
-    end = data.index(b"end_header\n") + len(b"end_header\n")
-    kinds = {"double": "<f8", "float": "<f4", "uchar": "u1", "int": "<i4"}
-    counts, fields, element = {}, {}, None
-    for line in data[:end].decode().splitlines():
-        words = line.split()
-        if words[0] == "element":
-            element = words[1]
-            counts[element], fields[element] = int(words[2]), []
-        elif words[0] == "property" and words[1] != "list":
-            fields[element].append((words[2], kinds[words[1]]))
-    vertex = np.frombuffer(data, np.dtype(fields["vertex"]), counts["vertex"], end)
-    face = np.frombuffer(data, np.dtype([("count", "u1"), ("corners", "<i4", 3)]), counts["face"], end + vertex.nbytes)
-    return np.stack([vertex[axis].astype(float) for axis in "xyz"], 1), face["corners"]
-
-
-def write_points(path, points):
-    header = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n"
-    header += "".join(f"property float {axis}\n" for axis in "xyz") + "end_header\n"
-    path.write_bytes(header.encode() + points.astype("<f4").tobytes())
-
-
-def read_arrays(path):
-    """Header and arrays of a file of the body model (nodes/body_model/README.md, Files)."""
-    data = path.read_bytes()
-    first = data.index(b"\n") + 1
-    second = data.index(b"\n", first) + 1
-    at = second + int(data[first:second])
-    header, arrays = json.loads(data[second:at]), {}
-    for entry in header["arrays"]:
-        kind = np.dtype(entry["type"]).newbyteorder("<")
-        size = int(np.prod(entry["shape"]))
-        arrays[entry["name"]] = np.frombuffer(data, kind, size, at).reshape(entry["shape"])
-        at += size * kind.itemsize
-    return header, arrays
 
 
 class Runs:
@@ -107,73 +62,6 @@ class Runs:
         points = points @ [[np.cos(turn), np.sin(turn), 0], [-np.sin(turn), np.cos(turn), 0], [0, 0, 1]]
         write_points(scan, points + [0.03, -0.02, 0])
         return self.run("correlation", "correlate", "--fit", self.fit(0.95), "--worn", scan, "--quiet")
-
-
-# Drawing ----------------------------------------------------------------------------------------------------------
-
-
-def section(vertices, triangles, axis, at):
-    """Segments (n x 2 x 2, the other two axes) in which a plane across `axis` cuts a mesh."""
-    corners = vertices[triangles]
-    heights = corners[:, :, axis] - at
-    others = [k for k in range(3) if k != axis]
-    ends = []
-    cut = (heights.min(1) < 0) & (heights.max(1) >= 0)
-    for t, h in zip(corners[cut], heights[cut]):
-        points = [t[a] + h[a] / (h[a] - h[b]) * (t[b] - t[a])
-                  for a, b in ((0, 1), (1, 2), (2, 0)) if (h[a] < 0) != (h[b] < 0)]
-        ends.append([points[0][others], points[1][others]])
-    return np.array(ends)
-
-
-def draw_section(axes, segments, **style):
-    axes.add_collection(LineCollection(segments, **style))
-
-
-def draw_body(axes, vertices, triangles, colours=None, view="front"):
-    """Lit triangles, the far ones first. `colours`: one (r, g, b) a triangle."""
-    right, depth = (np.array([0, 1, 0]), np.array([1, 0, 0])) if view == "front" else (
-        np.array([1, 0, 0]), np.array([0, -1, 0]))
-    corners = vertices[triangles]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
-    facing = np.flatnonzero(normals @ depth > 0)
-    facing = facing[np.argsort(corners[facing].mean(1) @ depth)]
-    light = 0.5 + 0.5 * np.clip(normals[facing] @ (depth + 0.4 * right + [0, 0, 0.5]) / 1.2, 0, 1)
-    base = SKIN if colours is None else colours[facing]
-    flat = np.stack([corners[facing] @ right, corners[facing][:, :, 2]], 2)
-    shades = np.clip(light[:, None] * base, 0, 1)
-    axes.add_collection(PolyCollection(flat, facecolors=shades, edgecolors=shades, linewidths=0.3, rasterized=True))
-    axes.set_aspect("equal")
-    axes.autoscale_view()
-    axes.set_axis_off()
-    return right
-
-
-def save(figure, stage):
-    path = PICTURES / f"{stage}.png"
-    figure.savefig(path, dpi=85, bbox_inches="tight", pil_kwargs={"optimize": True})
-    plt.close(figure)
-    print(f"{path.relative_to(ROOT)}: {path.stat().st_size // 1000} kB", file=sys.stderr)
-
-
-def level_axes(axes, title, across="forward, mm", up="to her left, mm"):
-    axes.set_title(title, fontsize=9)
-    axes.set_xlabel(across, fontsize=8)
-    axes.set_ylabel(up, fontsize=8)
-    axes.tick_params(labelsize=7)
-
-
-def report_of(folder):
-    return json.loads((folder / "report.json").read_text())
-
-
-def to_body(report, points):
-    frame = np.array(report["scan"]["body_from_scan"])
-    return points @ frame[:3, :3].T + frame[:3, 3]
-
-
-# Stages -----------------------------------------------------------------------------------------------------------
 
 
 def reconstruction(runs):

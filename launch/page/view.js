@@ -1,4 +1,4 @@
-// The 3D view of the customer's page: turns fit.glb before her eyes. Needs THREE, THREE.GLTFLoader and THREE.OrbitControls (Debian's libjs-three) and,
+// The 3D view of a page: turns a body before and with a garment. Needs THREE, THREE.GLTFLoader and THREE.OrbitControls (Debian's libjs-three) and,
 // in the page, the elements that it looks up by id. Asks no server for anything. Where there is no WebGL the page keeps its pictures.
 (function () {
   "use strict";
@@ -29,6 +29,7 @@
   var kSkin = new THREE.Color(0.86, 0.74, 0.67), neutral = new THREE.Color().fromArray(facts.neutral);
   var bodies = [];  // before; with the garment as far as the slider says
   var lines = [];   // the same two
+  var has_beside = false;  // something else than the body before
   var loop = null, picked = null, share = 1, from = "front", close = true;
 
   // Linear light as the screen wants it (glTF's colours are linear).
@@ -56,7 +57,7 @@
     return {
       shape: shape,
       colours: displayed(mesh.geometry.attributes.color),
-      distortion: mesh.geometry.attributes._distortion,
+      values: mesh.geometry.attributes[facts.reading.attribute],
       show: function (t) {
         var now = shape.attributes.position;
         for (var i = 0; i < now.array.length; ++i) now.array[i] = from[i] + t * (to[i] - from[i]);
@@ -83,8 +84,9 @@
   }
 
   function add(mesh) {
-    var is_body = mesh.name === "body";
+    var is_body = mesh.name === "body" || mesh.name === "beside";
     [0, 1].forEach(function (which) {
+      if (is_body && has_beside && which !== (mesh.name === "beside" ? 0 : 1)) return;
       var made = blended(mesh);
       made.mesh = new THREE.Mesh(made.shape, is_body ?
           new THREE.MeshLambertMaterial({vertexColors: THREE.VertexColors, side: THREE.DoubleSide}) :
@@ -93,6 +95,7 @@
       scene.add(made.mesh);
       (is_body ? bodies : lines).push(made);
       made.show(which);
+      if (!made.colours && is_body) made.mesh.material = new THREE.MeshLambertMaterial({color: kSkin, side: THREE.DoubleSide});
       if (is_body) paint(made, which);
     });
   }
@@ -181,12 +184,19 @@
     var x = (event.clientX - box.left) / box.width * halves, half = Math.min(Math.floor(x), halves - 1);
     var ray = new THREE.Raycaster();
     ray.setFromCamera({x: 2 * (x - half) - 1, y: 1 - 2 * (event.clientY - box.top) / box.height}, camera);
-    var t = halves === 2 ? half : share, body = bodies[halves === 2 ? half : 1];
+    var t = halves === 2 && half === 0 ? 0 : share, body = bodies.find(function (b) { return b.which === (halves === 2 ? half : 1); });
     body.mesh.visible = true;
     var hit = ray.intersectObject(body.mesh)[0];
-    var percent = hit && body.distortion ? Math.round(100 * t * (body.distortion.getX(hit.face.a) - 1)) : 0;
-    element("reading").textContent = !hit ? "" : percent === 0 ? "skin here: unchanged" :
-        "skin here: " + Math.abs(percent) + " % " + (percent < 0 ? "pressed together" : "stretched");
+    element("reading").textContent = !hit || !body.values ? "" : words_of(t, body.values.getX(hit.face.a));
+  }
+
+  function words_of(t, value) {
+    var said = facts.reading;
+    if (!said.per_cent && t < 1) return "";  // a distance is one of the body with the garment
+    if (!said.per_cent && value >= said.none_from) return said.here + said.none;
+    var shown = said.per_cent ? Math.round(100 * t * (value - 1)) : Math.round(10000 * value) / 10;
+    if (shown === 0) return said.here + said.same;
+    return said.here + Math.abs(shown) + (said.per_cent ? " % " : " mm ") + (shown < 0 ? said.low : said.high);
   }
 
   function pick(row) {
@@ -201,6 +211,7 @@
     var meshes = [];
     model.scene.updateMatrixWorld(true);
     model.scene.traverse(function (node) { if (node.isMesh) meshes.push(node); });
+    has_beside = meshes.some(function (mesh) { return mesh.name === "beside"; });
     meshes.forEach(add);
     controls.addEventListener("change", render);
     ["share", "colours"].forEach(function (id) { element(id).addEventListener("input", change); });
@@ -223,6 +234,8 @@
       event.preventDefault();
     });
     window.addEventListener("resize", render);
+    if (!lines.length)
+      ["lines", "close"].forEach(function (id) { element(id).parentElement.hidden = true; });
     take_from_address();
     change();
     look();

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "assembler/viewpoint_normals.hpp"
+#include "geometry/moved_cloud.hpp"
 #include "geometry/parallel_for.hpp"
+#include "geometry/point_tree.hpp"
+#include "geometry/principal_axes.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::assembler {
@@ -21,22 +23,28 @@ void check_columns(std::size_t sensors, int per_column) {
                   per_column, sensors));
 }
 
+/// Of the planes through each point's neighbours, towards the side from which all were seen.
+std::vector<Vector3d> viewpoint_normals(const std::vector<Vector3d>& points, const Vector3d& viewpoint) {
+  constexpr int kNeighbours = 16;
+  std::vector<Vector3d> normals(points.size());
+  if (points.empty()) return normals;
+  const geometry::PointTree tree(points);
+  std::vector<int> near;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    tree.nearest(points[i], kNeighbours, near);
+    const Vector3d normal =
+        geometry::principal_axes(points, near, points[near.front()]).eigenvectors().col(0);
+    normals[i] = normal.dot(viewpoint - points[i]) < 0 ? Vector3d(-normal) : normal;
+  }
+  return normals;
+}
+
 PointCloud in_booth(const PointCloud& seen, const Isometry3d& booth_from_sensor) {
   PointCloud cloud;
   for (const Vector3d& p : seen.points)
     if (p.allFinite()) cloud.points.push_back(booth_from_sensor * p);
   cloud.normals = viewpoint_normals(cloud.points, booth_from_sensor.translation());
   return cloud;
-}
-
-void append(PointCloud& cloud, const PointCloud& more) {
-  cloud.points.insert(cloud.points.end(), more.points.begin(), more.points.end());
-  cloud.normals.insert(cloud.normals.end(), more.normals.begin(), more.normals.end());
-}
-
-void move(PointCloud& cloud, const Isometry3d& by) {
-  for (Vector3d& p : cloud.points) p = by * p;
-  for (Vector3d& n : cloud.normals) n = by.linear() * n;
 }
 
 }  // namespace
@@ -54,17 +62,18 @@ Assembly assemble(const Capture& capture, const std::vector<Isometry3d>& booth_f
   });
   std::vector<PointCloud> columns(clouds.size() / options.sensors_per_column);
   for (std::size_t sensor = 0; sensor < clouds.size(); ++sensor) {
-    append(columns[sensor / options.sensors_per_column], clouds[sensor]);
+    geometry::append(columns[sensor / options.sensors_per_column], clouds[sensor]);
     assembly.cloud.sensor.insert(assembly.cloud.sensor.end(), clouds[sensor].points.size(),
                                  static_cast<int>(sensor));
   }
   // 2. Their corrections.
   if (options.refine) {
     assembly.registration = register_columns(columns, options.registration);
-    for (std::size_t c = 0; c < columns.size(); ++c) move(columns[c], assembly.registration->corrections[c]);
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      geometry::move(columns[c], assembly.registration->corrections[c]);
   }
   // 3. One cloud.
-  for (const PointCloud& column : columns) append(assembly.cloud, column);
+  for (const PointCloud& column : columns) geometry::append(assembly.cloud, column);
   return assembly;
 }
 

@@ -5,6 +5,7 @@
 #include <tf2/exceptions.h>
 
 #include <boost/make_shared.hpp>
+#include <set>
 
 #include "assembler/assembly_message.hpp"
 #include "geometry/status.hpp"
@@ -16,6 +17,19 @@ namespace {
 using geometry::Refusal;
 using Fate = assembler::CaptureJoin::Fate;
 namespace refusal = geometry::refusal;
+
+constexpr int kMostSensors = 64;
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw Refusal(refusal::kBadOption, message);
+}
+
+std::vector<std::string> check_topics(std::vector<std::string> topics) {
+  const std::set<std::string> different(topics.begin(), topics.end());
+  if (topics.empty() || topics.size() > kMostSensors || different.size() != topics.size())
+    refuse(fmt::format("parameter 'sensors' must list 1 to {} topics, each once", kMostSensors));
+  return topics;
+}
 
 Eigen::Isometry3d isometry(const geometry_msgs::Transform& transform) {
   const auto& [shift, turn] = std::tie(transform.translation, transform.rotation);
@@ -31,14 +45,35 @@ ros::Time time_of(std::uint64_t stamp) {
   return time;
 }
 
+AssemblerHandler::Setup AssemblerHandler::setup_from(Parameters& parameters) {
+  Setup setup;
+  setup.sensors = check_topics(parameters.texts("sensors"));
+  const int count = static_cast<int>(setup.sensors.size());
+  const geometry::Range up_to_all{1, static_cast<double>(count)};
+  setup.frame_id = parameters.frame("frame_id", "booth");
+  setup.min_sensors = parameters.integer("min_sensors", count, up_to_all);
+  setup.capture.slop = parameters.number("slop", setup.capture.slop, assembler::kSlop);
+  setup.capture.timeout = parameters.number("timeout", setup.capture.timeout, assembler::kTimeout);
+  assembler::AssemblerOptions& assembler = setup.assembler;
+  assembler.refine = parameters.flag("refine", assembler.refine);
+  assembler.sensors_per_column =
+      parameters.integer("sensors_per_column", assembler.sensors_per_column, up_to_all);
+  assembler::RegistrationOptions& registration = assembler.registration;
+  registration.max_shift = parameters.number("max_shift", registration.max_shift, assembler::kMaxShift);
+  registration.max_turn = parameters.number("max_turn", registration.max_turn, assembler::kMaxTurn);
+  parameters.check_all_known();
+  if (count % assembler.sensors_per_column != 0)
+    refuse(fmt::format("parameter 'sensors_per_column' is {}: {} sensors are no whole number of columns",
+                       assembler.sensors_per_column, count));
+  return setup;
+}
+
 AssemblerHandler::AssemblerHandler(Parameters parameters)
-    : setup_(assembler_setup(std::move(parameters))),
-      join_(static_cast<int>(setup_.sensors.size()), setup_.capture) {}
+    : setup_(setup_from(parameters)), join_(static_cast<int>(setup_.sensors.size()), setup_.capture) {}
 
 void AssemblerHandler::add(int sensor, const sensor_msgs::PointCloud2& message, double now) {
   try {
-    if (message.header.stamp.isZero())
-      throw Refusal(refusal::kNoStamp, "the cloud says not when it was seen");
+    if (message.header.stamp.isZero()) throw Refusal(refusal::kNoStamp, "the cloud has no time stamp");
     pcl::PCLPointCloud2 cloud;
     pcl_conversions::toPCL(message, cloud);
     const auto seen = std::make_shared<const assembler::SensorCloud>(assembler::SensorCloud{

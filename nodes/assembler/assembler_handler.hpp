@@ -4,17 +4,30 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2/buffer_core.h>
 
-#include "assembler/assembler_setup.hpp"
+#include <string>
+#include <vector>
+
+#include "assembler/assembler.hpp"
+#include "assembler/capture_join.hpp"
 #include "ros/facts.hpp"
+#include "ros/parameters.hpp"
 
 namespace tensegric_fit::node {
 
 class AssemblerHandler {
  public:
-  /// \throw Refusal bad_option
+  struct Setup {
+    std::vector<std::string> sensors;  ///< topics, column by column
+    std::string frame_id;              ///< of the scan
+    int min_sensors;                   ///< with fewer, a capture is refused
+    assembler::CaptureOptions capture;
+    assembler::AssemblerOptions assembler;
+  };
+
+  /// \throw Refusal bad_option naming the parameter
   explicit AssemblerHandler(Parameters parameters);
 
-  const AssemblerSetup& setup() const { return setup_; }
+  const Setup& setup() const { return setup_; }
 
   /// What that sensor sent; `now` as for assembler::CaptureJoin. \throw Refusal no_stamp, late_cloud, or as
   /// geometry::points_of, naming the sensor's topic
@@ -32,10 +45,11 @@ class AssemblerHandler {
   Output handle(const assembler::Capture& capture, const tf2::BufferCore& transforms) const;
 
  private:
+  static Setup setup_from(Parameters& parameters);
   Eigen::Isometry3d pose_of(int sensor, const assembler::SensorCloud& cloud,
                             const tf2::BufferCore& transforms) const;
 
-  const AssemblerSetup setup_;
+  const Setup setup_;
   assembler::CaptureJoin join_;
 };
 

@@ -39,7 +39,7 @@ class AssemblerNode {
                                   [this](const ros::WallTimerEvent&) { hand_on(); });
   }
 
-  /// What sensors latch would be assembled again, did this node begin anew.
+  /// If this node restarted, what sensors latch would be assembled again.
   void forget(const ForgetOrder& order, ForgetAnswer& done) {
     const std::lock_guard<std::mutex> lock(publishing_);
     if (published_ != order.scan_id) return;
@@ -68,7 +68,7 @@ class AssemblerNode {
   }
 
   void hand_on() {
-    const AssemblerSetup& setup = handler_.setup();
+    const AssemblerHandler::Setup& setup = handler_.setup();
     while (const std::optional<assembler::Capture> capture = handler_.next(ros::SteadyTime::now().toSec())) {
       const std::string scan_id = id_of(capture->first);
       std::vector<std::string> missing;
@@ -93,7 +93,7 @@ class AssemblerNode {
 
   /// They can come after the clouds. By the wall's clock: a recording's can stand still.
   void wait_for_transforms(const assembler::Capture& capture) const {
-    const AssemblerSetup& setup = handler_.setup();
+    const AssemblerHandler::Setup& setup = handler_.setup();
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(setup.capture.timeout);
     for (const auto& cloud : capture.clouds)
       while (cloud && !transforms_.canTransform(setup.frame_id, cloud->frame_id, time_of(cloud->stamp)) &&

@@ -35,7 +35,7 @@ struct CaptureOptions {
 };
 
 /// Sorts clouds into captures by their stamps. Captures leave in the order of their stamps, each once; a
-/// cloud that comes after its capture has left goes nowhere. For one thread. Times are seconds of any steady
+/// cloud that comes after its capture has left is dropped. For one thread. Times are seconds of any steady
 /// clock.
 class CaptureJoin {
  public:
@@ -52,8 +52,8 @@ class CaptureJoin {
   /// \pre 0 <= sensor < sensors
   Fate add(int sensor, std::shared_ptr<const SensorCloud> cloud, double now);
 
-  /// The oldest capture once it is complete, has waited long enough, or was overtaken by one of which that is
-  /// true. To be asked until there is none.
+  /// The oldest capture, if it or a newer one is complete or has waited long enough. Call it until there is
+  /// none.
   std::optional<Capture> next(double now);
 
  private:

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "geometry/parallel_for.hpp"
+#include "geometry/percentile.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/rigid_motion.hpp"
 
@@ -16,7 +17,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using geometry::PointCloud;
 using geometry::PointTree;
-using Vector6d = Eigen::Matrix<double, 6, 1>;
+using geometry::SmallMotion;
 
 constexpr int kSteps = 20;
 constexpr double kStill = 1e-5;        // m, of the largest motion in a step
@@ -49,12 +50,6 @@ struct Pair {
   std::vector<int> points;
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 class Columns {
  public:
   explicit Columns(const std::vector<PointCloud>& columns)
@@ -85,9 +80,9 @@ class Columns {
       const double relative = match.residual / (kCut * spread);
       if (std::abs(relative) >= 1) continue;
       const double weight = std::pow(1 - relative * relative, 2) / (spread * spread);
-      Vector6d of_a, of_b;  // motions turn about the centre, and one radian there counts as one metre
-      of_a << (match.p - centre_).cross(match.normal), match.normal;
-      of_b << -(match.q - centre_).cross(match.normal), -match.normal;
+      // one radian about the centre counts as one metre
+      const SmallMotion of_a = geometry::along_normal(match.p, centre_, match.normal),
+                        of_b = -geometry::along_normal(match.q, centre_, match.normal);
       const Eigen::Index a = 6 * match.a, b = 6 * match.b;
       matrix.block<6, 6>(a, a) += weight * of_a * of_a.transpose();
       matrix.block<6, 6>(b, b) += weight * of_b * of_b.transpose();
@@ -113,7 +108,7 @@ class Columns {
   }
 
   const std::vector<Isometry3d>& motions() const { return motion_; }
-  Vector6d motion_of(std::size_t column) const { return twist(motion_[column]); }
+  SmallMotion motion_of(std::size_t column) const { return twist(motion_[column]); }
 
  private:
   void find_pairs() {
@@ -169,18 +164,18 @@ class Columns {
   static double spread_of(const std::vector<Match>& found) {
     std::vector<double> sizes;
     for (const Match& match : found) sizes.push_back(std::abs(match.residual));
-    return std::max(kLeastSpread, 1.4826 * median(sizes));  // of a normal distribution
+    return std::max(kLeastSpread, 1.4826 * geometry::median(sizes));  // of a normal distribution
   }
 
-  Vector6d twist(const Isometry3d& motion) const {
+  SmallMotion twist(const Isometry3d& motion) const {
     const Eigen::AngleAxisd turn(motion.linear());
-    Vector6d result;
+    SmallMotion result;
     result << turn.angle() * turn.axis(), motion * centre_ - centre_;
     return result;
   }
 
-  void move(std::size_t column, const Vector6d& motion) {
-    motion_[column] = geometry::motion_about(centre_, motion.head<3>(), motion.tail<3>()) * motion_[column];
+  void move(std::size_t column, const SmallMotion& motion) {
+    motion_[column] = geometry::motion_about(centre_, motion) * motion_[column];
   }
 
   const std::vector<PointCloud>& columns_;
@@ -219,7 +214,7 @@ Registration register_columns(const std::vector<PointCloud>& columns, const Regi
   const double residual = moving.residual();
   bool near = true;
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    const Vector6d motion = moving.motion_of(c);
+    const SmallMotion motion = moving.motion_of(c);
     near =
         near && motion.head<3>().norm() <= options.max_turn && motion.tail<3>().norm() <= options.max_shift;
   }

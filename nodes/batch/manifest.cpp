@@ -157,12 +157,9 @@ class Reader {
 
   /// `fit` itself says what is wrong with the options of a row.
   void take(Job job) {
-    const std::vector<std::string> arguments = job.arguments();
-    std::vector<const char*> words{"fit_batch"};
-    for (const std::string& argument : arguments) words.push_back(argument.c_str());
     fit::CommandLine line;
     std::ostringstream errors;
-    if (fit::parse(static_cast<int>(words.size()), words.data(), line, errors)) {
+    if (fit::parse(job.arguments(), line, errors)) {
       std::string text = errors.str();
       throw fault_here(text.substr(0, text.find('\n')));
     }

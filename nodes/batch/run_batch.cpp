@@ -97,7 +97,7 @@ class Batch {
   }
 
  private:
-  /// For whoever merges: how many rows there are to be.
+  /// For the merge: how many rows there will be.
   void write_description() const {
     const Json description{{"rows", jobs_.size()},
                            {"manifest", std::filesystem::path(options_.manifest).filename()},

@@ -62,17 +62,15 @@ Json figures_of(Json report, Json& cost) {
   }
   if (report.contains("solver")) report["solver"].erase("ms");
   if (report.contains("distortion"))
-    for (const char* key : {"over_constricted", "under_constricted"})
+    for (const char* key : {"over_constricted", "over_stretched", "under_constricted"})
       report["distortion"][key] = report["distortion"][key].size();
   return report;
 }
 
 Json fitted(const std::vector<std::string>& arguments, Json& cost) {
-  std::vector<const char*> words{"fit_batch"};
-  for (const std::string& argument : arguments) words.push_back(argument.c_str());
   fit::CommandLine line;
   std::ostringstream errors;
-  if (fit::parse(static_cast<int>(words.size()), words.data(), line, errors))
+  if (fit::parse(arguments, line, errors))
     return {{"status", "failed"}, {"reason", reason("usage", errors.str())}};
   fit::Computed computed;
   try {

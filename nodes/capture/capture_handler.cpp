@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "capture/stage_reports.hpp"
+#include "capture/stage_report_message.hpp"
 #include "ros/scan_tag.hpp"
 
 namespace tensegric_fit::node {

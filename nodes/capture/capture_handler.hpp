@@ -28,7 +28,7 @@ class CaptureHandler {
   /// Service that makes the booth scan; empty where it scans by itself.
   const std::string& trigger() const { return setup_.trigger; }
 
-  /// In the place of the goal at hand. Where there is a trigger, no scan counts until it was pulled.
+  /// Replaces the current goal. Where there is a trigger, no scan counts until it was pulled.
   void begin(const CaptureGoal& goal, double now);
   void stop() { watch_.reset(); }
   bool is_busy() const { return watch_ != nullptr; }
@@ -65,7 +65,7 @@ class CaptureHandler {
   capture::StageBoard board_;
   std::deque<std::string> seen_;  // scans
 
-  // of the goal at hand
+  // of the current goal
   CaptureGoal goal_;
   double begun_ = 0;
   bool armed_ = false;                                    // the trigger was pulled, or there is none

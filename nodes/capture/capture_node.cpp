@@ -1,10 +1,12 @@
 /// capture: the action that a shop's programs call for each customer.
 #include <actionlib/server/simple_action_server.h>
+#include <std_srvs/Trigger.h>
 #include <tensegric_fit/CaptureAction.h>
 
+#include <chrono>
+#include <future>
 #include <map>
 
-#include "capture/booth_trigger.hpp"
 #include "capture/capture_handler.hpp"
 #include "geometry/status.hpp"
 #include "ros/held_scan.hpp"
@@ -23,6 +25,39 @@ constexpr double kTick = 0.1;      // s
 double now() {
   return ros::SteadyTime::now().toSec();
 }
+
+/// A std_srvs/Trigger service that scans the person in the booth and answers when that is over. It is called
+/// in a thread of its own. For one thread.
+class BoothTrigger {
+ public:
+  /// `service` may be empty: a booth that scans by itself.
+  BoothTrigger(const ros::NodeHandle& node, std::string service)
+      : node_(node), service_(std::move(service)) {}
+
+  /// False, and nothing done, while an earlier call is under way.
+  bool pull() {
+    if (call_.valid()) return false;
+    call_ = std::async(
+        std::launch::async,
+        [client = node_.serviceClient<std_srvs::Trigger>(service_)]() mutable -> std::string {
+          std_srvs::Trigger trigger;
+          if (!client.call(trigger)) return client.getService() + " did not answer";
+          return trigger.response.success ? "" : client.getService() + ": " + trigger.response.message;
+        });
+    return true;
+  }
+
+  /// What went wrong with a call that has ended, once; empty where nothing did.
+  std::string complaint() {
+    if (!call_.valid() || call_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return "";
+    return call_.get();
+  }
+
+ private:
+  ros::NodeHandle node_;
+  const std::string service_;
+  std::future<std::string> call_;
+};
 
 class CaptureNode {
  public:

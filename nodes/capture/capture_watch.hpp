@@ -43,7 +43,7 @@ class CaptureWatch {
   void add_scan(const std::string& scan_id, std::uint64_t stamp);
   void add_landmarks(const std::string& scan_id) { measured_.insert(scan_id); }
   void add_fit(const std::string& scan_id) { fitted_.insert(scan_id); }
-  /// A stage has just said no, StageBoard::report.
+  /// A stage has just refused something: StageBoard::report.
   void add_refusal(const std::string& stage, const StageReport& report);
 
   const std::string& scan_id() const { return scan_id_; }

@@ -12,9 +12,9 @@ struct StageReport {
   std::string scan_id;         ///< that the state is about
   std::string code, message;   ///< of the last error
   std::string warning;         ///< where it is done, but not as it should be
-  double working_seconds = 0;  ///< on the work at hand
+  double working_seconds = 0;  ///< on the current work
 
-  /// Whether it said no to that scan.
+  /// Whether it refused that scan.
   bool refused() const { return state == "refused" || state == "failed"; }
 };
 
@@ -25,13 +25,13 @@ class StageBoard {
   static constexpr double kSlow = 10;     ///< s on one piece of work
   static constexpr double kGone = 10;     ///< s without a report: not one that is just being started again
 
-  /// True where the stage has just said no to something: not for a report that says so again.
+  /// True where the stage has just refused something: not for a report that repeats it.
   bool report(const std::string& stage, const StageReport& report, double now);
 
   /// Null where the stage never said anything.
   const StageReport* find(const std::string& stage) const;
 
-  /// For how long it has been at the work at hand, s; 0 where it is at none.
+  /// For how long it has been at its current work, s; 0 where it has none.
   double working_seconds(const std::string& stage, double now) const;
 
   /// For how long it has said nothing, s; since `since` where it never did.

@@ -177,9 +177,9 @@ geometry::ControlMesh laid_best(const Template& pattern, const geometry::BodyMea
   if (laid.empty()) throw *refused;
   std::vector<std::vector<Vector3d>> elsewhere;
   for (const geometry::ControlMesh& other : laid) elsewhere.push_back(other.outer);
-  geometry::ControlMesh mended = laid[best];
-  turn_back(mended, slidable(pattern, mended), grid_neighbours(pattern), skin, elsewhere);
-  return count_badly_laid(mended, skin) < least ? mended : laid[best];
+  geometry::ControlMesh repaired = laid[best];
+  turn_back(repaired, slidable(pattern, repaired), grid_neighbours(pattern), skin, elsewhere);
+  return count_badly_laid(repaired, skin) < least ? repaired : laid[best];
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "control_mesh/pull_back.hpp"
+
 namespace tensegric_fit::control_mesh {
 namespace {
 
@@ -61,24 +63,6 @@ double missing_height(const Gaps& gap, const std::vector<char>& may_move, const 
   return area > 0 ? volume / area : 0;
 }
 
-/// Nodes of a fold have their normals against each other, and nodes near each other cross: they go back
-/// halfway, in the end all the way.
-void undo_turns(const std::vector<Vector3d>& on_skin, geometry::ControlMesh& control) {
-  for (int round = 0; round <= kMatchHalvings; ++round) {
-    std::vector<char> turned(on_skin.size(), 0);
-    for (const Eigen::Vector3i& k : control.triangles) {
-      const Vector3d before = geometry::area_vector(on_skin[k[0]], on_skin[k[1]], on_skin[k[2]]);
-      const Vector3d after =
-          geometry::area_vector(control.outer[k[0]], control.outer[k[1]], control.outer[k[2]]);
-      if (after.dot(before) >= kLeastShare * before.squaredNorm()) continue;
-      for (int i = 0; i < 3; ++i) turned[k[i]] = 1;
-    }
-    const double kept = round < kMatchHalvings ? 0.5 : 0;
-    for (std::size_t v = 0; v < turned.size(); ++v)
-      if (turned[v]) control.outer[v] = on_skin[v] + kept * (control.outer[v] - on_skin[v]);
-  }
-}
-
 }  // namespace
 
 void match_skin(geometry::ControlMesh& control, const std::vector<char>& may_move, const Skin& skin) {
@@ -100,7 +84,15 @@ void match_skin(geometry::ControlMesh& control, const std::vector<char>& may_mov
     for (std::size_t v = 0; v < on_skin.size(); ++v)
       if (may_move[v]) move(v, height);
   }
-  undo_turns(on_skin, control);
+  pull_back(control.outer, on_skin, kMatchHalvings, kMatchHalvings + 1, [&](std::vector<char>& turned) {
+    for (const Eigen::Vector3i& k : control.triangles) {
+      const Vector3d before = geometry::area_vector(on_skin[k[0]], on_skin[k[1]], on_skin[k[2]]);
+      const Vector3d after =
+          geometry::area_vector(control.outer[k[0]], control.outer[k[1]], control.outer[k[2]]);
+      if (after.dot(before) >= kLeastShare * before.squaredNorm()) continue;
+      for (int i = 0; i < 3; ++i) turned[k[i]] = 1;
+    }
+  });
 }
 
 }  // namespace tensegric_fit::control_mesh

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "control_mesh/pull_back.hpp"
+
 namespace tensegric_fit::control_mesh {
 namespace {
 
@@ -14,18 +16,6 @@ constexpr int kShares = 10;            // of the way between two nodes
 constexpr double kLeast = 0.2;   // of along_skin() and sharpest(): 78 degrees off the skin, corners of 11.5
                                  // degrees; nodes are still to be lifted by up to 3 mm
 constexpr double kTurned = 0.4;  // cosine between a triangle's normal and what it was at first
-
-/// Nodes go back where a triangle of theirs has turned too far: in folds means are soon on the other side.
-void undo_turns(geometry::ControlMesh& control, const std::vector<Vector3d>& before,
-                const std::vector<Vector3d>& first) {
-  for (std::size_t t = 0; t < control.triangles.size(); ++t) {
-    const Eigen::Vector3i& k = control.triangles[t];
-    const Vector3d area =
-        geometry::area_vector(control.outer[k[0]], control.outer[k[1]], control.outer[k[2]]);
-    if (area.dot(first[t]) >= kTurned * area.norm() * first[t].norm()) continue;
-    for (int i = 0; i < 3; ++i) control.outer[k[i]] = before[k[i]];
-  }
-}
 
 /// Sine of the sharpest corner.
 double sharpest(const std::array<Vector3d, 3>& corners, double twice_area) {
@@ -95,7 +85,13 @@ void relax_on_skin(geometry::ControlMesh& control, const std::vector<char>& may_
       const auto above = skin.nearest_along(halfway, normals[v], kDeepestMean);
       control.outer[v] = above ? *above : skin.nearest(halfway);
     }
-    undo_turns(control, before, first);
+    pull_back(control.outer, before, 0, 1, [&](std::vector<char>& turned) {
+      for (std::size_t t = 0; t < first.size(); ++t) {
+        const Vector3d area = area_of(corners_of(control, static_cast<int>(t)));
+        if (area.dot(first[t]) >= kTurned * area.norm() * first[t].norm()) continue;
+        for (int i = 0; i < 3; ++i) turned[control.triangles[t][i]] = 1;
+      }
+    });
   }
 }
 

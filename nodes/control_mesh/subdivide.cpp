@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "control_mesh/pull_back.hpp"
 #include "control_mesh/relax.hpp"
 
 namespace tensegric_fit::control_mesh {
@@ -15,31 +16,20 @@ constexpr int kHalvings = 5;
 /// The middles of a triangle's edges: opposite to its first corner, its second, its third.
 using Middles = Eigen::Vector3i;
 
-/// In a fold the skin over an edge's middle may be that of the other side, or far along: such nodes go back
-/// towards the middle, where quarters are as well shaped as their triangle.
-void flatten_turned(const std::vector<Eigen::Vector3i>& triangles, const std::vector<Middles>& middles,
-                    const std::vector<Vector3d>& flat, std::vector<Vector3d>& nodes) {
-  // Once nodes go all the way back each round leaves fewer triangles to mend.
-  const int most = kHalvings + static_cast<int>(triangles.size());
-  for (int round = 0; round <= most; ++round) {
-    std::vector<char> turned(nodes.size(), 0);
-    bool any = false;
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      const Eigen::Vector3i &k = triangles[t], &m = middles[t];
-      const Vector3d whole = geometry::area_vector(nodes[k[0]], nodes[k[1]], nodes[k[2]]);
-      const auto well = [&](int a, int b, int c) {
-        return geometry::area_vector(nodes[a], nodes[b], nodes[c]).dot(whole) >=
-               kLeastQuarter / 4 * whole.squaredNorm();
-      };
-      if (well(k[0], m[2], m[1]) && well(m[2], k[1], m[0]) && well(m[1], m[0], k[2]) &&
-          well(m[2], m[0], m[1]))
-        continue;
-      any = true;
-      for (int i = 0; i < 3; ++i) turned[m[i]] = 1;
-    }
-    if (!any) return;
-    for (std::size_t v = 0; v < nodes.size(); ++v)
-      if (turned[v]) nodes[v] = round < kHalvings ? Vector3d(0.5 * (nodes[v] + flat[v])) : flat[v];
+/// In a fold the skin over an edge's middle may be that of the other side, or far along: quarters must be as
+/// well shaped as their triangle.
+void mark_turned(const std::vector<Eigen::Vector3i>& triangles, const std::vector<Middles>& middles,
+                 const std::vector<Vector3d>& nodes, std::vector<char>& turned) {
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Eigen::Vector3i &k = triangles[t], &m = middles[t];
+    const Vector3d whole = geometry::area_vector(nodes[k[0]], nodes[k[1]], nodes[k[2]]);
+    const auto well = [&](int a, int b, int c) {
+      return geometry::area_vector(nodes[a], nodes[b], nodes[c]).dot(whole) >=
+             kLeastQuarter / 4 * whole.squaredNorm();
+    };
+    if (well(k[0], m[2], m[1]) && well(m[2], k[1], m[0]) && well(m[1], m[0], k[2]) && well(m[2], m[0], m[1]))
+      continue;
+    for (int i = 0; i < 3; ++i) turned[m[i]] = 1;
   }
 }
 
@@ -88,7 +78,10 @@ geometry::ControlMesh subdivide(const geometry::ControlMesh& control, const Skin
     ends.push_back({edge.first, edge.second, -1, -1});
   }
   turn_back(fine, slides, ends, skin, {flat});
-  flatten_turned(control.triangles, middles, flat, fine.outer);
+  // Once nodes go all the way back each round leaves fewer triangles to repair.
+  const int rounds = kHalvings + static_cast<int>(control.triangles.size()) + 1;
+  pull_back(fine.outer, flat, kHalvings, rounds,
+            [&](std::vector<char>& turned) { mark_turned(control.triangles, middles, fine.outer, turned); });
   for (geometry::ControlRegion& region : fine.regions) {
     std::vector<int> quarters;
     for (int t : region.triangles)

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using Vector6d = Eigen::Matrix<double, 6, 1>;
+using geometry::SmallMotion;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 // Why not the assembler's registration: one patch against one surface with its holes, of which a share of the
@@ -67,18 +67,18 @@ Step step_from(const std::vector<Match>& matches) {
   const double size = std::sqrt(squares / static_cast<double>(kept));
 
   Matrix6d system = Matrix6d::Zero();  // of the turn, in units of `size`, and the shift
-  Vector6d right = Vector6d::Zero();
+  SmallMotion right = SmallMotion::Zero();
   for (std::size_t i = 0; i < kept; ++i) {
     const Match& match = matches[i];
-    Vector6d row;
-    row << (match.on_scan - middle).cross(match.normal) / size, match.normal;
+    SmallMotion row = geometry::along_normal(match.on_scan, middle, match.normal);
+    row.head<3>() /= size;
     system += row * row.transpose();
     right += row * match.normal.dot(match.on_patch - match.on_scan);
   }
-  const Vector6d eigenvalues =
+  const SmallMotion eigenvalues =
       Eigen::SelfAdjointEigenSolver<Matrix6d>(system, Eigen::EigenvaluesOnly).eigenvalues();
   if (!(eigenvalues[0] > kLoosest * eigenvalues[5])) return {Isometry3d::Identity(), 0, false};
-  const Vector6d step = system.ldlt().solve(right);
+  const SmallMotion step = system.ldlt().solve(right);
   return {geometry::motion_about(middle, step.head<3>() / size, step.tail<3>()), step.norm(), true};
 }
 

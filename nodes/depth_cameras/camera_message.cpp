@@ -64,8 +64,7 @@ void check_lens(const sensor_msgs::CameraInfo& info) {
 }  // namespace
 
 void check_depth_image(const sensor_msgs::Image& image, const sensor_msgs::CameraInfo& info) {
-  if (image.header.stamp.isZero())
-    throw Refusal(refusal::kNoStamp, "the depth image says not when it was seen");
+  if (image.header.stamp.isZero()) throw Refusal(refusal::kNoStamp, "the depth image has no time stamp");
   check_pixels(image);
   if (info.width != image.width || info.height != image.height)
     throw Refusal(refusal::kWrongFields, fmt::format("CameraInfo is of {} x {} pixels, the image has {} x {}",

@@ -248,4 +248,10 @@ void check_bag_structure(const std::string& path) {
   }
 }
 
+bool is_scan_topic(const std::string& topic) {
+  const std::string absolute = "/" + topic, wanted = "/scan/points";
+  return absolute.size() >= wanted.size() &&
+         absolute.compare(absolute.size() - wanted.size(), wanted.size(), wanted) == 0;
+}
+
 }  // namespace tensegric_fit::files

@@ -1,4 +1,4 @@
-/// Whether a file is a rosbag that rosbag's own reader can be given.
+/// Whether a file is a rosbag that rosbag's own reader can be given, and where its scans are.
 #pragma once
 
 #include <string>
@@ -10,5 +10,8 @@ namespace tensegric_fit::files {
 /// messages themselves are checked by whoever reads them. A bag without an index, as a recording that was cut
 /// off leaves it, passes: rosbag names it. \throw Refusal broken_file naming file and record
 void check_bag_structure(const std::string& path);
+
+/// Whether scans are on that topic of a bag: scan/points, in any namespace.
+bool is_scan_topic(const std::string& topic);
 
 }  // namespace tensegric_fit::files

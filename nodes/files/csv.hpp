@@ -16,7 +16,7 @@ inline std::string csv_field(const std::string& text) {
 }
 
 /// The next row's fields; `line` grows by the line ends that lie in quotes. False: there is none. A byte
-/// order mark is passed over.
+/// order mark is skipped.
 bool read_csv_row(std::istream& stream, std::vector<std::string>& fields, std::size_t& line);
 
 }  // namespace tensegric_fit::files

@@ -5,7 +5,7 @@
 
 namespace tensegric_fit::files {
 
-/// Text with entities in place of the letters that markup keeps for itself.
+/// Text with entities in place of the characters that markup reserves.
 std::string html_escaped(const std::string& text);
 
 /// Bytes in base 64 (RFC 4648), for data URLs.

@@ -1,4 +1,4 @@
-/// Files for their owner's eyes only.
+/// Files that only their owner may read.
 #pragma once
 
 namespace tensegric_fit::files {

@@ -13,8 +13,8 @@ struct FileContent {
   std::string bytes;
 };
 
-/// For whoever has long to compute what goes into it. \throw Refusal bad_option: the path is relative, or
-/// there is something already
+/// To be called before a long computation of what goes into it. \throw Refusal bad_option: the path is
+/// relative, or there is something already
 void check_new_folder(const std::string& folder);
 
 /// Writes the files into a hidden folder beside `folder` that takes its name when all are on the disk,

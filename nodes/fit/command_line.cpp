@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <tuple>
+
+#include "fit/parsed_line.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -109,13 +110,11 @@ std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, s
                          "where not said",
                          kShapeTriangles))
           ->capture_default_str()
-          ->check(CLI::Range(static_cast<int>(control_mesh::kControlTriangles.low),
-                             static_cast<int>(control_mesh::kControlTriangles.high)));
+          ->check(whole_in(control_mesh::kControlTriangles));
   app.add_option("--body-triangles", line.settings.reconstruction.body_triangles,
                  "Triangles of the body mesh")
       ->capture_default_str()
-      ->check(CLI::Range(static_cast<int>(reconstruction::kBodyTriangles.low),
-                         static_cast<int>(reconstruction::kBodyTriangles.high)))
+      ->check(whole_in(reconstruction::kBodyTriangles))
       ->excludes(mesh);
   app.add_flag("--bust-only", line.settings.reconstruction.bust_only,
                "Legs, hands and head of a scan come coarse, in less time: enough for a bust garment")
@@ -149,20 +148,15 @@ std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, s
   fixed->excludes(garment);
   overlay->excludes(fixed);
 
-  try {
-    app.parse(argc, argv);
-    for (const CLI::Option* option : app.get_options())
-      for (const std::string& value : option->results())
-        if (value.empty()) throw CLI::ValidationError(option->get_name(), "is empty");
+  const auto exit_code = parsed(app, argc, argv, errors, [&] {
     if (line.scans.empty() && line.mesh.empty()) throw CLI::RequiredError("--scan or --mesh");
     for (const std::string& text : ratios) line.ratios.push_back(ratio_from(text));
     if (!band.empty()) line.band = band_from(band);
     if (!gravity.empty() && line.garment.empty() && !line.is_shape())
       throw CLI::ValidationError("--gravity", "needs --garment or --fixed");
     if (!gravity.empty()) line.gravity = vector_from(gravity, "--gravity");
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error, std::cout, errors) == 0 ? 0 : 2;
-  }
+  });
+  if (exit_code) return exit_code;
   if (line.is_shape() && control_triangles->count() == 0)
     line.settings.control_mesh.control_triangles = kShapeTriangles;
   if (line.is_shape()) line.settings.model = tensegric::papers_model();  // a shape has no bones
@@ -170,6 +164,12 @@ std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, s
   if (volume == "body") line.settings.solver.volume = tensegric::KeptVolume::body;
   line.settings.solver.solver = tensegric::solver_from(solver);
   return std::nullopt;
+}
+
+std::optional<int> parse(const std::vector<std::string>& arguments, CommandLine& line, std::ostream& errors) {
+  std::vector<const char*> words{"fit"};
+  for (const std::string& argument : arguments) words.push_back(argument.c_str());
+  return parse(static_cast<int>(words.size()), words.data(), line, errors);
 }
 
 tensegric::Garment adjusted(tensegric::Garment garment, const CommandLine& line) {

@@ -40,6 +40,8 @@ struct CommandLine {
 /// is wrong goes to `errors`.
 std::optional<int> parse(int argc, const char* const* argv, CommandLine& line,
                          std::ostream& errors = std::cerr);
+/// The same of the words behind the program's name.
+std::optional<int> parse(const std::vector<std::string>& arguments, CommandLine& line, std::ostream& errors);
 
 /// The garment with the ratios and the band of the command line. \throw Refusal unknown_line
 tensegric::Garment adjusted(tensegric::Garment garment, const CommandLine& line);

@@ -1,6 +1,6 @@
 #include "fit/correlate_line.hpp"
 
-#include <CLI/CLI.hpp>
+#include "fit/parsed_line.hpp"
 
 namespace tensegric_fit::fit {
 
@@ -20,22 +20,14 @@ std::optional<int> parse(int argc, char** argv, CorrelateLine& line) {
   app.add_option("--body-triangles", line.settings.reconstruction.body_triangles,
                  "Triangles of the worn body's mesh")
       ->capture_default_str()
-      ->check(CLI::Range(static_cast<int>(reconstruction::kBodyTriangles.low),
-                         static_cast<int>(reconstruction::kBodyTriangles.high)))
+      ->check(whole_in(reconstruction::kBodyTriangles))
       ->excludes(mesh);
   app.add_option("--out", line.out, "Folder for the results")->capture_default_str();
   app.add_flag("--quiet", line.quiet, "No progress");
   worn->excludes(mesh);
-  try {
-    app.parse(argc, argv);
-    for (const CLI::Option* option : app.get_options())
-      for (const std::string& value : option->results())
-        if (value.empty()) throw CLI::ValidationError(option->get_name(), "is empty");
+  return parsed(app, argc, argv, std::cerr, [&line] {
     if (line.worn.empty() && line.mesh.empty()) throw CLI::RequiredError("--worn or --mesh");
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  return std::nullopt;
+  });
 }
 
 }  // namespace tensegric_fit::fit

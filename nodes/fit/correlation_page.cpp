@@ -5,6 +5,10 @@
 
 #include "files/html.hpp"
 #include "fit/correlation_report.hpp"
+#include "inspect/colours.hpp"
+#include "inspect/correlation_model.hpp"
+#include "inspect/page_view.hpp"
+#include "inspect/words.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -18,7 +22,8 @@ constexpr char kPage[] = R"(<!DOCTYPE html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
-<meta name="viewport" content="width=device-width">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:">
+<meta name="viewport" content="width=device-width, initial-scale=1">
 <title>Simulated and worn</title>
 <style>
 @page {{ size: A4; margin: 12mm }}
@@ -44,36 +49,22 @@ figcaption, footer, .note {{ font-size: 8pt; color: #666 }}
 <tr><th></th><th>mean</th><th>median</th><th>mean size</th><th>rms</th><th>95 % below</th><th>compared</th></tr>
 {distances}</table></div>
 <p class="note">Mean and median carry a sign: positive where the worn surface lies outside. Still skin is what the garment leaves alone: it says how well the two scans lie on each other.</p>
-{pictures}
+{section}{pictures}
 <h2>What the garment did, cm</h2>
 <div class="wide"><table>
 <tr><th></th><th>before</th><th>simulated</th><th>worn</th><th>change simulated</th><th>change worn</th><th>worn less simulated</th></tr>
 {rows}</table></div>
 {notes}<footer>Worn scan {worn}; simulated on {scan}. Heights are above the soles of the scan before. Measured alike on all three bodies.</footer>
-</body>
+{view}</body>
 </html>
 )";
-
-// "upper_arm_L" and "girth": left upper arm girth; bust_point_spread stays as it is.
-std::string words_of(std::string name, const std::string& kind) {
-  std::string side;
-  for (const auto& [ending, word] : {std::pair{"_L", "left "}, {"_R", "right "}}) {
-    if (name.size() < 2 || name.compare(name.size() - 2, 2, ending) != 0) continue;
-    side = word;
-    name.resize(name.size() - 2);
-  }
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return side + name + (kind.empty() || name == "stature" ? "" : " " + kind);
-}
 
 std::string centimetres(const std::optional<double>& metres) {
   return metres ? fmt::format("{:.1f}", 100 * *metres) : "";
 }
 
 std::string change(const std::optional<double>& from, const std::optional<double>& to) {
-  if (!from || !to) return "";
-  const double millimetres = std::round(1e3 * (*to - *from));
-  return millimetres == 0 ? "0" : fmt::format("{:+.1f}", millimetres / 10);
+  return from && to ? inspect::words::centimetre_change(*to - *from) : "";
 }
 
 struct Rows {
@@ -83,7 +74,7 @@ struct Rows {
 void add_rows(const std::vector<Difference>& differences, const std::string& kind, Rows& rows) {
   for (const Difference& d : differences) {
     if (kind == "height" && (d.name == "bust" || d.name == "hip")) continue;  // as bust point and buttock
-    const std::string name = html_escaped(words_of(d.name, kind));
+    const std::string name = html_escaped(inspect::words::measure(d.name, kind));
     const bool unsure = d.confidence < kUnsure;
     rows.table += fmt::format(
         "<tr><td>{}{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", name,
@@ -120,7 +111,27 @@ std::string lines_of(const FittedFolder& fitted) {
 
 }  // namespace
 
-std::string correlation_page(const Correlated& correlated, const std::vector<PagePicture>& pictures) {
+std::string correlation_page(const Correlated& correlated, const std::vector<PagePicture>& pictures,
+                             const std::string& model) {
+  const std::string end = fmt::format("{:.0f} mm", 1e3 * inspect::kFarthestDistance);
+  const inspect::PageView view{
+      model,
+      "The simulated body",
+      "before",
+      "simulated",
+      "worn beside it",
+      end + " inside",
+      "worn surface",
+      end + " outside",
+      "<p class=\"note\">Colours and distances are those of the simulated body.</p>\n",
+      {{"attribute", "_distance"},
+       {"per_cent", false},
+       {"here", "the worn surface lies here: "},
+       {"low", "inside"},
+       {"same", "on the simulated one"},
+       {"high", "outside"},
+       {"none", "not compared"},
+       {"none_from", inspect::kNotComparedDistance / 2}}};
   const correlation::Summary &covered = correlated.result.covered, &still = correlated.result.still;
   Rows rows;
   add_rows(correlated.differences.effects, "", rows);
@@ -140,6 +151,7 @@ std::string correlation_page(const Correlated& correlated, const std::vector<Pag
                            1e3 * covered.mean_size, signed_millimetres(covered.mean), 1e3 * still.mean_size)),
       fmt::arg("lines", lines_of(correlated.fitted)), fmt::arg("thickness", 1e3 * correlated.thickness),
       fmt::arg("distances", distance_row("covered skin", covered) + distance_row("still skin", still)),
+      fmt::arg("section", inspect::view_section(view)), fmt::arg("view", inspect::view_scripts(view)),
       fmt::arg("pictures", drawn), fmt::arg("rows", rows.table), fmt::arg("notes", rows.notes),
       fmt::arg("worn", html_escaped(correlated.worn.file)),
       fmt::arg("scan", html_escaped(correlated.fitted.scan)));

@@ -1,6 +1,8 @@
+#include "fit/correlation_report.hpp"
+
 #include <fmt/format.h>
 
-#include "fit/correlation_report.hpp"
+#include "geometry/json.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -9,13 +11,6 @@ using Json = nlohmann::ordered_json;
 using correlation::SkinPart;
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
-
-Json json_of(const Eigen::Isometry3d& pose) {
-  Json rows = Json::array();
-  for (int r = 0; r < 4; ++r)
-    rows.push_back({pose.matrix()(r, 0), pose.matrix()(r, 1), pose.matrix()(r, 2), pose.matrix()(r, 3)});
-  return rows;
-}
 
 Json json_of(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
@@ -70,7 +65,7 @@ Json report_of(const Correlated& correlated) {
   report["status"] = "ok";
   report["reason"] = nullptr;
   report["thickness"] = correlated.thickness;
-  report["alignment"] = {{"simulated_from_worn", json_of(alignment.patch_from_scan)},
+  report["alignment"] = {{"simulated_from_worn", geometry::json_of(alignment.patch_from_scan)},
                          {"status", to_string(alignment.status)},
                          {"steps", alignment.steps},
                          {"residual", alignment.residual}};

@@ -37,7 +37,8 @@ struct PagePicture {
   std::string caption;
 };
 
-/// HTML that needs no other file, for a screen of any width or A4.
-std::string correlation_page(const Correlated& correlated, const std::vector<PagePicture>& pictures);
+/// HTML that needs no other file, for a screen of any width or A4. \param model of inspect::correlation_glb
+std::string correlation_page(const Correlated& correlated, const std::vector<PagePicture>& pictures,
+                             const std::string& model);
 
 }  // namespace tensegric_fit::fit

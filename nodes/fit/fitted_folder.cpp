@@ -45,7 +45,7 @@ void read_export(const json& document, FittedFolder& fitted) {
   if (!document.at("body").value("head", true))
     throw Refusal(
         std::string(refusal::kMissingPart) + ":head",
-        "this export has no head, without which its body cannot be measured anew: export it with tffd's "
+        "this export has no head, without which its body cannot be measured again: export it with tffd's "
         "parameter with_head, or take a folder of fit");
   fitted.scan = "scan " + document.at("scan").at("scan_id").get<std::string>();
   add_lines(document.at("garment").at("lines"), fitted);

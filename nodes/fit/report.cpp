@@ -8,6 +8,8 @@
 
 #include "files/csv.hpp"
 #include "fit/effects.hpp"
+#include "geometry/json.hpp"
+#include "inspect/colour_scale.hpp"
 #include "inspect/warning_words.hpp"
 #include "tffd/under_constriction.hpp"
 
@@ -15,20 +17,7 @@ namespace tensegric_fit::fit {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json json_of(const Eigen::Vector3d& v) {
-  return Json::array({v.x(), v.y(), v.z()});
-}
-
-Json json_of(const Eigen::Isometry3d& pose) {
-  Json rows = Json::array();
-  for (int r = 0; r < 4; ++r) {
-    Json row = Json::array();
-    for (int c = 0; c < 4; ++c) row.push_back(pose.matrix()(r, c));
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
+using geometry::json_of;
 
 Json axes_of(const mesh_files::Reading& reading) {
   Json rows = Json::array();
@@ -150,12 +139,15 @@ void add_fit(const Body& body, const Fitting& fitting, const Fit& fit,
     report["effects"][effect.name] = {
         {"before", effect.before}, {"after", effect.after}, {"mm", 1e3 * (effect.after - effect.before)}};
   const auto [low, high] = std::minmax_element(fit.distortion.begin(), fit.distortion.end());
-  Json tight = Json::array();
-  for (std::size_t v = 0; v < fit.distortion.size(); ++v)
-    if (fit.distortion[v] < kOverConstricted) tight.push_back(v);
+  Json tight = Json::array(), stretched = Json::array();
+  for (std::size_t v = 0; v < fit.distortion.size(); ++v) {
+    if (fit.distortion[v] < inspect::kOverConstricted) tight.push_back(v);
+    if (fit.distortion[v] > inspect::kOverStretched) stretched.push_back(v);
+  }
   report["distortion"] = {{"min", *low},
                           {"max", *high},
                           {"over_constricted", std::move(tight)},
+                          {"over_stretched", std::move(stretched)},
                           {"under_constricted", tffd::under_constricted_skin(warnings)}};
   report["warnings"] = report["notices"] = Json::array();
   for (const geometry::FitWarning& warning : warnings)

@@ -22,9 +22,6 @@ struct Source {
   std::string garment = {};            ///< its name
 };
 
-/// Body vertices whose area shrinks below this share are called over-constricted (P1 Fig. 8).
-inline constexpr double kOverConstricted = 0.8;
-
 /// The report of a run that went through; `fitting` and `fit` are null where only measured. `warnings`: of
 /// the fit.
 nlohmann::ordered_json report_of(const Source& source, const Body& body, const Fitting* fitting,

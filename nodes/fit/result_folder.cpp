@@ -1,27 +1,65 @@
 #include "fit/result_folder.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
 #include "files/whole_folder.hpp"
-#include "geometry/status.hpp"
 
 namespace tensegric_fit::fit {
 
+namespace {
+
 namespace fs = std::filesystem;
 
+/// An old result is never taken for a new one, nor a part of one for the whole.
 void remove_results(const fs::path& folder, const ResultNames& names) {
   std::error_code not_there;
   for (const char* name : names) fs::remove(folder / name, not_there);
 }
 
-const std::string* endangered_input(const std::vector<const std::string*>& inputs, const fs::path& folder,
-                                    const ResultNames& names) {
+/// The first of the inputs that the results would take the place of, or null.
+const std::string* endangered_input(const ProgramRun& run) {
   std::error_code not_there;
-  for (const std::string* input : inputs)
-    for (const char* name : names)
-      if (fs::equivalent(*input, folder / name, not_there)) return input;
+  for (const std::string& input : run.inputs)
+    for (const char* name : run.names)
+      if (fs::equivalent(input, fs::path(run.out) / name, not_there)) return &input;
   return nullptr;
+}
+
+}  // namespace
+
+int run_into_folder(const ProgramRun& run) {
+  if (const std::string* input = endangered_input(run)) {
+    fmt::print(stderr, "--out: the results would overwrite the input {}\n", *input);
+    return 2;
+  }
+  try {
+    fs::create_directories(run.out);
+    remove_results(run.out, run.names);
+    run.work();
+    return 0;
+  } catch (const geometry::Refusal& refusal) {
+    fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());
+    remove_results(run.out, run.names);
+    try {
+      run.refused(refusal);
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "{}: {}\n", run.program, error.what());
+    }
+    return 3;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}: {}\n", run.program, error.what());
+    remove_results(run.out, run.names);
+    return 1;
+  }
+}
+
+void say_progress(bool quiet, const std::string& what) {
+  if (!quiet && isatty(STDERR_FILENO) != 0) fmt::print(stderr, "{} ...\n", what);
 }
 
 void write_text(const std::string& path, const std::string& text) {

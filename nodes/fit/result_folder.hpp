@@ -4,24 +4,35 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
 #include "geometry/ply.hpp"
+#include "geometry/status.hpp"
 
 namespace tensegric_fit::fit {
 
 /// Names of the files that a program writes.
 using ResultNames = std::vector<const char*>;
 
-/// An old result is never taken for a new one, nor a part of one for the whole.
-void remove_results(const std::filesystem::path& folder, const ResultNames& names);
+/// What a program that writes its results into a folder does, and its exit code: 0 done; 1 something cannot
+/// be written, and nothing is left; 2 an input (a path, or empty) would be overwritten; 3 the input is
+/// refused, and what `refused` writes is left alone. What is wrong goes to stderr.
+struct ProgramRun {
+  const char* program;
+  std::string out;
+  ResultNames names;
+  std::vector<std::string> inputs;
+  std::function<void()> work;
+  std::function<void(const geometry::Refusal&)> refused;
+};
+int run_into_folder(const ProgramRun& run);
 
-/// The first of the inputs (paths, or empty) that the results would take the place of, or null.
-const std::string* endangered_input(const std::vector<const std::string*>& inputs,
-                                    const std::filesystem::path& folder, const ResultNames& names);
+/// Says on a terminal what is being done, unless `quiet`.
+void say_progress(bool quiet, const std::string& what);
 
 /// Writes a whole file or none. \throw std::runtime_error where it cannot be written
 void write_text(const std::string& path, const std::string& text);

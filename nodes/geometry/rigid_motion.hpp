@@ -5,6 +5,9 @@
 
 namespace tensegric_fit::geometry {
 
+/// A turn, rad, then a shift, m; about some centre.
+using SmallMotion = Eigen::Matrix<double, 6, 1>;
+
 /// Turns about `centre` by the angle |turn|, rad, round the axis `turn`, then shifts.
 inline Eigen::Isometry3d motion_about(const Eigen::Vector3d& centre, const Eigen::Vector3d& turn,
                                       const Eigen::Vector3d& shift) {
@@ -12,6 +15,19 @@ inline Eigen::Isometry3d motion_about(const Eigen::Vector3d& centre, const Eigen
   const Eigen::Vector3d axis = angle > 0 ? Eigen::Vector3d(turn / angle) : Eigen::Vector3d::UnitX();
   return Eigen::Translation3d(centre + shift) * Eigen::AngleAxisd(angle, axis) *
          Eigen::Translation3d(-centre);
+}
+
+inline Eigen::Isometry3d motion_about(const Eigen::Vector3d& centre, const SmallMotion& motion) {
+  return motion_about(centre, motion.head<3>(), motion.tail<3>());
+}
+
+/// How far small motions about `centre` move a point along `normal`: the row of a registration from points to
+/// planes.
+inline SmallMotion along_normal(const Eigen::Vector3d& point, const Eigen::Vector3d& centre,
+                                const Eigen::Vector3d& normal) {
+  SmallMotion row;
+  row << (point - centre).cross(normal), normal;
+  return row;
 }
 
 }  // namespace tensegric_fit::geometry

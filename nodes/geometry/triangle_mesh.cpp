@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "geometry/disjoint_sets.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::geometry {
@@ -118,22 +119,13 @@ std::vector<std::vector<int>> neighbours_of(std::size_t vertex_count,
 }
 
 std::vector<int> components_of(const TriangleMesh& mesh) {
-  std::vector<int> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    for (int k = 1; k < 3; ++k) {
-      const int a = root(t[0]), b = root(t[k]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  }
+  DisjointSets sets(mesh.vertices.size());
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    for (int k = 1; k < 3; ++k) sets.join(t[0], t[k]);
   std::vector<int> number(mesh.vertices.size(), -1), component(mesh.triangles.size());
   int count = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const int r = root(mesh.triangles[t][0]);
+    const int r = sets.root(mesh.triangles[t][0]);
     if (number[r] < 0) number[r] = count++;
     component[t] = number[r];
   }

@@ -12,6 +12,10 @@ namespace tensegric_fit::inspect {
 /// farther from 1. Displacement: how far the skin went, metres. Plain: one neutral colour.
 enum class ColourBy { distortion, stretch, displacement, plain };
 
+/// Skin area below which a garment constricts too much, after / before (P1 Fig. 8), and its reciprocal, above
+/// which it stretches too much.
+inline constexpr double kOverConstricted = 0.8, kOverStretched = 1 / kOverConstricted;
+
 /// `neutral` is drawn in kNeutral, `low` and `high` in the colours of the ends.
 struct ColourScale {
   ColourBy by;

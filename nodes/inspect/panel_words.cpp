@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "inspect/colour_scale.hpp"
+
 namespace tensegric_fit::inspect::words {
 namespace {
 
@@ -79,6 +81,14 @@ std::string fit_ended(const std::string& garment, const std::string& status, con
   return words;
 }
 
+std::string without_details(std::string words) {
+  for (std::size_t at = 0; (at = words.find(" (Details: ", at)) != std::string::npos;) {
+    const std::size_t end = words.find(')', at);
+    words.erase(at, end == std::string::npos ? end : end + 1 - at);
+  }
+  return words;
+}
+
 std::string line_warning(const LineOutcome& line) {
   constexpr double kReached = 1e-3;
   if (line.infeasible && line.ratio > line.request + kReached)
@@ -133,16 +143,6 @@ std::string change(double metres) {
 
 std::string per_cent(double ratio) {
   return fmt::format("{:.1f} %", 100 * ratio);
-}
-
-std::string pull(double newtons) {
-  return fmt::format("{:.{}f} N", newtons, newtons < 9.95 ? 1 : 0);
-}
-
-std::string pull_help(double newtons, double kilopascals) {
-  std::string words = "The line pulls with " + pull(newtons);
-  if (kilopascals > 0) words += fmt::format(" and presses with up to {:.1f} kPa", kilopascals);
-  return words + ". Checked against a finer model of tissue, not on people.";
 }
 
 }  // namespace tensegric_fit::inspect::words

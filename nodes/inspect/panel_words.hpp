@@ -11,8 +11,8 @@ namespace tensegric_fit::inspect::words {
 // Labels; an ampersand comes before the key that reaches it with Alt.
 inline constexpr char kGarment[] = "&Garment", kPutOn[] = "&Put on", kUndo[] = "&Undo", kRedo[] = "R&edo",
                       kLinked[] = "&Both sides alike", kReset[] = "&Reset", kCompare[] = "&Compare",
-                      kExport[] = "E&xport", kFolder[] = "&Folder", kCustomer[] = "C&ustomer",
-                      kBlendLabel[] = "&Scan to garment", kRegions[] = "Regions";
+                      kExport[] = "E&xport", kFolder[] = "&Folder", kCustomer[] = "Custo&mer",
+                      kMarks[] = "Mar&ks", kBlendLabel[] = "&Scan to garment", kRegions[] = "Regions";
 // How the body before is shown with the worn one.
 inline constexpr char kAlone[] = "garment alone", kAsGhost[] = "scan as a ghost",
                       kBothSides[] = "scan left, garment right", kAsWipe[] = "wipe from scan to garment",
@@ -20,6 +20,7 @@ inline constexpr char kAlone[] = "garment alone", kAsGhost[] = "scan as a ghost"
                       kCompareHelp[] = "The body before beside, over or in place of the one with the garment";
 inline constexpr char kViewFront[] = "Front", kViewLeft[] = "Left", kViewBack[] = "Back",
                       kViewRight[] = "Right", kViewAll[] = "All", kViewFollows[] = "follows",
+                      kMarksHelp[] = "Landmarks and the tapes of the girths, shown or not",
                       kViewHelp[] = "The view from there; All: her whole body, or where the garment is",
                       kViewFollowsHelp[] = "Another garment turns the view to where it acts";
 inline constexpr char kLine[] = "Line", kNeutral[] = "neutral length", kNow[] = "now", kPull[] = "pull";
@@ -57,6 +58,9 @@ std::string not_exported(const std::string& message);
 std::string fit_ended(const std::string& garment, const std::string& status, const std::string& note,
                       double milliseconds);
 
+/// Without what is in "(Details: ...)": it is there on hover.
+std::string without_details(std::string words);
+
 /// What a line does beyond its figures; empty where there is nothing to say. Lengths in metres.
 struct LineOutcome {
   double request, ratio;  ///< asked and reached, over the length at rest
@@ -66,9 +70,6 @@ struct LineOutcome {
 };
 std::string line_warning(const LineOutcome& line);
 
-/// Skin area below which a garment constricts too much, after / before, and its reciprocal, above which it
-/// stretches too much.
-inline constexpr double kOverConstricted = 0.8, kOverStretched = 1 / kOverConstricted;
 /// "" where the skin is neither pressed nor stretched as far as that.
 std::string over_constriction(double area, const std::string& landmark);
 
@@ -83,8 +84,5 @@ std::string change(double metres);
 /// "+6 mm".
 std::string rise(double metres);
 std::string per_cent(double ratio);
-std::string pull(double newtons);
-/// What that figure means; pressure 0: unknown.
-std::string pull_help(double newtons, double kilopascals);
 
 }  // namespace tensegric_fit::inspect::words

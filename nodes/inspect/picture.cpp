@@ -15,7 +15,7 @@ namespace {
 constexpr int kOversampling = 2;  // along each axis
 constexpr double kLineLift =
     0.012;  // metres; between control nodes a line runs under the skin, but less than this
-const cv::Scalar kBackground(255, 255, 255);
+constexpr std::uint8_t kBackground = 255;  // of each colour
 
 View view_along(const Eigen::Isometry3d& body_from_scan, const Eigen::Vector3d& forward_in_body,
                 const Eigen::Vector3d& centre, double height) {
@@ -71,7 +71,8 @@ cv::Mat3b shade(const geometry::TriangleMesh& mesh, const std::vector<Colour>& c
     const Colour& colour = colours.empty() ? kNeutral : colours[vertex];
     return Eigen::Vector3f(colour[0], colour[1], colour[2]);
   };
-  cv::Mat3b picture(raster.triangle.size(), cv::Vec3b(kBackground[0], kBackground[1], kBackground[2]));
+  cv::Mat3b picture(raster.triangle.size());
+  std::fill_n(picture.ptr(), picture.total() * picture.elemSize(), kBackground);
   const auto at = [&](int index, double x, double y) -> cv::Vec3b {
     const Eigen::Vector3i& t = mesh.triangles[index];
     const Eigen::Vector3f w =

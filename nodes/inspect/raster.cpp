@@ -77,12 +77,15 @@ void draw_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
 
 Raster rasterise(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3i>& triangles,
                  int width, int height) {
-  Raster raster{cv::Mat1f(height, width, std::numeric_limits<float>::infinity()),
-                cv::Mat1i(height, width, -1)};
+  Raster raster{cv::Mat1f(height, width), cv::Mat1i(height, width)};
   // Each strip of rows takes the triangles in order, so the number of threads changes nothing.
   constexpr int kStrips = 4;
   cv::parallel_for_(cv::Range(0, kStrips), [&](const cv::Range& strips) {
     const int top = strips.start * height / kStrips, bottom = strips.end * height / kStrips;
+    for (int y = top; y < bottom; ++y) {  // faster than OpenCV fills
+      std::fill_n(raster.depth[y], width, std::numeric_limits<float>::infinity());
+      std::fill_n(raster.triangle[y], width, -1);
+    }
     for (std::size_t t = 0; t < triangles.size(); ++t)
       draw_triangle(points[triangles[t][0]], points[triangles[t][1]], points[triangles[t][2]],
                     static_cast<int>(t), top, bottom, raster);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "inspect/pointing.hpp"
+
 namespace tensegric_fit::inspect::words {
 
 std::string of_scan(const std::string& scan_id) {
@@ -57,6 +59,15 @@ std::string nearest(const std::string& landmark, double distance) {
 std::string pointed(ColourBy by, double value, const std::string& landmark, double distance) {
   const std::string said = value_there(by, value), near = nearest(landmark, distance);
   return said + (said.empty() || near.empty() ? "" : ", ") + near;
+}
+
+std::string measure(const std::string& name, const std::string& kind) {
+  return spoken(name) + (kind.empty() || name == "stature" ? "" : " " + kind);
+}
+
+std::string centimetre_change(double metres) {
+  const double millimetres = std::round(1e3 * metres);
+  return millimetres == 0 ? "0" : fmt::format("{:+.1f}", millimetres / 10);
 }
 
 }  // namespace tensegric_fit::inspect::words

@@ -24,6 +24,7 @@ inline constexpr char
     kBlendHelp[] = "Blend: 0 is the body as scanned, 1 under the garment. Wipe: where the border lies.",
     kPaleHelp[] = "What is shown is of an earlier scan: all of it pale. The panel sets it.",
     kUnheldHelp[] = "Skin that the garment does not reach or hold is green.",
+    kUnheldLegend[] = "not reached or not held by the garment",
     kColourHelp[] =
         "What the colours of the skin stand for: its area or its length after / before, or how far it moved.",
     kScaleHelp[] = "Fixed: the same colours for every body. Automatic: as wide as this body's values.",
@@ -61,5 +62,10 @@ std::string position(const Eigen::Vector3d& place);
 std::string nearest(const std::string& landmark, double distance);
 /// Value and landmark, beside the mark on the skin.
 std::string pointed(ColourBy by, double value, const std::string& landmark, double distance);
+
+// Reports. "upper_arm_L" and "girth": left upper arm girth; "stature" needs no kind.
+std::string measure(const std::string& name, const std::string& kind);
+/// In centimetres with a sign, and none where nothing is seen of it.
+std::string centimetre_change(double metres);
 
 }  // namespace tensegric_fit::inspect::words

@@ -40,12 +40,18 @@ std::string bytes_of(const std::string& path) {
 std::vector<int> first_in_place(const std::vector<Eigen::Vector3d>& vertices) {
   std::vector<int> order(vertices.size()), first(vertices.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int v) { return std::tuple(vertices[v].x(), vertices[v].y(), vertices[v].z(), v); };
+  const auto key = [&](int v) {  // what is not finite comes last, each its own place
+    const bool finite = vertices[v].allFinite();
+    const Eigen::Vector3d p = finite ? vertices[v] : Eigen::Vector3d::Zero();
+    return std::tuple(!finite, p.x(), p.y(), p.z(), v);
+  };
   std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
   for (std::size_t i = 0; i < order.size(); ++i)
     first[order[i]] = i > 0 && vertices[order[i]] == vertices[order[i - 1]] ? first[order[i - 1]] : order[i];
   return first;
 }
+
+}  // namespace
 
 TriangleMesh tidy(const TriangleMesh& mesh) {
   const std::vector<int> first = first_in_place(mesh.vertices);
@@ -56,8 +62,6 @@ TriangleMesh tidy(const TriangleMesh& mesh) {
   }
   return geometry::submesh(joined, std::vector<char>(joined.triangles.size(), 1));
 }
-
-}  // namespace
 
 std::string ending_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();

@@ -24,6 +24,10 @@ bool is_mesh_name(const std::string& path);
 /// \throw Refusal broken_file, bad_mesh (no faces, indices out of range), non_finite, too_many_points
 geometry::TriangleMesh read_mesh(const std::string& path);
 
+/// Vertices in one place are one; triangles without three corners and vertices without a triangle are left
+/// out.
+geometry::TriangleMesh tidy(const geometry::TriangleMesh& mesh);
+
 /// Text with x y z at the start of each line, parted by blanks, commas or semicolons; further columns are
 /// left out, and a first line that is a heading or a count. \throw Refusal broken_file, too_many_points
 std::vector<Eigen::Vector3d> read_xyz(const std::string& path);

@@ -1,7 +1,10 @@
 #include "mesh_files/samples.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "geometry/status.hpp"
 
@@ -11,34 +14,92 @@ namespace {
 using Eigen::Vector3d;
 using geometry::TriangleMesh;
 
-// Every edge is passed once in each direction at most.
-bool runs_alike(const TriangleMesh& mesh) {
-  const std::vector<geometry::TriangleSide> sides = geometry::sorted_sides(mesh);
-  for (std::size_t i = 1; i < sides.size(); ++i)
-    if (sides[i - 1].low == sides[i].low && sides[i - 1].high == sides[i].high &&
-        sides[i - 1].forward == sides[i].forward)
-      return false;
-  return true;
-}
+/// The pieces that a surface falls into, and how their triangles are to be turned to run alike, outwards.
+struct Sides {
+  std::vector<double> turn;  // of each triangle, 1 or -1
+  bool known = false;        // on most of the surface
+};
 
-// For each piece of the mesh, 1, or -1 where its triangles run clockwise from outside, by its volume about
-// its middle.
-std::vector<double> outside_of(const TriangleMesh& mesh, const std::vector<int>& piece,
-                               const std::vector<Vector3d>& areas) {
-  const int count = piece.empty() ? 0 : *std::max_element(piece.begin(), piece.end()) + 1;
-  std::vector<double> area(count, 0), volume(count, 0);
-  std::vector<Vector3d> middle(count, Vector3d::Zero());
+/// Triangles that are joined by edges of two, each with whether it runs against the first of its piece.
+class Pieces {
+ public:
+  explicit Pieces(std::size_t count) : parent_(count), against_(count, 0) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+
+  int root(int t) { return seen(t).first; }
+  bool is_against(int t) { return seen(t).second; }
+
+  /// False where they are joined already, the other way round.
+  bool join(int a, int b, bool against) {
+    const auto [of_a, a_against] = seen(a);
+    const auto [of_b, b_against] = seen(b);
+    const bool differ = against != (a_against != b_against);
+    if (of_a == of_b) return !differ;
+    parent_[std::max(of_a, of_b)] = std::min(of_a, of_b);
+    against_[std::max(of_a, of_b)] = differ;
+    return true;
+  }
+
+ private:
+  std::pair<int, bool> seen(int t) {
+    bool against = false;
+    int root = t;
+    for (; parent_[root] != root; root = parent_[root]) against = against != (against_[root] != 0);
+    for (bool left = against; parent_[t] != root && t != root;) {  // shorter for the next time
+      const int next = parent_[t];
+      const bool further = left != (against_[t] != 0);
+      parent_[t] = root;
+      against_[t] = left;
+      left = further;
+      t = next;
+    }
+    return {root, against};
+  }
+
+  std::vector<int> parent_;
+  std::vector<char> against_;
+};
+
+Sides sides_of(const TriangleMesh& mesh, const std::vector<Vector3d>& areas) {
+  constexpr double kSolid = 1e-3;       // volume over area to the power 1.5; of a ball 0.09, of a sheet 0
+  constexpr double kMostFaults = 0.01;  // share of edges: a surface with one side only
+  Pieces pieces(areas.size());
+  const std::vector<geometry::TriangleSide> sides = geometry::sorted_sides(mesh);
+  std::size_t edges = 0, faults = 0;
+  for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+    while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high) ++end;
+    if (end - i != 2) continue;
+    ++edges;
+    if (!pieces.join(sides[i].triangle(), sides[i + 1].triangle(), sides[i].forward == sides[i + 1].forward))
+      ++faults;
+  }
+  std::vector<double> area(areas.size(), 0), volume(areas.size(), 0);  // of each piece, at its first triangle
+  std::vector<Vector3d> middle(areas.size(), Vector3d::Zero());
   for (std::size_t f = 0; f < areas.size(); ++f) {
     const Eigen::Vector3i& t = mesh.triangles[f];
-    area[piece[f]] += areas[f].norm();
-    middle[piece[f]] +=
-        areas[f].norm() / 3 * (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]);
+    const int piece = pieces.root(static_cast<int>(f));
+    area[piece] += areas[f].norm();
+    middle[piece] += areas[f].norm() / 3 * (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]);
   }
-  for (std::size_t f = 0; f < areas.size(); ++f)
-    volume[piece[f]] += areas[f].dot(mesh.vertices[mesh.triangles[f][0]] - middle[piece[f]] / area[piece[f]]);
-  std::vector<double> outside;
-  for (const double v : volume) outside.push_back(v < 0 ? -1 : 1);
-  return outside;
+  Sides result;
+  for (std::size_t f = 0; f < areas.size(); ++f) {
+    const int piece = pieces.root(static_cast<int>(f));
+    result.turn.push_back(pieces.is_against(static_cast<int>(f)) ? -1 : 1);
+    if (area[piece] > 0)
+      volume[piece] += result.turn[f] / 3 *
+                       areas[f].dot(mesh.vertices[mesh.triangles[f][0]] - middle[piece] / area[piece]);
+  }
+  double whole = 0, solid = 0;
+  for (std::size_t f = 0; f < areas.size(); ++f) {
+    const int piece = pieces.root(static_cast<int>(f));
+    if (volume[piece] < 0) result.turn[f] = -result.turn[f];
+    whole += areas[f].norm();
+    if (std::abs(volume[piece]) >= kSolid * std::pow(area[piece], 1.5)) solid += areas[f].norm();
+  }
+  result.known =
+      static_cast<double>(faults) <= kMostFaults * static_cast<double>(edges) && 2 * solid >= whole;
+  return result;
 }
 
 TriangleMesh usable(const TriangleMesh& mesh) {
@@ -53,6 +114,25 @@ TriangleMesh usable(const TriangleMesh& mesh) {
   return result;
 }
 
+// One triangle of those with the same corners.
+TriangleMesh without_repeated(const TriangleMesh& mesh) {
+  std::vector<std::array<int, 4>> corners;  // ascending, and the triangle
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    std::array<int, 3> of{mesh.triangles[f][0], mesh.triangles[f][1], mesh.triangles[f][2]};
+    std::sort(of.begin(), of.end());
+    corners.push_back({of[0], of[1], of[2], static_cast<int>(f)});
+  }
+  std::sort(corners.begin(), corners.end());
+  std::vector<char> keep(mesh.triangles.size(), 1);
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    if (std::equal(corners[i].begin(), corners[i].begin() + 3, corners[i - 1].begin()))
+      keep[corners[i][3]] = 0;
+  TriangleMesh result{mesh.vertices, {}};
+  for (std::size_t f = 0; f < keep.size(); ++f)
+    if (keep[f]) result.triangles.push_back(mesh.triangles[f]);
+  return result;
+}
+
 // Of a sequence that fills the square evenly (Roberts' R2: powers of 1 / the plastic number).
 Eigen::Vector2d evenly(int i) {
   const auto share = [i](double step) { return std::fmod(0.5 + step * i, 1.0); };
@@ -62,7 +142,7 @@ Eigen::Vector2d evenly(int i) {
 }  // namespace
 
 geometry::PointCloud surface_samples(const TriangleMesh& given, int count) {
-  const TriangleMesh mesh = usable(given);
+  const TriangleMesh mesh = without_repeated(usable(given));
   std::vector<Vector3d> areas;
   double whole = 0;
   for (const Eigen::Vector3i& t : mesh.triangles) {
@@ -70,9 +150,7 @@ geometry::PointCloud surface_samples(const TriangleMesh& given, int count) {
     whole += areas.back().norm();
   }
   if (!(whole > 0)) throw geometry::Refusal(geometry::refusal::kBadMesh, "the mesh has no area");
-  const bool oriented = runs_alike(mesh);
-  const std::vector<int> piece = geometry::components_of(mesh);
-  const std::vector<double> outside = outside_of(mesh, piece, areas);
+  const Sides sides = sides_of(mesh, areas);
 
   geometry::PointCloud cloud;
   double before = 0;  // area
@@ -86,7 +164,7 @@ geometry::PointCloud surface_samples(const TriangleMesh& given, int count) {
       if (at.sum() > 1) at = Eigen::Vector2d::Ones() - at;
       const Vector3d& a = mesh.vertices[t[0]];
       cloud.points.push_back(a + at.x() * (mesh.vertices[t[1]] - a) + at.y() * (mesh.vertices[t[2]] - a));
-      if (oriented) cloud.normals.push_back(outside[piece[f]] / area * areas[f]);
+      if (sides.known) cloud.normals.push_back(sides.turn[f] / area * areas[f]);
     }
   }
   return cloud;

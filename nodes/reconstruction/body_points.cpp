@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "geometry/percentile.hpp"
 #include "reconstruction/voxel_grid.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -47,14 +48,13 @@ std::vector<int> clusters_of(const VoxelGrid& grid) {
 std::vector<int> without_stray(const Points& points) {
   if (points.empty()) return {};
   const VoxelGrid grid(points, kNeighbourhood);
-  std::vector<int> company(grid.cell_count()), cells, sorted;
+  std::vector<int> company(grid.cell_count()), cells, companies;
   for (int c = 0; c < grid.cell_count(); ++c) {
     grid.around(c, cells);
     for (int other : cells) company[c] += grid.end(other) - grid.begin(other);
-    sorted.insert(sorted.end(), grid.end(c) - grid.begin(c), company[c]);
+    companies.insert(companies.end(), grid.end(c) - grid.begin(c), company[c]);
   }
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  const int enough = std::max(3, sorted[sorted.size() / 2] / 10);
+  const int enough = std::max(3, geometry::median(companies) / 10);
   std::vector<int> kept;
   for (int c = 0; c < grid.cell_count(); ++c)
     if (company[c] >= enough)

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/percentile.hpp"
 #include "geometry/triangle_mesh.hpp"
-#include "reconstruction/percentile.hpp"
 #include "reconstruction/voxel_grid.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -140,10 +140,10 @@ std::vector<Place> judged_places(const PointCloud& body) {
 std::vector<Place> doubled(const std::vector<Place>& places, double height) {
   std::vector<double> deviations, separations;
   for (const Place& p : places) deviations.push_back(p.deviation);
-  const double thickest = kFuzzy * percentile(deviations, 0.5);
+  const double thickest = kFuzzy * geometry::percentile(deviations, 0.5);
   for (const Place& p : places)
     if (p.within < thickest) separations.push_back(p.separation);
-  const double least = std::max(kLeastOffset, kOverRegistration * percentile(separations, 0.95));
+  const double least = std::max(kLeastOffset, kOverRegistration * geometry::percentile(separations, 0.95));
   std::vector<Place> result;
   std::copy_if(places.begin(), places.end(), std::back_inserter(result), [&](const Place& p) {
     return p.point.z() > kLowest && p.point.z() < kHighest * height && !p.beside && p.within < thickest &&
@@ -186,7 +186,7 @@ std::vector<geometry::Fracture> find_fractures(const PointCloud& body) {
     for (const Place& p : group)
       fracture.radius = std::max(fracture.radius, (p.point - fracture.centre).norm() + kFractureReach);
     fracture.area = static_cast<double>(group.size()) * kSkinOfPlace;
-    fracture.offset = percentile(offsets, 0.9);
+    fracture.offset = geometry::percentile(offsets, 0.9);
     fractures.push_back(fracture);
   }
   std::stable_sort(fractures.begin(), fractures.end(),

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <queue>
 #include <tuple>
 
+#include "geometry/disjoint_sets.hpp"
 #include "reconstruction/sides.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -53,19 +53,10 @@ class Graph {
             -(distance[edges_[e].first] + distance[edges_[e].second] + length(static_cast<int>(e))),
             static_cast<int>(e));
     std::sort(by_length.begin(), by_length.end());
-    std::vector<int> parent(mesh_.triangles.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto group = [&parent](int t) {
-      while (parent[t] != t) t = parent[t] = parent[parent[t]];
-      return t;
-    };
+    geometry::DisjointSets tree(mesh_.triangles.size());
     Loop best;
     for (const auto& [minus_length, e] : by_length) {
-      const int left = group(edges_[e].left), right = group(edges_[e].right);
-      if (left != right) {
-        parent[std::max(left, right)] = std::min(left, right);
-        continue;
-      }
+      if (tree.join(edges_[e].left, edges_[e].right)) continue;
       Loop loop = closed_by(e, towards_root);
       if (loop.length < best.length) best = std::move(loop);
     }

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/percentile.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/triangle_mesh.hpp"
-#include "reconstruction/percentile.hpp"
 #include "reconstruction/sensor_patches.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -51,8 +51,8 @@ Points parted(const SensorPatches& all, double height) {
   const auto largest = [](const std::vector<double>& of, const Patch& patch) {
     return *std::max_element(of.begin() + patch.begin, of.begin() + patch.end);
   };
-  const double least = std::max(kLeastDifference, kOverUsual * percentile(differences, 0.5)),
-               thickest = kFuzzySheet * percentile(thicknesses, 0.5);
+  const double least = std::max(kLeastDifference, kOverUsual * geometry::percentile(differences, 0.5)),
+               thickest = kFuzzySheet * geometry::percentile(thicknesses, 0.5);
   Points found, result;
   for (const Patch& patch : all.patches)
     if (patch.centre.z() > kLowestMended && patch.centre.z() < kHighestMended * height &&

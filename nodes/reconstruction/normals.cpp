@@ -7,9 +7,9 @@
 #include <numeric>
 #include <tuple>
 
-#include "geometry/local_plane.hpp"
 #include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
+#include "geometry/principal_axes.hpp"
 #include "reconstruction/visibility.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -36,7 +36,7 @@ void plane_normals(const std::vector<Eigen::Vector3d>& points, const geometry::P
   for (std::size_t at = begin; at < end; ++at) {
     const int i = tree.order()[at];
     tree.nearest(points[i], kPlaneNeighbours, near);
-    normals[i] = geometry::local_plane(points, near).normal;
+    normals[i] = geometry::principal_axes(points, near, points[near.front()]).eigenvectors().col(0);
     for (int k = 0; k < std::min<int>(kLinks + 1, static_cast<int>(near.size())); ++k)
       if (near[k] > i || k == kLinks) links.push_back({0, i, near[k]});
   }

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "geometry/decimate.hpp"
+#include "geometry/moved_cloud.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
 #include "reconstruction/body_points.hpp"
@@ -49,11 +50,6 @@ constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher
 
 constexpr double kSampleCube = 0.007;  // m: 30,000 samples of a person
 
-void transform(PointCloud& cloud, const Eigen::Isometry3d& by) {
-  for (Eigen::Vector3d& p : cloud.points) p = by * p;
-  for (Eigen::Vector3d& n : cloud.normals) n = by.linear() * n;
-}
-
 PointCloud pick(const PointCloud& cloud, const std::vector<int>& indices) {
   PointCloud result;
   for (int i : indices) {
@@ -62,11 +58,6 @@ PointCloud pick(const PointCloud& cloud, const std::vector<int>& indices) {
     if (!cloud.sensor.empty()) result.sensor.push_back(cloud.sensor[i]);
   }
   return result;
-}
-
-void append(PointCloud& cloud, const PointCloud& more) {
-  cloud.points.insert(cloud.points.end(), more.points.begin(), more.points.end());
-  cloud.normals.insert(cloud.normals.end(), more.normals.begin(), more.normals.end());
 }
 
 /// Without duplicates, and no denser than helps: time and memory stay bounded whatever the scanner delivers.
@@ -116,7 +107,7 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
   const Eigen::Vector3d middle = geometry::bounding_box(scan.points)[0];
   from_scan = floor ? level(floor->normal, floor->offset, middle)
                     : level(Eigen::Vector3d::UnitZ(), middle.z(), middle);
-  transform(scan, from_scan);
+  geometry::move(scan, from_scan);
   if (floor) {
     const double cut = std::clamp(4 * floor->noise, 0.004, 0.008);
     std::vector<int> above;
@@ -136,8 +127,8 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
   on_floor = floor && lowest_of(body.points) <= kOffTheFloor;
   if (!on_floor) {
     const Eigen::Isometry3d down(Eigen::Translation3d(0, 0, -lowest_of(body.points)));
-    transform(body, down);
-    transform(left_out, down);
+    geometry::move(body, down);
+    geometry::move(left_out, down);
     from_scan = down * from_scan;
   }
   return body;
@@ -225,7 +216,7 @@ void stand(Person& person, RegisteredBody& model, const body_model::Standing& st
   model.vertical = body_model::upright(model, standing);
   model.ground = body_model::ground_under(model, person.cloud.points, standing);
   const Eigen::Isometry3d to_ground = level(model.vertical, model.ground, person.cloud.points.front());
-  transform(person.cloud, to_ground);
+  geometry::move(person.cloud, to_ground);
   model = moved(model, to_ground);
   person.from_scan = to_ground * person.from_scan;
 }
@@ -235,7 +226,7 @@ BodyMesh surface_of(const Person& person, const Options& options, const Register
   PointCloud body = person.cloud;
   const std::size_t seen = body.points.size();
   // 1. Skin where no sensor sees but the shape is known.
-  append(body, unseen_skin(model, body));
+  geometry::append(body, unseen_skin(model, body));
   // 2. One closed surface on the points and above the ground; beside it, what does not need that.
   BodyMesh result;
   auto beside = std::async(std::launch::async, [&] {

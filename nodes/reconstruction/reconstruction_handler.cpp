@@ -69,7 +69,7 @@ std::vector<std::string> beside(const std::string& frame, const std::vector<std:
 std::string lacks_of(const std_msgs::Header& header, const std::vector<std::string>& known) {
   std::string words;
   if (header.stamp.isZero())
-    words = "no_stamp: the scan says not when it was seen; let the driver stamp it, or equal scans are one. ";
+    words = "no_stamp: the scan has no time stamp; let the driver set it, or equal scans count as one. ";
   if (header.frame_id.empty())
     words += "no_frame: the scan names no frame and is taken to be in 'scan'; set the driver's frame_id. ";
   const std::vector<std::string> own = beside(header.frame_id, known);

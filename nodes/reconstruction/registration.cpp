@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/percentile.hpp"
 #include "geometry/rigid_motion.hpp"
-#include "reconstruction/percentile.hpp"
 #include "reconstruction/sensor_patches.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
-using Motion = Eigen::Matrix<double, 6, 1>;  // shift, turn; about the points' mean
+using geometry::SmallMotion;
 
 constexpr double kRadius = 0.010;  // m, of a patch, at this many points
 constexpr double kDense = 180000;
@@ -23,20 +23,21 @@ constexpr double kOutlier = 4.5;       // usual differences, at which a sheet co
 constexpr double kLastMotion = 1e-5;   // m
 constexpr double kMotionPrior = 1e-3;  // of the usual weight, that holds a motion to zero
 constexpr double kMost = 0.010;        // m and rad, of a motion
-// m; sensors that a booth has registered itself differ by 0.1 to 0.3, and another registration betters
+// m; sensors that a booth has registered itself differ by 0.1 to 0.3, and another registration improves
 // nothing.
 constexpr double kNegligible = 0.0004;
 
 // Why not the way of the booth's assembler: it matches points by their normals, which a cloud of sensors that
-// are off has not yet got; patches that several sensors see need none.
+// are off does not have yet; patches that several sensors see need none.
 
 /// What a motion about `middle` adds to the first three terms of a sheet's heights.
 Eigen::Matrix<double, 3, 6> terms_of_motion(const Patch& patch, double radius,
                                             const Eigen::Vector3d& middle) {
   Eigen::Matrix<double, 3, 6> result;
-  result << patch.normal.transpose(), (patch.centre - middle).cross(patch.normal).transpose(),
-      Eigen::RowVector3d::Zero(), radius * patch.x.cross(patch.normal).transpose(),
-      Eigen::RowVector3d::Zero(), radius * patch.y.cross(patch.normal).transpose();
+  result.setZero();
+  result.row(0) = geometry::along_normal(patch.centre, middle, patch.normal).transpose();
+  result.row(1).head<3>() = radius * patch.x.cross(patch.normal).transpose();
+  result.row(2).head<3>() = radius * patch.y.cross(patch.normal).transpose();
   return result;
 }
 
@@ -65,7 +66,7 @@ void improve(const SensorPatches& all, double radius, const Eigen::Vector3d& mid
         squares.block<6, 6>(at(i), at(j)) += of_motion.transpose() * equations.squares(i, j) * of_motion;
     }
   }
-  const double usual = std::max(kLastMotion, percentile(difference, 0.5));
+  const double usual = std::max(kLastMotion, geometry::percentile(difference, 0.5));
   for (std::size_t i = 0; i < difference.size(); ++i)
     weights[i] = std::pow(1 + std::pow(difference[i] / (kOutlier * usual), 2), -2);
   const double prior = kMotionPrior * squares.trace() / static_cast<double>(motions.size());
@@ -74,8 +75,8 @@ void improve(const SensorPatches& all, double radius, const Eigen::Vector3d& mid
 }
 
 /// The motion of each sensor about `middle`, their mean zero; empty where there is nothing to compare.
-std::vector<Motion> motions_of(const Points& points, const std::vector<int>& sensor_of, int sensors,
-                               const Eigen::Vector3d& middle) {
+std::vector<SmallMotion> motions_of(const Points& points, const std::vector<int>& sensor_of, int sensors,
+                                    const Eigen::Vector3d& middle) {
   const double radius =
       std::min(kLargest, kRadius * std::sqrt(std::max(1.0, kDense / static_cast<double>(points.size()))));
   const SensorPatches sheets = sensor_patches_of(points, {}, sensor_of, sensors, radius, kStep);
@@ -83,14 +84,14 @@ std::vector<Motion> motions_of(const Points& points, const std::vector<int>& sen
   std::vector<double> weights(sheets.sheets.size(), 1);
   Eigen::VectorXd motions = Eigen::VectorXd::Zero(6 * sensors);
   for (int round = 0; round < kRounds; ++round) improve(sheets, radius, middle, weights, motions);
-  Motion mean = Motion::Zero();
+  SmallMotion mean = SmallMotion::Zero();
   double count = 0;
   for (int s : sensor_of) {
     if (s < 0) continue;
     mean += motions.segment<6>(6 * s);
     ++count;
   }
-  std::vector<Motion> result(sensors);
+  std::vector<SmallMotion> result(sensors);
   for (int s = 0; s < sensors; ++s) result[s] = motions.segment<6>(6 * s) - mean / count;
   return result;
 }
@@ -118,11 +119,11 @@ void register_sensors(Points& points, const std::vector<int>& sensor_of) {
   middle /= static_cast<double>(points.size());
   Points moved = points;
   for (int pass = 0; pass < kPasses; ++pass) {
-    const std::vector<Motion> motions = motions_of(moved, sensor_of, sensors, middle);
+    const std::vector<SmallMotion> motions = motions_of(moved, sensor_of, sensors, middle);
     std::vector<Eigen::Isometry3d> move;
-    for (const Motion& motion : motions) {
+    for (const SmallMotion& motion : motions) {
       if (!(motion.head<3>().norm() < kMost && motion.tail<3>().norm() < kMost)) return;
-      move.push_back(geometry::motion_about(middle, motion.tail<3>(), motion.head<3>()));
+      move.push_back(geometry::motion_about(middle, motion));
     }
     if (move.empty()) return;
     for (std::size_t i = 0; i < points.size(); ++i)

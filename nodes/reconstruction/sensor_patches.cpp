@@ -1,13 +1,13 @@
 #include "reconstruction/sensor_patches.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "geometry/parallel_for.hpp"
+#include "geometry/principal_axes.hpp"
 #include "reconstruction/voxel_grid.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -97,15 +97,7 @@ class Patches {
       patch.y = patch.normal.cross(patch.x);
       return true;
     }
-    Vector3d sum = Vector3d::Zero();
-    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-    for (int i : near) {
-      const Vector3d d = points_[i] - patch.centre;
-      sum += d;
-      products += d * d.transpose();
-    }
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
-    axes.computeDirect(products - sum * sum.transpose() / static_cast<double>(near.size()));
+    const auto axes = geometry::principal_axes(points_, near, patch.centre);
     if (axes.eigenvalues()[0] > kFlat * axes.eigenvalues()[1]) return false;
     patch.normal = axes.eigenvectors().col(0);
     patch.x = axes.eigenvectors().col(1);

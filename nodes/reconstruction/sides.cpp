@@ -1,7 +1,6 @@
 #include "reconstruction/sides.hpp"
 
-#include <algorithm>
-#include <numeric>
+#include "geometry/disjoint_sets.hpp"
 
 namespace tensegric_fit::reconstruction {
 
@@ -22,26 +21,17 @@ std::vector<int> sides_across(const TriangleMesh& mesh) {
 }
 
 TriangleMesh split_fans(const TriangleMesh& mesh, const std::vector<int>& across) {
-  std::vector<int> fan(across.size());  // corners joined by the sides between their triangles
-  std::iota(fan.begin(), fan.end(), 0);
-  const auto root = [&fan](int corner) {
-    while (fan[corner] != corner) corner = fan[corner] = fan[fan[corner]];
-    return corner;
-  };
-  const auto join = [&](int a, int b) {
-    const int ra = root(a), rb = root(b);
-    fan[std::max(ra, rb)] = std::min(ra, rb);
-  };
+  geometry::DisjointSets fans(across.size());  // corners joined by the sides between their triangles
   for (int side = 0; side < static_cast<int>(across.size()); ++side) {
     if (across[side] < side) continue;
-    join(side, next_corner(across[side]));
-    join(next_corner(side), across[side]);
+    fans.join(side, next_corner(across[side]));
+    fans.join(next_corner(side), across[side]);
   }
   TriangleMesh result;
   result.triangles = mesh.triangles;
   std::vector<int> vertex(across.size(), -1);
   for (int corner = 0; corner < static_cast<int>(across.size()); ++corner) {
-    const int r = root(corner);
+    const int r = fans.root(corner);
     if (vertex[r] < 0) {
       vertex[r] = static_cast<int>(result.vertices.size());
       result.vertices.push_back(mesh.vertices[mesh.triangles[corner / 3][corner % 3]]);

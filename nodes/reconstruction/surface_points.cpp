@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "geometry/parallel_for.hpp"
+#include "geometry/percentile.hpp"
 #include "geometry/point_tree.hpp"
-#include "reconstruction/percentile.hpp"
 #include "reconstruction/voxel_grid.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -54,7 +54,7 @@ std::vector<char> look_stray(const Points& points, const geometry::PointTree& tr
     reaches.clear();
     for (int a : around)
       for (int i = grid.begin(a); i < grid.end(a); ++i) reaches.push_back(reach[grid.order()[i]]);
-    const double usual = percentile(reaches, 0.5);
+    const double usual = geometry::percentile(reaches, 0.5);
     for (int i = grid.begin(c); i < grid.end(c); ++i)
       if (reach[grid.order()[i]] > kFar * usual) stray[grid.order()[i]] = 1;
   }

@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/percentile.hpp"
 #include "geometry/status.hpp"
-#include "reconstruction/percentile.hpp"
 
 namespace tensegric_fit::reconstruction {
 namespace {
@@ -26,9 +26,9 @@ std::array<Eigen::Vector3d, 3> spread(const std::vector<Eigen::Vector3d>& points
   std::vector<double> values(points.size());
   for (int axis = 0; axis < 3; ++axis) {
     std::transform(points.begin(), points.end(), values.begin(), [axis](const auto& p) { return p[axis]; });
-    result[0][axis] = percentile(values, 0.01);
-    result[1][axis] = percentile(values, 0.5);
-    result[2][axis] = percentile(values, 0.99);
+    result[0][axis] = geometry::percentile(values, 0.01);
+    result[1][axis] = geometry::percentile(values, 0.5);
+    result[2][axis] = geometry::percentile(values, 0.99);
   }
   return result;
 }

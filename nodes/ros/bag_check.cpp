@@ -117,7 +117,7 @@ class BagReader {
       if (modelled_.count(scan_id) == 0)
         find(false, "no_model",
              fmt::format("no body/model of scan {} is in the bag, its body/mesh is", scan_id),
-             "played to the landmarks, the mesh waits 3 s and has the model registered anew: record "
+             "played to the landmarks, the mesh waits 3 s and has the model registered again: record "
              "body/model, too");
     for (auto& [name, topic] : topics_) {
       std::vector<double>& gaps = gaps_[name];

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "files/bag_structure.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/status.hpp"
 #include "ros/scan_tag.hpp"
@@ -16,13 +17,6 @@ namespace {
 constexpr std::size_t kFewPoints = 5000;  // the reconstruction's min_points
 constexpr double kManyNotFinite = 0.3;    // share; a depth image has gaps, but a body fills most of it
 const std::string kScanTopic = "scan/points";
-
-bool is_scan_topic(const std::string& topic) {
-  return ("/" + topic).size() > kScanTopic.size() &&
-         ("/" + topic)
-                 .compare(("/" + topic).size() - kScanTopic.size() - 1, std::string::npos,
-                          "/" + kScanTopic) == 0;
-}
 
 }  // namespace
 
@@ -39,7 +33,7 @@ void ScanChecker::look_at(const rosbag::MessageInstance& message) {
   const auto scan = message.instantiate<sensor_msgs::PointCloud2>();
   if (scan)
     look_at(topic, *scan);
-  else if (is_scan_topic(topic) && said_.insert(topic + " type").second)
+  else if (files::is_scan_topic(topic) && said_.insert(topic + " type").second)
     find(true, "wrong_type", fmt::format("{}: is {}", topic, message.getDataType()),
          "the chain takes sensor_msgs/PointCloud2 there");
 }
@@ -80,7 +74,7 @@ void ScanChecker::check_points(const std::string& topic, const sensor_msgs::Poin
     found.points = points.size();
     found.not_finite = points.empty() ? 0 : static_cast<double>(bad) / static_cast<double>(points.size());
     const std::size_t finite = points.size() - static_cast<std::size_t>(bad);
-    if (finite < kFewPoints && is_scan_topic(topic))  // a sensor of many may see little
+    if (finite < kFewPoints && files::is_scan_topic(topic))  // a sensor of many may see little
       find(true, "bad_scan",
            fmt::format("{}: scan {} has {} finite points of {}", topic, found.scan_id, finite, points.size()),
            fmt::format("a body takes {} and more", kFewPoints));
@@ -103,7 +97,7 @@ std::set<std::string> ScanChecker::frames_of(const std::string& topic) const {
 
 void ScanChecker::finish() {
   const bool has_scans = std::any_of(frames_of_.begin(), frames_of_.end(),
-                                     [](const auto& entry) { return is_scan_topic(entry.first); });
+                                     [](const auto& entry) { return files::is_scan_topic(entry.first); });
   if (frames_of_.empty())
     find(true, "no_scan", "no sensor_msgs/PointCloud2 is in the bag", "record the booth's scans");
   else if (!has_scans && frames_of_.size() > 1)

@@ -10,6 +10,7 @@
 #include "geometry/ply.hpp"
 #include "inspect/fit_model.hpp"
 #include "inspect/fit_pictures.hpp"
+#include "mesh_files/maker_files.hpp"
 #include "ros/export_folders.hpp"
 #include "ros/fit_document.hpp"
 #include "ros/fit_sheet.hpp"
@@ -59,24 +60,23 @@ inspect::FitScene scene_of(const FitFigures& figures) {
   return scene;
 }
 
-inspect::FitModel model_of(const FitFigures& figures) {
-  inspect::FitModel model{figures.body, figures.deformed, figures.distortion,
-                          figures.measures.body_from_scan};
-  for (const LineResult& line : figures.scan.fit->lines)
-    model.lines.push_back({line.name, points_in(line.course_at_rest), points_in(line.course), line.initial,
-                           line.final, line.tension});
-  return model;
+/// As makers' programs take it.
+geometry::TriangleMesh in_body_frame(geometry::TriangleMesh mesh, const FitFigures& figures) {
+  for (Eigen::Vector3d& p : mesh.vertices) p = figures.measures.body_from_scan * p;
+  return mesh;
 }
 
 std::vector<FileContent> contents_of(const FitFigures& figures) {
   const geometry::TriangleMesh deformed{figures.deformed, figures.body.triangles};
   const auto& cells = figures.control.triangles;
   constexpr auto kExact = geometry::Coordinates::float64;
+  const geometry::TriangleMesh rest = in_body_frame(figures.body, figures),
+                               worn = in_body_frame(deformed, figures);
   const inspect::FitScene scene = scene_of(figures);
   const FileContent front = png("front.png", inspect::front_picture(scene)),
                     side = png("side.png", inspect::side_picture(scene)),
                     distortion = png("distortion.png", inspect::distortion_picture(scene)),
-                    model{"fit.glb", inspect::fit_glb(model_of(figures))};
+                    model{"fit.glb", fit_model(figures)};
   return {{kFitDocument, fit_json(figures, {kExportFiles.begin(), kExportFiles.end()})},
           {"measurements.csv", measurements_csv(figures)},
           {"body.ply", geometry::ply_bytes(figures.body)},
@@ -93,10 +93,23 @@ std::vector<FileContent> contents_of(const FitFigures& figures) {
                                   {distortion,
                                    "Where the skin is pressed together and "
                                    "where it is stretched"}},
-                                 model)}};
+                                 model)},
+          {"body.obj", mesh_files::obj_text(rest, "body")},
+          {"deformed.obj", mesh_files::obj_text(worn, "deformed")},
+          {"body.stl", mesh_files::stl_bytes(rest)},
+          {"deformed.stl", mesh_files::stl_bytes(worn)}};
 }
 
 }  // namespace
+
+std::string fit_model(const FitFigures& figures) {
+  inspect::FitModel model{figures.body, figures.deformed, figures.distortion,
+                          figures.measures.body_from_scan};
+  for (const LineResult& line : figures.scan.fit->lines)
+    model.lines.push_back({line.name, points_in(line.course_at_rest), points_in(line.course), line.initial,
+                           line.final, line.tension});
+  return inspect::fit_glb(model);
+}
 
 ExportOptions export_options(Parameters& parameters) {
   ExportOptions options;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "files/csv.hpp"
+#include "geometry/json.hpp"
 #include "inspect/warning_words.hpp"
 #include "ros/line_force.hpp"
 
@@ -131,15 +132,6 @@ ordered_json warnings_of(const FitFigures& figures, bool warnings) {
   return list;
 }
 
-ordered_json matrix_rows(const Eigen::Isometry3d& transform) {
-  ordered_json rows = ordered_json::array();
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::RowVector4d row = transform.matrix().row(i);
-    rows.push_back({row[0], row[1], row[2], row[3]});
-  }
-  return rows;
-}
-
 }  // namespace
 
 std::string fit_json(const FitFigures& figures, const std::vector<std::string>& files) {
@@ -151,7 +143,7 @@ std::string fit_json(const FitFigures& figures, const std::vector<std::string>& 
   document["software"] = {{"name", "tensegric_fit"}, {"version", TENSEGRIC_FIT_VERSION}};
   document["scan"] = {{"scan_id", figures.scan.body->scan_id},
                       {"frame", figures.scan.body->header.frame_id},
-                      {"body_from_scan", matrix_rows(figures.measures.body_from_scan)}};
+                      {"body_from_scan", geometry::json_of(figures.measures.body_from_scan)}};
   if (!figures.scan.label.source.empty()) document["scan"]["source"] = figures.scan.label.source;
   if (!figures.scan.label.customer.empty()) document["scan"]["customer"] = figures.scan.label.customer;
   document["garment"] = garment_of(figures.scan);

@@ -13,8 +13,10 @@
 #include "files/page_template.hpp"
 #include "geometry/shipped_files.hpp"
 #include "inspect/carried_points.hpp"
-#include "inspect/colours.hpp"
 #include "inspect/garment_titles.hpp"
+#include "inspect/page_view.hpp"
+#include "inspect/pressure_words.hpp"
+#include "inspect/words.hpp"
 #include "mesh_files/frame.hpp"
 #include "ros/line_force.hpp"
 
@@ -24,30 +26,10 @@ namespace {
 using files::html_escaped;
 using geometry::ChangedMeasure;
 
-constexpr double kUnsure = 0.5;                // confidences below come with a reason
-constexpr std::size_t kMostModel = 5'000'000;  // bytes of fit.glb in the page: with all else below 8 MB
-
-/// "upper_arm_L" and "girth": left upper arm girth.
-std::string words_of(std::string name, const std::string& kind) {
-  std::string side;
-  for (const auto& [ending, word] : {std::pair{"_L", "left "}, {"_R", "right "}}) {
-    const std::size_t at = name.size() - std::min<std::size_t>(name.size(), 2);
-    if (name.compare(at, 2, ending) != 0) continue;
-    side = word;
-    name.resize(at);
-  }
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return side + name + (name == "stature" ? "" : " " + kind);
-}
+constexpr double kUnsure = 0.5;  // confidences below come with a reason
 
 std::string centimetres(double metres) {
   return fmt::format("{:.1f}", 100 * metres);
-}
-
-/// With a sign, and none where nothing is seen of it.
-std::string change(double metres) {
-  const double millimetres = std::round(1e3 * metres);
-  return millimetres == 0 ? "0" : fmt::format("{:+.1f}", millimetres / 10);
 }
 
 std::string row(const std::vector<std::string>& cells) {
@@ -58,7 +40,7 @@ std::string row(const std::vector<std::string>& cells) {
 
 /// `name` is a button that shows where a girth's tape runs, where its tape is known.
 std::string row_of(const FitFigures& figures, const std::string& kind, const ChangedMeasure& measure) {
-  std::string name = html_escaped(words_of(measure.before.name, kind));
+  std::string name = html_escaped(inspect::words::measure(measure.before.name, kind));
   const auto& loops = figures.measures.loops;
   if (kind == "girth" && std::any_of(loops.begin(), loops.end(), [&](const geometry::GirthLoop& loop) {
         return loop.name == measure.before.name;
@@ -67,7 +49,7 @@ std::string row_of(const FitFigures& figures, const std::string& kind, const Cha
                        html_escaped(measure.before.name), name);
   return row({name + (measure.before.confidence < kUnsure ? "*" : ""), centimetres(measure.before.metres),
               measure.after ? centimetres(*measure.after) : "",
-              measure.after ? change(measure.change()) : ""});
+              measure.after ? inspect::words::centimetre_change(measure.change()) : ""});
 }
 
 std::string rows_of(const FitFigures& figures, const std::string& kind,
@@ -83,15 +65,15 @@ std::string first_rows(const FitFigures& figures) {
   for (const char* name : {"bust", "underbust"})
     for (const ChangedMeasure& measure : figures.girths)
       if (measure.before.name == name)
-        rows += row({html_escaped(words_of(name, "girth")) + ", cm", centimetres(measure.before.metres),
-                     measure.after ? centimetres(*measure.after) : "",
-                     measure.after ? change(measure.change()) : ""});
+        rows += row({html_escaped(inspect::words::measure(name, "girth")) + ", cm",
+                     centimetres(measure.before.metres), measure.after ? centimetres(*measure.after) : "",
+                     measure.after ? inspect::words::centimetre_change(measure.change()) : ""});
   for (const ChangedMeasure& measure : figures.heights)
     if (measure.before.name == "bust" && measure.after)
       rows += row({"lift of the bust, mm", "", "", fmt::format("{:+.0f}", 1e3 * measure.change() + 0.0)});
   if (const auto apart = geometry::bust_points_apart(figures.measures, {figures.body, figures.deformed}))
     rows += row({"bust points apart, cm", centimetres(apart->before.metres), centimetres(*apart->after),
-                 change(apart->change())});
+                 inspect::words::centimetre_change(apart->change())});
   return rows;
 }
 
@@ -101,11 +83,25 @@ std::string settings_of(const FitFigures& figures) {
   for (std::size_t i = 0; i < fit.lines.size(); ++i) {
     const LineResult& line = fit.lines[i];
     const auto force = figures.scan.forces ? force_of(*figures.scan.forces, fit, i) : std::nullopt;
-    rows += row({html_escaped(line.name), centimetres(line.initial), centimetres(line.final),
-                 fmt::format("{:.1f} %", 100 * (1 - line.ratio)),
-                 force ? fmt::format("{:.1f}", force->newtons) : ""});
+    rows +=
+        row({html_escaped(line.name), centimetres(line.initial), centimetres(line.final),
+             fmt::format("{:.1f} %", 100 * (1 - line.ratio)),
+             force ? inspect::words::with_uncertainty(force->newtons) : "",
+             force && force->kilopascals > 0 ? inspect::words::with_uncertainty(force->kilopascals) : ""});
   }
   return rows;
+}
+
+/// What the hardest pressure means; nothing where none is known.
+std::string pressure_of(const FitFigures& figures) {
+  const FitState& fit = *figures.scan.fit;
+  double hardest = 0;
+  for (std::size_t i = 0; figures.scan.forces && i < fit.lines.size(); ++i)
+    if (const auto force = force_of(*figures.scan.forces, fit, i))
+      hardest = std::max(hardest, force->kilopascals);
+  if (hardest <= 0) return "";
+  return fmt::format("<p>The hardest pressure is {} kPa: {}.</p>\n",
+                     inspect::words::with_uncertainty(hardest), inspect::words::pressure_meaning(hardest));
 }
 
 std::string summary_of(const FitFigures& figures) {
@@ -129,9 +125,9 @@ std::string notes_of(const FitFigures& figures) {
   for (const auto& [kind, measures] : {std::pair{"height", &figures.heights}, {"girth", &figures.girths}})
     for (const ChangedMeasure& measure : *measures)
       if (measure.before.confidence < kUnsure)
-        notes +=
-            fmt::format("<p>* {}: uncertain; {}.</p>\n", html_escaped(words_of(measure.before.name, kind)),
-                        html_escaped(measure.before.reason));
+        notes += fmt::format("<p>* {}: uncertain; {}.</p>\n",
+                             html_escaped(inspect::words::measure(measure.before.name, kind)),
+                             html_escaped(measure.before.reason));
   return notes;
 }
 
@@ -166,8 +162,8 @@ nlohmann::json points_of(const std::vector<Eigen::Vector3d>& points,
   return list;
 }
 
-/// What view.js shows beside the model: the tapes; the colour of skin that is as it was.
-std::string facts_of(const FitFigures& figures) {
+/// The tapes, for view.js.
+nlohmann::json loops_of(const FitFigures& figures) {
   const geometry::SurfaceTree skin(figures.body);
   nlohmann::json loops = nlohmann::json::object();
   for (const geometry::GirthLoop& loop : figures.measures.loops) {
@@ -176,13 +172,26 @@ std::string facts_of(const FitFigures& figures) {
     loops[loop.name] = {{"before", points_of(loop.points, frame)},
                         {"after", points_of(carried.at(figures.deformed), frame)}};
   }
-  const inspect::Colour neutral = inspect::two_sided_colour(0);
-  const nlohmann::json facts{{"loops", loops},
-                             {"neutral", {neutral[0] / 255.0, neutral[1] / 255.0, neutral[2] / 255.0}}};
-  std::string text = facts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
-    text.replace(at, 1, "\\u003c");  // a name must not end the script that holds it
-  return text;
+  return loops;
+}
+
+inspect::PageView view_of(const FitFigures& figures, const files::FileContent& model) {
+  return {model.bytes,
+          "Your body",
+          "before",
+          "with it",
+          "before beside it",
+          "skin pressed together",
+          "unchanged",
+          "stretched",
+          "<p class=\"notes\">Choose an underlined measure to see where it is taken.</p>\n",
+          {{"attribute", "_distortion"},
+           {"per_cent", true},
+           {"here", "skin here: "},
+           {"low", "pressed together"},
+           {"same", "unchanged"},
+           {"high", "stretched"}},
+          loops_of(figures)};
 }
 
 /// What is worn, with title, sentence and picture where it is a shipped garment (or several joined by +).
@@ -204,36 +213,11 @@ std::string garment_of(const std::string& name) {
   return shown;
 }
 
-std::string script(const std::string& code) {
-  return "<script>\n" + code + "</script>\n";
-}
-
-std::string view_of(const FitFigures& figures, const files::FileContent& model) {
-  if (model.bytes.size() > kMostModel) return "";
-  const std::string three = TENSEGRIC_FIT_THREE_JS;
-  return "<script type=\"application/json\" id=\"facts\">" + facts_of(figures) +
-         "</script>\n<script type=\"model/gltf-binary\" id=\"glb\">" + files::base64(model.bytes) +
-         "</script>\n" + script(files::bytes_of(three + "/three.min.js")) +
-         script(files::bytes_of(three + "/examples/js/loaders/GLTFLoader.js")) +
-         script(files::bytes_of(three + "/examples/js/controls/OrbitControls.js")) +
-         script(files::bytes_of(geometry::shipped_folder("page") + "/view.js"));
-}
-
-/// The distortion's colours as stops of a CSS gradient.
-std::string scale_stops() {
-  constexpr int kSteps = 10;
-  std::string stops;
-  for (int i = 0; i <= kSteps; ++i) {
-    const inspect::Colour c = inspect::two_sided_colour(2.0 * i / kSteps - 1);
-    stops += fmt::format("{}rgb({},{},{})", i ? "," : "", c[0], c[1], c[2]);
-  }
-  return stops;
-}
-
 }  // namespace
 
 std::string fit_sheet(const FitFigures& figures, const std::vector<SheetPicture>& pictures,
                       const files::FileContent& model) {
+  const inspect::PageView view = view_of(figures, model);
   std::string drawn;
   for (const SheetPicture& picture : pictures)
     drawn += fmt::format(
@@ -250,14 +234,15 @@ std::string fit_sheet(const FitFigures& figures, const std::vector<SheetPicture>
       {{"title", "Garment " + html_escaped(figures.scan.fit->garment)},
        {"summary", summary_of(figures)},
        {"first", first_rows(figures)},
-       {"scale", scale_stops()},
+       {"section", inspect::view_section(view)},
        {"rows", rows_of(figures, "girth", figures.girths) + rows_of(figures, "height", figures.heights)},
        {"notes", notes_of(figures)},
        {"pictures", drawn},
        {"garment", garment_of(figures.scan.fit->garment)},
        {"settings", settings_of(figures)},
+       {"pressure", pressure_of(figures)},
        {"footer", footer},
-       {"view", view_of(figures, model)}});
+       {"view", inspect::view_scripts(view)}});
 }
 
 }  // namespace tensegric_fit::node

@@ -4,18 +4,13 @@
 
 #include "ros/log_words.hpp"
 #include "ros/scan_tag.hpp"
+#include "ros/status_fact.hpp"
 
 namespace tensegric_fit::node {
 namespace {
 
 constexpr double kFramePatience =
     1;  // s; tf has a connection of its own, and says nothing of a scan in `body`
-
-std::string fact(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key) {
-  for (const diagnostic_msgs::KeyValue& pair : status.values)
-    if (pair.key == key) return pair.value;
-  return "";
-}
 
 template <typename Message>
 void write(rosbag::Bag& out, const std::string& topic, const ros::Time& time,

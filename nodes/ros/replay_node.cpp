@@ -34,11 +34,6 @@ Setup setup_from(const ros::NodeHandle& private_node) {
   return setup;
 }
 
-bool ends_in(const std::string& topic, const std::string& ending) {
-  return topic.size() >= ending.size() &&
-         topic.compare(topic.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 /// Number of messages that were not answered: with any, the output is OUT.incomplete. \throw
 /// rosbag::BagException, Refusal
 int run(const Setup& setup) {
@@ -56,7 +51,7 @@ int run(const Setup& setup) {
   int sent = 0, lost = 0;
   for (const rosbag::MessageInstance& message : view) {
     const auto scan = message.instantiate<sensor_msgs::PointCloud2>();
-    if (scan && ends_in(message.getTopic(), "scan/points")) {
+    if (scan && files::is_scan_topic(message.getTopic())) {
       ++sent;
       lost += !replay.send(*scan, message.getTime(), out);
     }

@@ -15,7 +15,7 @@
 
 namespace tensegric_fit::node {
 
-/// Whether a node forgets a scan by a function of its own, because it is not to begin anew.
+/// Whether a node forgets a scan by a function of its own, because it must not restart.
 template <typename Node, typename = void>
 struct Forgets : std::false_type {};
 template <typename Node>
@@ -24,7 +24,7 @@ struct Forgets<Node, std::void_t<decltype(std::declval<Node&>().forget(std::decl
     : std::true_type {};
 
 /// One life of a node, whose end is also that of all that it holds and latches. True: it forgets a scan and
-/// is to begin anew.
+/// has to restart.
 template <typename Node>
 bool serve_node(Forgetter& forgetter) {
   ros::NodeHandle private_node("~");

@@ -11,6 +11,8 @@
 #include <QMouseEvent>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "geometry/fit_warning.hpp"
+#include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
 #include "inspect/words.hpp"
 #include "ros/body_messages.hpp"
@@ -188,10 +190,24 @@ std::vector<int> BodyMeshDisplay::unheld_skin() const {
   std::vector<int> skin;
   if (warnings_.scan_id != body_.scan_id() || warnings_.garment != body_.garment()) return skin;
   for (const FitWarning& notice : warnings_.notices)
-    if (notice.code == FitWarning::UNDER_CONSTRICTED)
+    if (notice.code == geometry::notice::kUnderConstricted)
       for (const std::uint32_t v : notice.vertices)
         if (v < body_.mesh().vertices.size()) skin.push_back(static_cast<int>(v));
-  return skin;
+  return with_rim(skin);
+}
+
+// A line's ribbon hides the skin just below it.
+std::vector<int> BodyMeshDisplay::with_rim(const std::vector<int>& skin) const {
+  constexpr double kRim = 0.012;  // m
+  if (skin.empty()) return skin;
+  const std::vector<Eigen::Vector3d>& vertices = body_.mesh().vertices;
+  std::vector<Eigen::Vector3d> points;
+  for (const int v : skin) points.push_back(vertices[v]);
+  const geometry::PointTree tree(points);
+  std::vector<int> wide;
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    if (tree.distance(vertices[v]) <= kRim) wide.push_back(static_cast<int>(v));
+  return wide;
 }
 
 void BodyMeshDisplay::take_members(const MemberForces& message) {

@@ -61,6 +61,7 @@ class BodyMeshDisplay : public rviz::Display {
   void place();
   void part_view(const Look& look);
   std::vector<int> unheld_skin() const;
+  std::vector<int> with_rim(const std::vector<int>& skin) const;
   void point(const QPoint& pixel);
 
   std::unique_ptr<LookProperties> properties_;

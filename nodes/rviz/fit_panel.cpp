@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "geometry/fit_warning.hpp"
 #include "geometry/moved_skin.hpp"
 #include "geometry/status.hpp"
 #include "inspect/panel_words.hpp"
 #include "inspect/pointing.hpp"
+#include "inspect/pressure_words.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/flat.hpp"
 #include "ros/line_force.hpp"
@@ -201,7 +203,9 @@ void FitPanel::take_fit(const FitState& fit) {
 void FitPanel::show_outcome() {
   if (!fitted_) return;
   const FitState& fit = *fitted_;
-  show_words(fit_, words::fit_ended(fit.garment, fit.status, fit.note, fit.milliseconds));
+  const std::string ended = words::fit_ended(fit.garment, fit.status, fit.note, fit.milliseconds);
+  fit_->setText(text(words::without_details(ended)));
+  fit_->setToolTip(text(ended));
   std::map<std::string, std::string> regions;
   std::vector<std::string> messages;
   for (std::size_t i = 0; i < fit.lines.size(); ++i) {
@@ -214,10 +218,18 @@ void FitPanel::show_outcome() {
     if (!warning.empty()) messages.push_back("'" + line.name + "': " + warning);
     if (warning.empty()) warning = lack_of(line);
     const auto force = node::force_of(forces_, fit, i);
+    const std::string pressed = force ? words::pressure_warning(force->kilopascals) : "";
+    if (!pressed.empty()) messages.push_back("'" + line.name + "': " + pressed);
+    if (warning.empty()) warning = pressed;
     for (LineRow* row : rows_)
-      if (row->line() == line.name)
-        row->set_outcome(line.ratio, force ? words::pull(force->newtons) : "",
-                         force ? words::pull_help(force->newtons, force->kilopascals) : "", warning);
+      if (row->line() == line.name) {
+        row->set_outcome(line.ratio, warning);
+        if (force)
+          row->set_force(words::pull(force->newtons), words::pressure(force->kilopascals),
+                         words::pull_help(force->newtons, force->kilopascals));
+        else
+          row->set_force("", "", "");
+      }
   }
   session_.place(regions);
   show_warnings(messages);
@@ -254,9 +266,14 @@ void FitPanel::show_whose() {
 
 void FitPanel::show_warnings(std::vector<std::string> messages) {
   for (const FitWarning& warning : warnings_.warnings) messages.push_back(warning.message);
+  const auto is_said = [messages](const std::string& line) {  // of the line, by its figures
+    return std::any_of(messages.begin(), messages.end(),
+                       [&](const std::string& message) { return message.rfind("'" + line + "': ", 0) == 0; });
+  };
   for (const FitWarning& notice : warnings_.notices)
-    if (notice.code == FitWarning::OVER_STRETCHED || notice.code == FitWarning::PRESSED_TOGETHER ||
-        notice.code == FitWarning::UNDER_CONSTRICTED)
+    if (notice.code == geometry::notice::kOverStretched ||
+        notice.code == geometry::notice::kPressedTogether ||
+        (notice.code == geometry::notice::kUnderConstricted && !is_said(notice.line)))
       messages.push_back(notice.message);
   const std::string words = words::warnings(messages);
   if (!words.empty() && folds_->toolTip() != text(words))
@@ -267,7 +284,7 @@ void FitPanel::show_warnings(std::vector<std::string> messages) {
 std::string FitPanel::lack_of(const LineResult& line) const {
   if (!fitted_ || warnings_.scan_id != fitted_->scan_id || warnings_.garment != fitted_->garment) return "";
   for (const FitWarning& notice : warnings_.notices)
-    if (notice.code == FitWarning::UNDER_CONSTRICTED && notice.line == line.name) return notice.message;
+    if (notice.code == geometry::notice::kUnderConstricted && notice.line == line.name) return notice.message;
   return "";
 }
 
@@ -405,8 +422,12 @@ void FitPanel::show_state() {
   show_words(pipeline_, state.words + (!old_since_ ? "" : old_gone_ ? words::kOldBodyGone : words::kOldBody));
   pipeline_->setStyleSheet(state.trouble ? "color: #b2182b" : "");
   const QString garment = text(session_.now().garment);
-  if (!(typing_ && garment_->hasFocus()) && !client_->is_asking() && garment_->currentText() != garment)
-    garment_->setCurrentText(garment);
+  if (!(typing_ && garment_->hasFocus()) && !client_->is_asking() && garment_->currentText() != garment) {
+    garment_->setCurrentIndex(garment_->findData(garment));  // its picture; none of others'
+    garment_->setEditText(garment);
+  }
+  const QSignalBlocker quiet(marks_);
+  marks_->setChecked(marks_shown());
   progress_->setMaximum(state.all);
   progress_->setValue(state.done);
   if (client_->is_asking() && Clock::now() - asked_at_ > kPatience) answer(words::kNoAnswer);

@@ -65,6 +65,8 @@ class FitPanel : public rviz::Panel {
   void worn_asked(const SetGarment::Request& request);
   void blend(int per_cent);
   void compare();
+  void show_marks(bool on);
+  bool marks_shown() const;
   void set_display(const char* property, const QVariant& value);
   void enable_display(bool on);
   void start_export();
@@ -123,7 +125,7 @@ class FitPanel : public rviz::Panel {
   QWidget *lines_box_, *regions_box_;
   std::vector<LineRow*> rows_;
   QPushButton *put_on_, *undo_, *redo_, *reset_, *export_;
-  QCheckBox* linked_;
+  QCheckBox *linked_, *marks_;
   QComboBox* compare_;
   QSlider* blend_;
   ViewRow* view_;

@@ -23,7 +23,8 @@ namespace tensegric_fit::inspect {
 namespace {
 
 constexpr int kPanelWidth = 430;      // pixels
-constexpr int kGarmentPicture = 72;   // pixels
+constexpr int kGarmentPicture = 56;   // pixels
+constexpr int kShownLetters = 8;      // of a choice, at least: the longest must not widen the panel
 constexpr int kLongestCustomer = 60;  // letters of a customer id
 constexpr char kWarning[] = "color: #b2182b; font-weight: bold";
 constexpr char kDisplay[] = "tensegric_fit/BodyMesh";
@@ -37,6 +38,13 @@ QLabel* sentence(QVBoxLayout* layout, int lines, const char* style = "") {
   label->setFixedHeight(lines * label->fontMetrics().lineSpacing() + 2);
   layout->addWidget(label);
   return label;
+}
+
+QComboBox* narrow_choice() {
+  auto* box = new QComboBox;
+  box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box->setMinimumContentsLength(kShownLetters);
+  return box;
 }
 
 void empty(QWidget* box) {
@@ -102,7 +110,7 @@ FitPanel::FitPanel(QWidget* parent) : rviz::Panel(parent) {
 void FitPanel::build_garment(QVBoxLayout* layout) {
   auto* row = new QHBoxLayout;
   auto* label = new QLabel(words::kGarment);
-  garment_ = new QComboBox;
+  garment_ = narrow_choice();
   garment_->setEditable(true);
   garment_->setInsertPolicy(QComboBox::NoInsert);
   garment_->setIconSize({kGarmentPicture, kGarmentPicture});
@@ -129,9 +137,10 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   row->addWidget(reset_ = new QPushButton(words::kReset));
   layout->addLayout(row);
   auto* choices = new QHBoxLayout;
-  choices->addWidget(linked_ = new QCheckBox(words::kLinked), 1);
+  choices->addWidget(linked_ = new QCheckBox(words::kLinked));
+  choices->addStretch(1);
   auto* comparing = new QLabel(words::kCompare);
-  compare_ = new QComboBox;
+  compare_ = narrow_choice();
   compare_->setToolTip(words::kCompareHelp);
   compare_->addItem(words::kAlone, words::kAfter);
   compare_->addItem(words::kAsGhost, words::kGhost);
@@ -140,7 +149,7 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   compare_->addItem(words::kFading, words::kBlend);
   comparing->setBuddy(compare_);
   choices->addWidget(comparing);
-  choices->addWidget(compare_);
+  choices->addWidget(compare_, 2);
   layout->addLayout(choices);
   undo_->setEnabled(false);
   redo_->setEnabled(false);
@@ -153,11 +162,15 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   label->setBuddy(blend_);
   blending->addWidget(label);
   blending->addWidget(blend_, 1);
+  blending->addWidget(marks_ = new QCheckBox(words::kMarks));
+  marks_->setChecked(true);
+  marks_->setToolTip(words::kMarksHelp);
   layout->addLayout(blending);
   layout->addWidget(view_ = new ViewRow);
   connect(undo_, &QPushButton::clicked, this, &FitPanel::undo);
   connect(redo_, &QPushButton::clicked, this, &FitPanel::redo);
   connect(linked_, &QCheckBox::toggled, this, [this](bool on) { session_.link_sides(on); });
+  connect(marks_, &QCheckBox::toggled, this, &FitPanel::show_marks);
   connect(reset_, &QPushButton::clicked, this, [this] {
     changed_here_ = false;
     asked_at_ = Clock::now();
@@ -227,7 +240,8 @@ void FitPanel::order_tabs() {
     last = next;
   };
   for (QCheckBox* box : regions_box_->findChildren<QCheckBox*>()) follow(box);
-  for (QWidget* next : std::initializer_list<QWidget*>{undo_, redo_, reset_, linked_, compare_, blend_})
+  for (QWidget* next :
+       std::initializer_list<QWidget*>{undo_, redo_, reset_, linked_, compare_, blend_, marks_})
     follow(next);
   for (QWidget* next : view_->controls()) follow(next);
   for (QWidget* next : std::initializer_list<QWidget*>{table_, folder_, export_}) follow(next);
@@ -262,6 +276,17 @@ void FitPanel::build_regions() {
   }
   for (QCheckBox* box : regions_box_->findChildren<QCheckBox*>())
     box->setChecked(wish.off.count(box->text().toStdString()) == 0);
+}
+
+void FitPanel::show_marks(bool on) {
+  for (const char* marks : {"Landmarks", "Girths"}) set_display(marks, on);
+}
+
+bool FitPanel::marks_shown() const {
+  for (rviz::Display* display : displays(vis_manager_))
+    if (display->subProp("Landmarks")->getValue().toBool() || display->subProp("Girths")->getValue().toBool())
+      return true;
+  return false;
 }
 
 void FitPanel::set_display(const char* property, const QVariant& value) {

@@ -18,7 +18,7 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr int kWidth = 400, kHeight = 94, kMargin = 12, kBarTop = 26, kBarHeight = 16;  // pixels
+constexpr int kWidth = 400, kHeight = 116, kMargin = 12, kBarTop = 26, kBarHeight = 16;  // pixels
 constexpr int kPaperOpacity = 215;
 
 std::string next_name() {
@@ -55,6 +55,12 @@ QImage legend_picture(const ColourScale& scale, const std::string& sentence) {
   painter.drawText(below, Qt::AlignLeft | Qt::AlignVCenter, text(words_of(scale.by, low)));
   painter.drawText(below, Qt::AlignHCenter | Qt::AlignVCenter, text(words_of(scale.by, (low + high) / 2)));
   painter.drawText(below, Qt::AlignRight | Qt::AlignVCenter, text(words_of(scale.by, high)));
+  if (scale.by != ColourBy::distortion) return picture;
+  const Colour unheld = with_unheld({kNeutral}, {0})[0];
+  const int row = below.bottom() + 3;
+  painter.fillRect(kMargin, row, 2 * kBarHeight, kBarHeight, QColor(unheld[0], unheld[1], unheld[2]));
+  painter.drawText(QRect(kMargin + 2 * kBarHeight + 6, row, bar, kBarHeight),
+                   Qt::AlignLeft | Qt::AlignVCenter, words::kUnheldLegend);
   return picture;
 }
 

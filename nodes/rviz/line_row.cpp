@@ -34,7 +34,8 @@ LineRow::LineRow(const std::string& line, int number, QGridLayout* grid)
       centimetres_(box("cm", 0, kWholeCircumference, 0.5)),
       name_(new QLabel),
       now_(new QLabel),
-      pull_(new QLabel) {
+      pull_(new QLabel),
+      pressure_(new QLabel) {
   slider_->setObjectName(text("slider_" + line));
   slider_->setRange(static_cast<int>(std::lround(kTicks * FitSession::kLeast)),
                     static_cast<int>(std::lround(kTicks * FitSession::kMost)));
@@ -54,7 +55,8 @@ LineRow::LineRow(const std::string& line, int number, QGridLayout* grid)
   grid->addWidget(centimetres_, row, kCentimetres);
   grid->addWidget(now_, row, kNow, Qt::AlignRight);
   grid->addWidget(pull_, row, kPull, Qt::AlignRight);
-  grid->addWidget(slider_, row + 1, kName, 1, kColumns);
+  grid->addWidget(slider_, row + 1, kName, 1, kPull);
+  grid->addWidget(pressure_, row + 1, kPull, Qt::AlignRight);
 
   const auto ask = [this](double ratio) { Q_EMIT asked(text(line_), ratio); };
   connect(slider_, &QSlider::valueChanged, this,
@@ -86,11 +88,14 @@ void LineRow::set_ratio_now(double ratio) {
   now_->setText(text(words::per_cent(ratio)));
 }
 
-void LineRow::set_outcome(double ratio, const std::string& pull, const std::string& pull_help,
-                          const std::string& warning) {
-  set_ratio_now(ratio);
+void LineRow::set_force(const std::string& pull, const std::string& pressure, const std::string& help) {
   pull_->setText(text(pull));
-  pull_->setToolTip(text(pull_help));
+  pressure_->setText(text(pressure));
+  for (QLabel* label : {pull_, pressure_}) label->setToolTip(text(help));
+}
+
+void LineRow::set_outcome(double ratio, const std::string& warning) {
+  set_ratio_now(ratio);
   name_->setStyleSheet(warning.empty() ? "" : "color: #b2182b");
   name_->setToolTip(text(warning.empty() ? line_ : warning));
 }

@@ -25,10 +25,10 @@ class LineRow : public QObject {
 
   /// The length at rest in metres; 0: not known, and no centimetres.
   void set_asked(double ratio, double length);
-  /// `pull`: empty where it is not known in newtons. A name with a warning is red, the warning there on
-  /// hover.
-  void set_outcome(double ratio, const std::string& pull, const std::string& pull_help,
-                   const std::string& warning);
+  /// A name with a warning is red, the warning there on hover.
+  void set_outcome(double ratio, const std::string& warning);
+  /// Empty where they are not known; `help` on hover.
+  void set_force(const std::string& pull, const std::string& pressure, const std::string& help);
   void set_ratio_now(double ratio);
   void set_enabled(bool enabled);
   /// Tab comes to it after `before`; the last of its parts.
@@ -43,7 +43,7 @@ class LineRow : public QObject {
   double length_ = 0;
   QSlider* slider_;
   QDoubleSpinBox *per_cent_, *centimetres_;
-  QLabel *name_, *now_, *pull_;
+  QLabel *name_, *now_, *pull_, *pressure_;
 };
 
 }  // namespace tensegric_fit::inspect

@@ -1,12 +1,10 @@
-/// Scans in bags (ROS).
+/// Scans in bags.
 #pragma once
 
 #include <pcl/PCLPointCloud2.h>
-#include <ros/time.h>
-#include <sensor_msgs/PointCloud2.h>
 
+#include <chrono>
 #include <string>
-#include <vector>
 
 #include "geometry/point_cloud.hpp"
 
@@ -17,11 +15,9 @@ namespace tensegric_fit::scan_files {
 /// a point cloud; bad_option: clouds on several topics, none of them scan/points
 pcl::PCLPointCloud2 read_bag_scan(const std::string& path);
 
-/// All scans of a bag, on the same topic as above, in their order. \throw Refusal as read_bag_scan
-std::vector<sensor_msgs::PointCloud2::ConstPtr> read_bag_scans(const std::string& path);
-
-/// One message on /scan/points, x y z as float32. Same arguments, same bytes. \throw std::runtime_error
+/// One message on /scan/points, x y z as float32. `stamp`: since 1970. Same arguments, same bytes. \throw
+/// std::runtime_error
 void write_bag_scan(const std::string& path, const geometry::PointCloud& cloud, const std::string& frame_id,
-                    const ros::Time& stamp);
+                    std::chrono::nanoseconds stamp);
 
 }  // namespace tensegric_fit::scan_files

@@ -57,7 +57,7 @@ void take_faces(const std::string& path, const pcl::PolygonMesh& file, ScanFile&
     }
   }
   if (2 * static_cast<std::size_t>(std::count(used.begin(), used.end(), 1)) < used.size()) return;
-  scan.cloud = message_of(mesh_files::surface_samples(mesh));
+  scan.cloud = message_of(mesh_files::surface_samples(mesh_files::tidy(mesh)));
   scan.kind.surface = true;
 }
 
@@ -102,10 +102,6 @@ ScanFile read_scan_file(const std::string& path) {
                             path + ": a scan file ends in .ply, .pcd, .xyz, .bag, .obj, .stl, .glb or .gltf");
   }
   return scan;
-}
-
-pcl::PCLPointCloud2 read_scan(const std::string& path) {
-  return read_scan_file(path).cloud;
 }
 
 mesh_files::Reading reading_of(const std::vector<ScanFile>& files, const mesh_files::Asked& asked) {

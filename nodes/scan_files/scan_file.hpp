@@ -29,9 +29,6 @@ struct ScanFile {
 /// By the file's ending. \throw Refusal broken_file, bad_mesh, too_many_points, bad_option (another ending)
 ScanFile read_scan_file(const std::string& path);
 
-/// Its cloud alone.
-pcl::PCLPointCloud2 read_scan(const std::string& path);
-
 /// How files of one person in one frame are read: as asked for, or inferred from all their points (metres and
 /// z up where they have none). \throw Refusal as mesh_files::infer_reading
 mesh_files::Reading reading_of(const std::vector<ScanFile>& files, const mesh_files::Asked& asked);

@@ -18,8 +18,8 @@
 #include "ros/scan_labels.hpp"
 #include "ros/scan_tag.hpp"
 #include "ros/stage.hpp"
+#include "scan_files/bag_messages.hpp"
 #include "scan_files/customer_name.hpp"
-#include "scan_files/scan_bag.hpp"
 #include "scan_files/scan_file.hpp"
 #include "scan_files/scan_folder.hpp"
 
@@ -57,7 +57,7 @@ Setup setup_from(Parameters parameters) {
   return setup;
 }
 
-/// What is known of it before it is stamped anew.
+/// What is known of it before it gets a new stamp.
 struct FileScan {
   PointCloud2::ConstPtr points;
   ScanLabel label;
@@ -117,7 +117,7 @@ class ScanPlayer {
     clock_ = node.createWallTimer(ros::WallDuration(tick), [this](const ros::WallTimerEvent&) { go_on(); });
   }
 
-  /// It would play its files again, did it begin anew.
+  /// If it restarted, it would play its files again.
   void forget(const ForgetOrder& order, ForgetAnswer& done) {
     const auto source = sources_.find(order.scan_id);
     if (source == sources_.end()) return;

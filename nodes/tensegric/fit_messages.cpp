@@ -187,6 +187,21 @@ GarmentRequest request_in(const Garment& message) {
   return request;
 }
 
+GarmentRequest request_in(const SetGarment::Request& request, const std::string& folder) {
+  if (request.name.empty() && request.garment.lines.empty())
+    throw geometry::Refusal(geometry::refusal::kBadGarment,
+                            "the request has neither a garment's name nor a garment with lines");
+  GarmentRequest asked = request.name.empty()
+                             ? request_in(request.garment)
+                             : GarmentRequest{tensegric::take_garment(request.name, folder), ""};
+  if (request.lines.size() != request.ratios.size())
+    throw geometry::Refusal(geometry::refusal::kBadGarment,
+                            "`lines` and `ratios` must have one entry for each other");
+  for (std::size_t i = 0; i < request.lines.size(); ++i)
+    tensegric::set_ratio(asked.garment, request.lines[i], request.ratios[i]);
+  return asked;
+}
+
 FitState to_message(const FitName& name, const tensegric::Solution& solution, double milliseconds) {
   FitState message = named(name);
   message.status = to_string(solution.status);

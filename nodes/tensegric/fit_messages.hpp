@@ -7,6 +7,7 @@
 #include <tensegric_fit/Garment.h>
 #include <tensegric_fit/LineForces.h>
 #include <tensegric_fit/MemberForces.h>
+#include <tensegric_fit/SetGarment.h>
 
 #include <string>
 #include <vector>
@@ -30,6 +31,10 @@ Garment to_message(const std_msgs::Header& header, const GarmentRequest& request
 /// \throw Refusal bad_garment: values out of range or arrays that do not fit each other; bad_option: unknown
 /// solver
 GarmentRequest request_in(const Garment& message);
+
+/// What a service call asks for, with its ratios put in. `folder` holds the shipped garments. \throw Refusal
+/// as above, and unknown_line
+GarmentRequest request_in(const SetGarment::Request& request, const std::string& folder);
 
 /// What a fit is of: which scan, which garment, which solver, which posture.
 struct FitName {

@@ -1,49 +1,42 @@
 #include "tensegric/garment_fitter.hpp"
 
-#include "ros/body_messages.hpp"
 #include "tensegric/problem.hpp"
 
-namespace tensegric_fit::node {
+namespace tensegric_fit::tensegric {
 
-void GarmentFitter::check(const tensegric::Garment& garment) const {
+void GarmentFitter::check(const Garment& garment) const {
   if (const auto known = wearer())
-    tensegric::lay_garment(known->model, garment, options_.solver, {}, known->body->lay(garment));
+    lay_garment(known->model, garment, options_.solver, {}, known->body->lay(garment));
 }
 
-tensegric::SolverName GarmentFitter::solver_of(const GarmentRequest& request) const {
-  return request.solver.empty() ? options_.solver.solver : tensegric::solver_from(request.solver);
-}
-
-std::optional<tensegric::Solution> GarmentFitter::fit(const FittingScene& scene,
-                                                      const GarmentRequest& request, int rest,
-                                                      const tensegric::Progress& progress) {
-  if (scene.control != scene_.control) take(scene);
+std::optional<Solution> GarmentFitter::fit(const Garment& garment, SolverName solver, int rest,
+                                           const Progress& progress) {
   const auto now = wearer();
-  tensegric::SolverOptions options = options_.solver;
+  SolverOptions options = options_.solver;
   options.bones = bones_;
-  options.solver = solver_of(request);
-  const bool warm = last_ && last_rest_ == rest && last_->status == tensegric::Status::converged;
-  tensegric::SkinFolds folds;
-  if (scene.body)
+  options.solver = solver;
+  const bool warm = last_ && last_rest_ == rest && last_->status == Status::converged;
+  SkinFolds folds;
+  if (knows_skin_)
     folds = [&now](const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner) {
       return now->body->folds(outer, inner);
     };
   bool stopped = false;
-  tensegric::Solution solution = tensegric::solve(
-      now->model, request.garment, options, warm ? &*last_ : nullptr,
-      [&](const tensegric::Iterate& iterate, const std::vector<Eigen::Vector3d>& outer,
+  Solution solution = solve(
+      now->model, garment, options, warm ? &*last_ : nullptr,
+      [&](const Iterate& iterate, const std::vector<Eigen::Vector3d>& outer,
           const std::vector<Eigen::Vector3d>& inner) {
         stopped = !progress(iterate, outer, inner);
         return !stopped;
       },
-      body_volumes_, now->body->lay(request.garment), folds);
+      body_volumes_, now->body->lay(garment), folds);
   if (stopped) return std::nullopt;
   last_ = std::move(solution);
   last_rest_ = rest;
   return last_;
 }
 
-std::shared_ptr<const tensegric::Model> GarmentFitter::model() const {
+std::shared_ptr<const Model> GarmentFitter::model() const {
   const auto known = wearer();
   return {known, known ? &known->model : nullptr};
 }
@@ -53,19 +46,18 @@ std::shared_ptr<const GarmentFitter::Wearer> GarmentFitter::wearer() const {
   return wearer_;
 }
 
-void GarmentFitter::take(const FittingScene& scene) {
-  const geometry::ControlMesh control = control_in(*scene.control);
-  bones_ = scene.landmarks ? geometry::BoneFrames(measures_in(*scene.landmarks), options_.posture)
-                           : geometry::BoneFrames();
-  const std::shared_ptr<const Wearer> wearer(
-      new Wearer{tensegric::build_model(control, options_.model),
-                 bind_body_([body = scene.body] { return mesh_in(*body); }, control, bones_, options_.beta)});
-  const bool keeps_body = options_.solver.volume == tensegric::KeptVolume::body;
-  body_volumes_ = keeps_body ? wearer->body->volumes() : std::vector<tensegric::VolumeFunction>();
-  scene_ = scene;
+void GarmentFitter::take(const geometry::ControlMesh& control, const geometry::BodyMeasures* measures,
+                         std::function<geometry::TriangleMesh()> body) {
+  bones_ = measures ? geometry::BoneFrames(*measures, options_.posture) : geometry::BoneFrames();
+  const bool knows_skin = static_cast<bool>(body);
+  const std::shared_ptr<const Wearer> wearer(new Wearer{
+      build_model(control, options_.model), bind_body_(std::move(body), control, bones_, options_.beta)});
+  const bool keeps_body = options_.solver.volume == KeptVolume::body;
+  body_volumes_ = keeps_body ? wearer->body->volumes() : std::vector<VolumeFunction>();
+  knows_skin_ = knows_skin;
   last_.reset();
   std::lock_guard<std::mutex> lock(mutex_);
   wearer_ = wearer;
 }
 
-}  // namespace tensegric_fit::node
+}  // namespace tensegric_fit::tensegric

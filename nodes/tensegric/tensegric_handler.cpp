@@ -6,7 +6,8 @@
 
 #include "geometry/shipped_files.hpp"
 #include "geometry/tffd_reach.hpp"
-#include "tensegric/kept_garment.hpp"
+#include "ros/body_messages.hpp"
+#include "tensegric/kept_garment_message.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -36,7 +37,7 @@ TensegricHandler::Setup TensegricHandler::setup_from(Parameters& parameters) {
   model.strut_stiffness =
       parameters.number("strut_stiffness", model.strut_stiffness, tensegric::kStrutStiffness);
   model.prestress = parameters.number("prestress", model.prestress, tensegric::kPrestress);
-  FitterOptions& fitter = setup.fitter;
+  tensegric::FitterOptions& fitter = setup.fitter;
   fitter.beta = parameters.number("beta", fitter.beta, {0, geometry::kBeta.high});
   if (fitter.beta != 0) geometry::check_option("beta", fitter.beta, geometry::kBeta);
   tensegric::SolverOptions& solver = setup.fitter.solver;
@@ -66,8 +67,7 @@ TensegricHandler::Setup TensegricHandler::setup_from(Parameters& parameters) {
 
 TensegricHandler::TensegricHandler(Parameters parameters, tensegric::BindBody bind_body)
     : setup_(setup_from(parameters)),
-      wardrobe_(setup_.garment_directory),
-      first_(wardrobe_.take(setup_.garment)),
+      first_{tensegric::take_garment(setup_.garment, setup_.garment_directory), ""},
       worn_(kept_garment(setup_.kept, setup_.garment).value_or(first_)),
       fitter_(setup_.fitter, std::move(bind_body)) {}
 
@@ -113,7 +113,7 @@ bool TensegricHandler::complete() const {
 }
 
 TensegricHandler::Input TensegricHandler::input() const {
-  return {{control_, needs_landmarks() ? landmarks_ : nullptr, body_}, worn_, rests_};
+  return {control_, needs_landmarks() ? landmarks_ : nullptr, body_, worn_, rests_};
 }
 
 bool TensegricHandler::needs_landmarks() const {
@@ -133,9 +133,10 @@ std::string TensegricHandler::kept() const {
 std::optional<TensegricHandler::Output> TensegricHandler::handle(
     const Input& input, const std::function<bool()>& go_on,
     const std::function<void(const FitState&)>& publish) {
-  const ControlMesh& control = *input.scene.control;
-  const FitName name{tag_in(control), input.request.garment.name, fitter_.solver_of(input.request),
-                     setup_.fitter.posture};
+  const GarmentRequest& request = input.request;
+  const tensegric::SolverName solver =
+      request.solver.empty() ? setup_.fitter.solver.solver : tensegric::solver_from(request.solver);
+  const FitName name{tag_in(*input.control), request.garment.name, solver, setup_.fitter.posture};
   const auto start = Clock::now();
   double published = 0;
   const auto progress = [&](const tensegric::Iterate& iterate, const std::vector<Eigen::Vector3d>& outer,
@@ -147,7 +148,13 @@ std::optional<TensegricHandler::Output> TensegricHandler::handle(
     }
     return go_on();
   };
-  std::optional<tensegric::Solution> solution = fitter_.fit(input.scene, input.request, input.rest, progress);
+  if (input.control != taken_) {
+    const auto measures = input.landmarks ? std::optional(measures_in(*input.landmarks)) : std::nullopt;
+    fitter_.take(control_in(*input.control), measures ? &*measures : nullptr,
+                 [body = input.body] { return mesh_in(*body); });
+    taken_ = input.control;
+  }
+  std::optional<tensegric::Solution> solution = fitter_.fit(request.garment, solver, input.rest, progress);
   if (!solution) return std::nullopt;
 
   const auto message = boost::make_shared<FitState>(to_message(name, *solution, milliseconds_since(start)));

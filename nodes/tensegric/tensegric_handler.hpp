@@ -1,6 +1,10 @@
 /// control/mesh + garment -> control/deformed, control/forces
 #pragma once
 
+#include <tensegric_fit/ControlMesh.h>
+#include <tensegric_fit/Landmarks.h>
+#include <tensegric_fit/TriangleMesh.h>
+
 #include <functional>
 #include <memory>
 #include <optional>
@@ -8,8 +12,8 @@
 
 #include "ros/facts.hpp"
 #include "ros/parameters.hpp"
+#include "tensegric/fit_messages.hpp"
 #include "tensegric/garment_fitter.hpp"
-#include "tensegric/wardrobe.hpp"
 
 namespace tensegric_fit::node {
 
@@ -22,7 +26,9 @@ class TensegricHandler {
   // of the newest body.
 
   struct Input {
-    FittingScene scene;
+    ControlMesh::ConstPtr control;  // all of one scan
+    Landmarks::ConstPtr landmarks;  ///< needed for a posture, else null
+    TriangleMesh::ConstPtr body;
     GarmentRequest request;
     int rest;  ///< as GarmentFitter::fit
   };
@@ -32,7 +38,9 @@ class TensegricHandler {
 
   /// \throw Refusal unknown_line, bad_garment, bad_option: the garment worn before stays
   std::optional<Input> put_on(const Garment& garment) { return wear(request_in(garment)); }
-  std::optional<Input> put_on(const SetGarment::Request& request) { return wear(wardrobe_.take(request)); }
+  std::optional<Input> put_on(const SetGarment::Request& request) {
+    return wear(request_in(request, setup_.garment_directory));
+  }
   /// Back to the first garment, from the body at rest.
   std::optional<Input> reset();
 
@@ -54,13 +62,14 @@ class TensegricHandler {
     Facts facts;
   };
   /// `go_on` is asked after each step; `publish` gets states on the way, none more often than the parameter
-  /// `progress_period`. Nothing where it was stopped. \throw Refusal as GarmentFitter::fit
+  /// `progress_period`. Nothing where it was stopped. \throw Refusal as
+  /// GarmentFitter::take and fit
   std::optional<Output> handle(const Input& input, const std::function<bool()>& go_on,
                                const std::function<void(const FitState&)>& publish);
 
  private:
   struct Setup {
-    FitterOptions fitter;
+    tensegric::FitterOptions fitter;
     double progress_period = 0.05;  ///< seconds
     std::string garment = "B1";     ///< worn until another is asked for, and after a reset
     std::string kept;               ///< what it wore when it ended, where it was started again
@@ -74,7 +83,6 @@ class TensegricHandler {
   Input input() const;
 
   const Setup setup_;
-  const Wardrobe wardrobe_;
   const GarmentRequest first_;
   GarmentRequest worn_;
   ControlMesh::ConstPtr control_;  // newest of each
@@ -82,7 +90,8 @@ class TensegricHandler {
   TriangleMesh::ConstPtr body_;
   bool fresh_ = false;  // no fit to control_ was asked for so far
   int rests_ = 0;
-  GarmentFitter fitter_;
+  tensegric::GarmentFitter fitter_;
+  ControlMesh::ConstPtr taken_;  // by fitter_
 };
 
 }  // namespace tensegric_fit::node

@@ -100,7 +100,7 @@ class TensegricNode {
 
   void fit(const std::optional<Input>& input) {
     if (!input) return;
-    const std::string scan_id = input->scene.control->scan_id;
+    const std::string scan_id = input->control->scan_id;
     stage_.post(scan_id, [this, input = *input, scan_id]() -> Stage::Result {
       const auto output = handler_.handle(
           input, [&] { return !stage_.outdated(scan_id); },

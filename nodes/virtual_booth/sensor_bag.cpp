@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "scan_files/cloud_message.hpp"
+#include "scan_files/bag_messages.hpp"
 #include "virtual_booth/sensor_messages.hpp"
 
 namespace tensegric_fit::virtual_booth {
@@ -32,26 +32,28 @@ void write_poses(rosbag::Bag& bag, const std::vector<SensorPose>& sensors, const
 }  // namespace
 
 void write_sensor_bag(const std::string& path, const std::vector<SensorScan>& scans,
-                      const std::string& frame_id, const ros::Time& stamp) {
+                      const std::string& frame_id, std::chrono::nanoseconds stamp) {
   const std::string frames = "sensor_";
+  const ros::Time start = scan_files::time_of(stamp);
   rosbag::Bag bag(path, rosbag::bagmode::Write);
-  write_poses(bag, poses_of(scans), frame_id, frames, stamp);
+  write_poses(bag, poses_of(scans), frame_id, frames, start);
   for (std::size_t sensor = 0; sensor < scans.size(); ++sensor) {
     const std::string name = std::to_string(sensor);
-    const ros::Time seen = stamp + kApart * static_cast<double>(sensor);
+    const ros::Time seen = start + kApart * static_cast<double>(sensor);
     scan_files::write_latched(bag, "/sensors/" + name + "/points", seen,
                               sensor_cloud(scans[sensor], frames + name, seen));
   }
 }
 
 void write_camera_bag(const std::string& path, const std::vector<DepthPicture>& pictures,
-                      const std::string& frame_id, const ros::Time& stamp) {
+                      const std::string& frame_id, std::chrono::nanoseconds stamp) {
   const std::string frames = "camera_";
+  const ros::Time start = scan_files::time_of(stamp);
   rosbag::Bag bag(path, rosbag::bagmode::Write);
-  write_poses(bag, poses_of(pictures), frame_id, frames, stamp);
+  write_poses(bag, poses_of(pictures), frame_id, frames, start);
   for (std::size_t camera = 0; camera < pictures.size(); ++camera) {
     const std::string name = std::to_string(camera), topics = "/cameras/" + name;
-    const ros::Time seen = stamp + kApart * static_cast<double>(camera);
+    const ros::Time seen = start + kApart * static_cast<double>(camera);
     scan_files::write_latched(bag, topics + "/camera_info", seen,
                               camera_info(pictures[camera], frames + name, seen));
     scan_files::write_latched(bag, topics + "/image", seen,

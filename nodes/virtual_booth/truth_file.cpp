@@ -4,29 +4,18 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "geometry/json.hpp"
+
 namespace tensegric_fit::virtual_booth {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using geometry::json_of;
 
 Json measures(const std::vector<geometry::Measure>& list) {
   Json result = Json::object();
   for (const geometry::Measure& measure : list) result[measure.name] = measure.metres;
   return result;
-}
-
-Json triple(const Eigen::Vector3d& p) {
-  return {p.x(), p.y(), p.z()};
-}
-
-Json matrix(const Eigen::Isometry3d& transform) {
-  Json rows = Json::array();
-  for (int r = 0; r < 4; ++r) {
-    Json row = Json::array();
-    for (int c = 0; c < 4; ++c) row.push_back(transform.matrix()(r, c));
-    rows.push_back(row);
-  }
-  return rows;
 }
 
 Json definitions() {
@@ -63,13 +52,13 @@ void write_truth(const std::string& path, const virtual_body::VirtualBody& body,
   Json truth = {{"name", "virtual_booth"}, {"family", body.family}, {"units", "m"}, {"up", "z"},
                 {"facing", "+x"},          {"left", "+y"}};
   for (const geometry::Landmark& landmark : body.truth.landmarks)
-    truth["landmarks"][landmark.name] = triple(landmark.position);
+    truth["landmarks"][landmark.name] = json_of(landmark.position);
   truth["heights"] = measures(body.truth.heights);
   truth["girths"] = measures(body.truth.girths);
   truth["vague"] = body.doubts.vague;
   truth["hidden"] = body.doubts.hidden;
   truth["loose"] = Json::object();
-  for (const auto& [name, direction] : body.doubts.loose) truth["loose"][name] = triple(direction);
+  for (const auto& [name, direction] : body.doubts.loose) truth["loose"][name] = json_of(direction);
   truth["extra"] = {{"waist_method", body.waist_method}};
   truth["definitions"] = definitions();
   truth["mesh"] = {{"vertices", body.mesh.vertices.size()},
@@ -79,7 +68,7 @@ void write_truth(const std::string& path, const virtual_body::VirtualBody& body,
   truth["parameters"] = Json::object();
   for (const auto& [name, value] : body.parameters) truth["parameters"][name] = value;
   if (!body.shape.empty()) truth["parameters"]["shape"] = body.shape;
-  truth["scan_from_body"] = matrix(body.truth.body_from_scan.inverse());
+  truth["scan_from_body"] = json_of(body.truth.body_from_scan.inverse());
   truth["scan"] = {{"columns", scanner.columns},   {"sensors_per_column", scanner.sensors_per_column},
                    {"points", scanner.points},     {"noise", scanner.noise},
                    {"outliers", scanner.outliers}, {"misregistration", scanner.misregistration},
@@ -87,11 +76,11 @@ void write_truth(const std::string& path, const virtual_body::VirtualBody& body,
                    {"seed", scanner.seed}};
   for (const DarkPatch& patch : scanner.dark)
     truth["scan"]["dark"].push_back(
-        {{"centre", triple(patch.centre)}, {"radii", triple(patch.radii)}, {"share", patch.share}});
+        {{"centre", json_of(patch.centre)}, {"radii", json_of(patch.radii)}, {"share", patch.share}});
   if (scanner.fracture.shift.norm() > 0)
-    truth["scan"]["fracture"] = {{"centre", triple(scanner.fracture.centre)},
-                                 {"radii", triple(scanner.fracture.radii)},
-                                 {"shift", triple(scanner.fracture.shift)},
+    truth["scan"]["fracture"] = {{"centre", json_of(scanner.fracture.centre)},
+                                 {"radii", json_of(scanner.fracture.radii)},
+                                 {"shift", json_of(scanner.fracture.shift)},
                                  {"from_column", scanner.fracture.from_column}};
   std::ofstream file(path);
   file << truth.dump(1) << '\n';

@@ -1,14 +1,19 @@
 /// virtual_booth: makes a body and scans it. Writes scan.ply, scan.bag, body.ply and truth.json, on request
-/// sensors.bag; or shape.ply and fixed.yaml of an example shape. Same arguments, same bytes.
+/// sensors.bag, cameras.bag, body.obj, body.stl, body.glb; or shape.ply and fixed.yaml of an example shape.
+/// Same arguments, same bytes.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 
+#include "files/whole_folder.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/status.hpp"
+#include "mesh_files/glb.hpp"
+#include "mesh_files/maker_files.hpp"
 #include "scan_files/scan_bag.hpp"
 #include "virtual_body/example_shape.hpp"
 #include "virtual_body/virtual_body.hpp"
@@ -23,9 +28,16 @@ using namespace tensegric_fit;
 
 constexpr int kUsage = 2, kRefused = 3;
 
+/// What is written on request.
+struct Extras {
+  bool each_sensor = false;
+  int cameras = 0;
+  std::vector<std::string> formats;  // of the body: obj, stl, glb
+};
+
 /// What a booth of so many depth cameras on four columns sees of her.
 void write_cameras(const virtual_body::VirtualBody& subject, virtual_booth::ScannerOptions scanner,
-                   int cameras, const std::filesystem::path& out, const ros::Time& stamp) {
+                   int cameras, const std::filesystem::path& out, std::chrono::nanoseconds stamp) {
   scanner.sensors_per_column = cameras / scanner.columns;
   const std::vector<virtual_booth::DepthPicture> pictures =
       virtual_booth::depth_pictures(subject.mesh, scanner, virtual_booth::kWideLens);
@@ -33,18 +45,29 @@ void write_cameras(const virtual_body::VirtualBody& subject, virtual_booth::Scan
   virtual_booth::write_camera_poses(out / "cameras.yaml", pictures);
 }
 
+/// As booths deliver meshes: OBJ and STL in millimetres, y up, GLB in metres, y up.
+void write_meshes(const geometry::TriangleMesh& body, const std::vector<std::string>& formats,
+                  const std::filesystem::path& out) {
+  for (const std::string& format : formats)
+    files::write_whole_file(out / ("body." + format), format == "obj" ? mesh_files::obj_text(body, "body")
+                                                      : format == "stl"
+                                                          ? mesh_files::stl_bytes(body)
+                                                          : mesh_files::glb_bytes({{"body", body}}));
+}
+
 void write_scan(const virtual_body::VirtualBody& subject, const virtual_booth::ScannerOptions& scanner,
-                bool each_sensor, int cameras, const std::filesystem::path& out) {
+                const Extras& extras, const std::filesystem::path& out) {
   const virtual_booth::VirtualScan scan = virtual_booth::scan_body(subject.mesh, scanner);
   std::filesystem::create_directories(out);
   geometry::write_ply_mesh(out / "body.ply", subject.mesh);
   geometry::write_ply_mesh(out / "scan.ply", {scan.cloud.points, {}});
   // Any fixed time will do, as long as no two seeds share one.
-  const ros::Time stamp(static_cast<std::uint32_t>(1000000000 + scanner.seed % 1000000000), 0);
+  const std::chrono::seconds stamp(1000000000 + scanner.seed % 1000000000);
   scan_files::write_bag_scan(out / "scan.bag", scan.cloud, "booth", stamp);
-  if (each_sensor)
+  if (extras.each_sensor)
     virtual_booth::write_sensor_bag(out / "sensors.bag", virtual_booth::by_sensor(scan), "booth", stamp);
-  if (cameras > 0) write_cameras(subject, scanner, cameras, out, stamp);
+  if (extras.cameras > 0) write_cameras(subject, scanner, extras.cameras, out, stamp);
+  write_meshes(subject.mesh, extras.formats, out);
   virtual_booth::write_truth(out / "truth.json", subject, scanner);
   std::cout << fmt::format("{}: {} points of a body of {} triangles\n", out.string(),
                            scan.cloud.points.size(), subject.mesh.triangles.size());
@@ -67,8 +90,8 @@ void write_shape(const std::string& name, const std::filesystem::path& out) {
 struct Request {
   std::string family = "model", out = "virtual_booth", shape;
   std::uint64_t customer = 0;
-  bool is_customer = false, each_sensor = false;
-  int cameras = 0;
+  bool is_customer = false;
+  Extras extras;
   virtual_body::BodyParameters body;  // of the implicit family; what was asked for of the model's, too
   virtual_booth::ScannerOptions scanner;
   std::vector<std::string> asked;  // options of the body that were given
@@ -96,7 +119,7 @@ void run(const Request& request) {
                                                : virtual_body::make_body(request.body);
   write_scan(subject,
              request.is_customer ? virtual_booth::random_scanner(request.customer, subject) : request.scanner,
-             request.each_sensor, request.cameras, request.out);
+             request.extras, request.out);
 }
 
 /// All options of the program. \throw CLI::ParseError
@@ -112,15 +135,21 @@ void parse(int argc, char** argv, CLI::App& app, Request& request) {
   app.add_option("--shape", request.shape,
                  "write this shape and which part of it to hold, in place of a scan")
       ->check(CLI::IsMember(virtual_body::example_shapes()));
-  const CLI::Option* sensors =
-      app.add_flag("--sensors", request.each_sensor, "write sensors.bag, too: each sensor's cloud and tf");
-  app.add_option("--depth-cameras", request.cameras,
+  const CLI::Option* sensors = app.add_flag("--sensors", request.extras.each_sensor,
+                                            "write sensors.bag, too: each sensor's cloud and tf");
+  app.add_option("--depth-cameras", request.extras.cameras,
                  "write cameras.bag, too: depth images and CameraInfo of so many cameras with lenses, and "
                  "cameras.yaml, where they stand")
       ->check(CLI::IsMember({0, 4, 8, 12, 16}));
+  const CLI::Option* formats =
+      app.add_option(
+             "--export", request.extras.formats,
+             "write the body as a booth's mesh, too: obj, stl (millimetres, y up), glb (metres, y up)")
+          ->delimiter(',')
+          ->check(CLI::IsMember({"obj", "stl", "glb"}));
   CLI::Option* customer = app.add_option(
       "--customer", request.customer,
-      "body and booth number N, drawn at random; only --family, --out and --sensors go with it");
+      "body and booth number N, drawn at random; only --family, --out, --export and --sensors go with it");
   // Of either family, and of the implicit one alone.
   const std::vector<CLI::Option*> common = {
       app.add_option("--stature", body.stature,
@@ -147,7 +176,7 @@ void parse(int argc, char** argv, CLI::App& app, Request& request) {
   app.add_flag("--floor", scanner.floor, "let the sensors see the floor");
   app.add_flag("--frame", scanner.frame, "let the sensors see the booth's frame");
   for (CLI::Option* option : app.get_options())
-    if (option != customer && option != sensors && option != out && option != family &&
+    if (option != customer && option != sensors && option != out && option != family && option != formats &&
         option->get_name() != "--help")
       customer->excludes(option);
   app.parse(argc, argv);

@@ -144,9 +144,9 @@ int main(int argc, char** argv) {
       app.add_flag("--mesh-only", request.mesh_only, "the true surface: what landmarks alone do wrong");
   app.add_flag("--merged", request.merged, "clouds as they come, columns not moved onto each other")
       ->excludes(surface);
-  auto* out =
-      app.add_option("--out", request.out,
-                     "a line of JSON a body is added to this file; bodies that it has are not measured again");
+  auto* out = app.add_option(
+      "--out", request.out,
+      "a line of JSON a body is added to this file; bodies that it has are not measured again");
   auto* shard = app.add_option_function<std::string>(
       "--shard",
       [&](const std::string& text) {

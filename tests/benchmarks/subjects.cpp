@@ -88,7 +88,7 @@ class Folder : public Family {
     if (input == Input::surface)
       subject.surface = geometry::read_ply_mesh(base + "_body.ply");
     else
-      subject.scan = geometry::points_of(scan_files::read_scan(base + "_scan.ply"));
+      subject.scan = geometry::points_of(scan_files::read_scan_file(base + "_scan.ply").cloud);
     return subject;
   }
 

@@ -59,8 +59,9 @@ Json read_mesh(const std::string& path, const body_model::Registrar& registrar) 
 }
 
 Json read_scan(const std::string& path, const body_model::Registrar& registrar) {
-  const auto [body, model] = reconstruction::reconstruct(geometry::points_of(scan_files::read_scan(path)), {},
-                                                         {std::cref(registrar), registrar.standing()});
+  const auto [body, model] =
+      reconstruction::reconstruct(geometry::points_of(scan_files::read_scan_file(path).cloud), {},
+                                  {std::cref(registrar), registrar.standing()});
   return readings_of(landmarks::read_figures(body.mesh, body.filled, model, landmarks::shipped_precision()),
                      model);
 }

@@ -10,7 +10,7 @@
 #include "geometry/shipped_files.hpp"
 #include "input.hpp"
 #include "ros/body_messages.hpp"
-#include "tensegric/kept_garment.hpp"
+#include "tensegric/kept_garment_message.hpp"
 #include "tensegric/tensegric_handler.hpp"
 #include "tensegric_bust.hpp"
 #include "tffd/tffd_handler.hpp"

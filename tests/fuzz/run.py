@@ -25,9 +25,9 @@ TESTED = {  # whose lines count
              "nodes/control_mesh/shape_control.cpp", "nodes/fit/tissue_file.cpp"],
     "cloud": ["nodes/geometry/point_cloud.cpp"],
     "messages": ["nodes/ros/body_messages.cpp", "nodes/ros/flat.hpp", "nodes/body_model/model_message.cpp", "nodes/tensegric/fit_messages.cpp",
-                 "nodes/tensegric/wardrobe.cpp", "nodes/tensegric/kept_garment.cpp", "nodes/tensegric/tensegric_handler.cpp",
+                 "nodes/tensegric/kept_garment_message.cpp", "nodes/tensegric/tensegric_handler.cpp",
                  "nodes/tffd/tffd_handler.cpp"],
-    "bag": ["nodes/ros/bag_check.cpp", "nodes/ros/bag_scans.cpp", "nodes/scan_files/scan_bag.cpp"],
+    "bag": ["nodes/ros/bag_check.cpp", "nodes/ros/bag_scans.cpp", "nodes/scan_files/bag_messages.cpp", "nodes/scan_files/scan_bag.cpp"],
     "manifest": ["nodes/batch/manifest.cpp", "nodes/files/csv.cpp"],
 }
 

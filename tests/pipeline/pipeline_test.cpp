@@ -2,13 +2,10 @@
 #include <gtest/gtest.h>
 #include <pcl_msgs/PolygonMesh.h>
 #include <sensor_msgs/Image.h>
-#include <std_srvs/Trigger.h>
 #include <tensegric_fit/DeleteExport.h>
 #include <tensegric_fit/ExportFit.h>
 #include <tensegric_fit/Forget.h>
-#include <tensegric_fit/Garment.h>
 #include <tensegric_fit/ScanLabel.h>
-#include <tensegric_fit/SetGarment.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
@@ -18,8 +15,7 @@
 #include <fstream>
 #include <memory>
 
-#include "chain_client.hpp"
-#include "ros/line_force.hpp"
+#include "fitted_chain.hpp"
 
 namespace tensegric_fit::tests {
 namespace {
@@ -40,49 +36,6 @@ double extent_of(const std::vector<float>& vertices) {
   }
   return high - low;
 }
-
-double ratio_of(const FitState& fit, const std::string& line) {
-  for (const LineResult& result : fit.lines)
-    if (result.name == line) return result.ratio;
-  return 0;
-}
-
-class PipelineTest : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    client_ = std::make_unique<ChainClient>();
-    ASSERT_TRUE(client_->ready()) << "the chain did not come up";
-    scan_id_ = client_->fit(booth_scan("a"));
-    ASSERT_NE(scan_id_, "") << "no deformed body came out";
-  }
-  static void TearDownTestSuite() { client_.reset(); }
-
-  static SetGarment::Response set_garment(const SetGarment::Request& request) {
-    SetGarment::Response response;
-    SetGarment::Request copy = request;
-    EXPECT_TRUE(ros::service::call("set_garment", copy, response));
-    return response;
-  }
-
-  static SetGarment::Request b1_at(double ratio) {
-    SetGarment::Request request;
-    request.name = "B1";
-    request.lines = {"chest"};
-    request.ratios = {ratio};
-    return request;
-  }
-
-  // Two nodes publish them, in either order.
-  static bool fit_and_body_came() {
-    return wait_for([] { return !client_->deformed.empty() && !client_->fits.empty(); });
-  }
-
-  static std::unique_ptr<ChainClient> client_;
-  static std::string scan_id_;
-};
-
-std::unique_ptr<ChainClient> PipelineTest::client_;
-std::string PipelineTest::scan_id_;
 
 TEST_F(PipelineTest, EveryTopicOnceWithOneScanId) {
   listen(1);  // for any that come twice
@@ -174,129 +127,6 @@ TEST_F(PipelineTest, MarkersMeshesAndPicturesForWhoeverListens) {
   }
 }
 
-TEST_F(PipelineTest, AnotherGarmentNeedsNoOtherScan) {
-  client_->forget();
-  EXPECT_TRUE(set_garment(b1_at(0.97)).accepted);
-  ASSERT_TRUE(fit_and_body_came());
-  EXPECT_TRUE(client_->bodies.empty());
-  EXPECT_TRUE(client_->controls.empty());
-  EXPECT_EQ(client_->deformed.back()->scan_id, scan_id_);
-  EXPECT_EQ(client_->deformed.back()->garment, "B1");
-  EXPECT_NEAR(ratio_of(*client_->fits.back(), "chest"), 0.97,
-              1e-4);  // the bound on a feasible request
-}
-
-TEST_F(PipelineTest, TheLastOfManyGarmentsIsTheOneThatStays) {
-  client_->forget();
-  double ratio = 1;
-  for (int i = 0; i < 50; ++i) EXPECT_TRUE(set_garment(b1_at(ratio -= 0.001)).accepted);
-  listen(1);  // for any that come late
-  ASSERT_FALSE(client_->fits.empty());
-  EXPECT_NEAR(ratio_of(*client_->fits.back(), "chest"), ratio,
-              1e-4);  // as above; the steps are ten times that
-  for (const FitState::ConstPtr& fit : client_->fits) EXPECT_EQ(fit->status, FitState::CONVERGED);
-
-  // The body may skip fits that are out of date, never the last one: the same garment again leaves it as it
-  // is.
-  ASSERT_FALSE(client_->deformed.empty());
-  const DeformedMesh::ConstPtr last = client_->deformed.back();
-  client_->forget();
-  ASSERT_TRUE(set_garment(b1_at(ratio)).accepted);
-  ASSERT_TRUE(wait_for([] { return !client_->deformed.empty(); }));
-  const DeformedMesh::ConstPtr again = client_->deformed.back();
-  ASSERT_EQ(again->vertices.size(), last->vertices.size());
-  for (std::size_t i = 0; i < last->vertices.size(); ++i)
-    ASSERT_NEAR(again->vertices[i], last->vertices[i],
-                1e-5);  // m; a step of the ratio moves the bust by 0.2 mm
-}
-
-TEST_F(PipelineTest, AGarmentFromTheTopicIsWornToo) {
-  client_->forget();
-  ros::NodeHandle node;
-  ros::Publisher publisher = node.advertise<Garment>("garment", 1);
-  ASSERT_TRUE(wait_for([&] { return publisher.getNumSubscribers() != 0; }));
-  Garment garment;
-  garment.name = "from the panel";
-  garment.regions = {"bust"};
-  garment.lines.resize(1);
-  garment.lines[0].name = "chest";
-  garment.lines[0].ratio = 0.98;
-  publisher.publish(garment);
-  ASSERT_TRUE(fit_and_body_came());
-  EXPECT_EQ(client_->deformed.back()->garment, "from the panel");
-  EXPECT_NEAR(ratio_of(*client_->fits.back(), "chest"), 0.98, 1e-4);
-}
-
-TEST_F(PipelineTest, ABandGivenByPointsLiesOnTheBody) {
-  client_->forget();
-  ASSERT_TRUE(set_garment(b1_at(0.97)).accepted);
-  ASSERT_TRUE(fit_and_body_came());
-  SetGarment::Request own;
-  own.garment.name = "on this body";
-  own.garment.regions = {"bust"};
-  own.garment.lines.resize(1);
-  GarmentLine& band = own.garment.lines[0];
-  band.name = "band";
-  band.ratio = 0.96;
-  const std::vector<double> course = client_->fits.back()->lines.at(0).course_at_rest;
-  for (std::size_t i = 0; i + 2 < course.size(); i += 12)  // every fourth of its points
-    band.points.insert(band.points.end(), course.begin() + i, course.begin() + i + 3);
-  band.width = 0.03;
-  band.smooth = 0.02;
-  client_->forget();
-  const SetGarment::Response response = set_garment(own);
-  ASSERT_TRUE(response.accepted) << response.message;
-  ASSERT_TRUE(fit_and_body_came());
-  const FitState& fit = *client_->fits.back();
-  EXPECT_EQ(fit.status, FitState::CONVERGED);
-  EXPECT_NEAR(ratio_of(fit, "band"), 0.96, 1e-6);
-  EXPECT_TRUE(fit.lines.at(0).nodes.empty());
-  EXPECT_GT(fit.lines.at(0).course.size(), band.points.size());  // it follows the skin between its points
-
-  for (double& value : band.points) value += 0.5;
-  const SetGarment::Response astray = set_garment(own);
-  EXPECT_FALSE(astray.accepted);
-  EXPECT_EQ(astray.code, "bad_garment");
-}
-
-TEST_F(PipelineTest, ARefusedGarmentLeavesTheOldOneOn) {
-  client_->forget();
-  SetGarment::Request request = b1_at(0.9);
-  request.lines = {"no_such_line"};
-  SetGarment::Response response = set_garment(request);
-  EXPECT_FALSE(response.accepted);
-  EXPECT_EQ(response.code, "unknown_line");
-
-  SetGarment::Request own;
-  own.garment.name = "mine";
-  own.garment.regions = {"bust"};
-  own.garment.lines.resize(1);
-  own.garment.lines[0].name = "astray";
-  own.garment.lines[0].ratio = 0.9;
-  own.garment.lines[0].through = {"no_such_node", "sternum"};
-  response = set_garment(own);
-  EXPECT_FALSE(response.accepted);
-  EXPECT_EQ(response.code, "unknown_line");
-
-  own.garment.regions = {"hat"};
-  own.garment.lines[0].name = "chest";
-  own.garment.lines[0].through.clear();
-  response = set_garment(own);
-  EXPECT_FALSE(response.accepted);
-  EXPECT_EQ(response.code, "bad_garment");
-  listen(1);
-  EXPECT_TRUE(client_->fits.empty());
-}
-
-TEST_F(PipelineTest, ResetGoesBackToTheFirstGarment) {
-  client_->forget();
-  std_srvs::Trigger trigger;
-  ASSERT_TRUE(ros::service::call("reset", trigger));
-  EXPECT_TRUE(trigger.response.success);
-  ASSERT_TRUE(wait_for([] { return !client_->deformed.empty(); }));
-  EXPECT_EQ(client_->deformed.back()->garment, "B1");
-}
-
 TEST_F(PipelineTest, AnExportIsWholeNeverOverwrittenAndDeletedByScan) {
   const fs::path folder = fs::path(TENSEGRIC_FIT_SCANS) / "exported";
   fs::remove_all(folder);
@@ -315,7 +145,7 @@ TEST_F(PipelineTest, AnExportIsWholeNeverOverwrittenAndDeletedByScan) {
   listen(0.5);
   ASSERT_TRUE(ros::service::call("export_fit", request));
   EXPECT_TRUE(request.response.exported) << request.response.message;
-  EXPECT_EQ(request.response.files.size(), 11u);
+  EXPECT_EQ(request.response.files.size(), 15u);
   for (const std::string& file : request.response.files) EXPECT_GT(fs::file_size(file), 0u) << file;
   const std::string validate = "/usr/bin/python3 -m jsonschema -i '" + (folder / "fit.json").string() +
                                "' '" TENSEGRIC_FIT_SOURCE_DIR "/launch/schemas/fit.schema.json'";

@@ -11,7 +11,7 @@
 
 #include "geometry/checked_yaml.hpp"
 #include "geometry/shipped_files.hpp"
-#include "tensegric/wardrobe.hpp"
+#include "tensegric/fit_messages.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
@@ -60,11 +60,11 @@ void add_expectations(const YAML::Node& metrics, const std::string& where, std::
 }
 
 Garment read_garment(const YAML::Node& node, const std::string& where) {
-  const node::Wardrobe wardrobe(geometry::shipped_folder("garments"));
-  if (node.IsScalar()) return node::to_message({}, wardrobe.take(node.Scalar()));
+  const std::string shipped = geometry::shipped_folder("garments");
+  if (node.IsScalar()) return node::to_message({}, {tensegric::take_garment(node.Scalar(), shipped), ""});
   geometry::check_keys(node, {"name", "ratio", "ratios", "stiffness"}, where, kBadCase);
-  node::GarmentRequest request =
-      wardrobe.take(geometry::required<std::string>(node, "name", where, kBadCase));
+  const auto name = geometry::required<std::string>(node, "name", where, kBadCase);
+  node::GarmentRequest request{tensegric::take_garment(name, shipped), ""};
   if (node["ratio"])
     tensegric::set_ratio(request.garment, "", geometry::required<double>(node, "ratio", where, kBadCase));
   using Ratios = std::map<std::string, double>;

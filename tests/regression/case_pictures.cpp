@@ -6,6 +6,8 @@
 #include "inspect/composition.hpp"
 #include "inspect/fit_pictures.hpp"
 #include "ros/body_messages.hpp"
+#include "ros/export_fit.hpp"
+#include "ros/fit_sheet.hpp"
 #include "ros/flat.hpp"
 
 namespace tensegric_fit::regression {
@@ -49,7 +51,7 @@ std::vector<CasePicture> pictures_of(const Recording& recording) {
   pictures.push_back(picture(
       "landmarks and tapes",
       inspect::side_by_side(inspect::front_picture(body, measures), inspect::side_picture(body, measures))));
-  if (recording.fits.empty() || recording.deformed.size() != recording.fits.size()) return pictures;
+  if (!has_fit(recording)) return pictures;
 
   const FitState& fit = *recording.fits.back();
   const DeformedMesh& deformed = *recording.deformed.back();
@@ -69,6 +71,17 @@ std::vector<CasePicture> pictures_of(const Recording& recording) {
                             : picture("from the front", inspect::front_picture(scene)));
   pictures.push_back(picture("distortion", inspect::distortion_picture(scene)));
   return pictures;
+}
+
+bool has_fit(const Recording& recording) {
+  return recording.body && recording.landmarks && recording.control && !recording.fits.empty() &&
+         recording.deformed.size() == recording.fits.size();
+}
+
+std::string fit_page(const Recording& recording) {
+  const node::FitFigures figures = node::figures_of({recording.body, recording.landmarks, recording.control,
+                                                     recording.fits.back(), recording.deformed.back()});
+  return node::fit_sheet(figures, {}, {"fit.glb", node::fit_model(figures)});
 }
 
 }  // namespace tensegric_fit::regression

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <boost/make_shared.hpp>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -14,7 +15,7 @@
 #include "record.hpp"
 #include "ros/scan_tag.hpp"
 #include "scan_files/scan_bag.hpp"
-#include "tensegric/wardrobe.hpp"
+#include "tensegric/fit_messages.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
@@ -154,7 +155,7 @@ class RecordTest : public CompareTest {
     geometry::PointCloud cloud;
     cloud.points = {{0, 0, 0}, {0, 0, 1}};
     const std::string bag = folder_ / "scan.bag";
-    scan_files::write_bag_scan(bag, cloud, "booth", kTime);
+    scan_files::write_bag_scan(bag, cloud, "booth", std::chrono::nanoseconds(kTime.toNSec()));
     rosbag::Bag appended(bag, rosbag::bagmode::Append);
     for (std::size_t i = 0; i < garments.size(); ++i)
       appended.write("/garment", kTime + ros::Duration(1.0 + static_cast<double>(i)), garments[i]);
@@ -165,7 +166,7 @@ class RecordTest : public CompareTest {
     return request;
   }
   static Garment shipped(const std::string& name) {
-    return node::to_message({}, node::Wardrobe(geometry::shipped_folder("garments")).take(name));
+    return node::to_message({}, {tensegric::take_garment(name, geometry::shipped_folder("garments")), ""});
   }
   Case written() const {
     const std::string file = folder_ / "cases" / "mine.yaml";

@@ -15,6 +15,7 @@
 #include "golden_shape.hpp"
 #include "replay_runner.hpp"
 #include "ros/scan_tag.hpp"
+#include "scan_files/bag_messages.hpp"
 #include "scan_files/scan_bag.hpp"
 #include "virtual_booth/sensor_bag.hpp"
 
@@ -23,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const ros::Time kScanTime(1000000000, 0);  // any fixed time will do
+const std::chrono::seconds kScanTime(1000000000);  // any fixed time will do
 const std::string kFrame = "booth";
 
 // A stage that takes so much longer in the launched chain than by its handler at the same time does something
@@ -93,7 +94,8 @@ class CaseRun {
     sensor_msgs::PointCloud2::ConstPtr scan;
     if (sensors && (scan = assembled(input))) {
       input.bag = folder_ + "/assembled_scan.bag";
-      rosbag::Bag(input.bag, rosbag::bagmode::Write).write("/scan/points", kScanTime, *scan);
+      rosbag::Bag(input.bag, rosbag::bagmode::Write)
+          .write("/scan/points", scan_files::time_of(kScanTime), *scan);
       add_garments(input.bag, outcome_.asked.garments);  // the recorder kept the scan alone
       fault += launch_replay(input);
     }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "case_pictures.hpp"
 #include "compare.hpp"
 #include "geometry/status.hpp"
 #include "golden.hpp"
@@ -83,6 +84,9 @@ int run(const CommandLine& line) {
   write(fs::path(line.out) / "junit.xml", regression::junit_xml(outcomes));
   write(fs::path(line.out) / "metrics.jsonl", regression::json_lines(outcomes));
   write(fs::path(line.out) / "report.html", regression::html_page(outcomes));
+  for (const regression::Outcome& outcome : outcomes)
+    if (regression::has_fit(outcome.recording))
+      write(fs::path(line.out) / (outcome.asked.name + ".html"), regression::fit_page(outcome.recording));
   std::cout << fmt::format("{}\n", (fs::path(line.out) / "report.html").string());
   return holds ? 0 : kFails;
 }

@@ -15,7 +15,7 @@
 #include "geometry/status.hpp"
 #include "golden_shape.hpp"
 #include "stamp.hpp"
-#include "tensegric/wardrobe.hpp"
+#include "tensegric/fit_messages.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
@@ -97,12 +97,16 @@ std::string plain_name(const Garment& garment) {
   return garment.name.substr(0, garment.name.find(" #"));
 }
 
+node::GarmentRequest shipped_garment(const std::string& name) {
+  return {tensegric::take_garment(name, geometry::shipped_folder("garments")), ""};
+}
+
 // How a case file asks for it; empty where it is no shipped garment, whatever its name.
 std::string words_for(const Garment& garment) {
   const std::string name = plain_name(garment);
   std::string ratios;
   try {
-    node::GarmentRequest shipped = node::Wardrobe(geometry::shipped_folder("garments")).take(name);
+    node::GarmentRequest shipped = shipped_garment(name);
     for (const GarmentLine& line : garment.lines) {
       const auto same = std::find_if(shipped.garment.lines.begin(), shipped.garment.lines.end(),
                                      [&](const auto& other) { return other.name == line.name; });
@@ -129,9 +133,8 @@ void take_wanted(const RecordRequest& request, Input& input) {
   if (request.garments.empty()) return;
   input.garments.clear();
   if (request.garments == std::vector<std::string>{"none"}) return;
-  const node::Wardrobe wardrobe(geometry::shipped_folder("garments"));
   for (const std::string& name : request.garments)
-    input.garments.push_back(node::to_message({}, wardrobe.take(name)));
+    input.garments.push_back(node::to_message({}, shipped_garment(name)));
 }
 
 void write_bag(const fs::path& path, const Input& input, bool with_garments) {

@@ -18,7 +18,8 @@ std::string json_lines(const std::vector<Outcome>& outcomes);
 /// The top of a page that needs no network, with its title; `verdict` is markup.
 std::string page_begin(const std::string& title, const std::string& verdict);
 
-/// One page that needs no network: the verdict first, then each case with pictures and tables.
+/// One page that needs no network: the verdict first, then each case with pictures and tables; it links
+/// CASE.html beside it of each case that has a fit (fit_page).
 std::string html_page(const std::vector<Outcome>& outcomes);
 
 }  // namespace tensegric_fit::regression

@@ -81,6 +81,9 @@ std::string section_of(const Outcome& outcome) {
   std::string html =
       fmt::format("<h2 id=\"{0}\">{0}: {1}</h2>\n<p>{2}</p>\n", files::html_escaped(outcome.asked.name),
                   mark(outcome.holds()), files::html_escaped(outcome.asked.about));
+  if (has_fit(outcome.recording))
+    html += fmt::format("<p><a href=\"{0}.html\">{0} in 3D</a>, and its measures</p>\n",
+                        files::html_escaped(outcome.asked.name));
   for (const CasePicture& picture : pictures_of(outcome.recording))
     html += fmt::format(
         "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",

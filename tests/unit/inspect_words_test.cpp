@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "inspect/panel_words.hpp"
+#include "inspect/pressure_words.hpp"
 #include "inspect/warning_words.hpp"
 
 namespace tensegric_fit::inspect::words {
@@ -21,8 +22,28 @@ TEST(Words, SayPullsInNewtons) {
   EXPECT_EQ(pull(0.04), "0.0 N");
   EXPECT_EQ(pull(9.94), "9.9 N");
   EXPECT_EQ(pull(23.4), "23 N");
-  EXPECT_NE(pull_help(23.4, 1.66).find("23 N and presses with up to 1.7 kPa"), std::string::npos);
+  EXPECT_EQ(with_uncertainty(23.4), "23 ± 8");
+  EXPECT_EQ(with_uncertainty(4.0), "4.0 ± 1.4");
+  EXPECT_NE(
+      pull_help(23.4, 1.66).find("23 ± 8 N and presses with up to 1.7 ± 0.6 kPa: less than a waistband"),
+      std::string::npos);
   EXPECT_EQ(pull_help(23.4, 0).find("kPa"), std::string::npos);
+}
+
+TEST(Words, SayWhatAPressureMeans) {
+  EXPECT_EQ(pressure_meaning(0), "");
+  EXPECT_EQ(pressure_meaning(2.2).find("less than"), 0U);
+  EXPECT_EQ(pressure_meaning(3).find("more than a waistband"), 0U);
+  EXPECT_EQ(pressure_meaning(5).find("wearers complain"), 0U);
+  EXPECT_EQ(pressure_warning(4.6), "");
+  EXPECT_NE(pressure_warning(5.23).find("5.2 kPa"), std::string::npos);
+}
+
+TEST(Words, DetailsAreNotSaidToAClerk) {
+  EXPECT_EQ(without_details("It folds. (Details: 3 patches.) Loosen it. (Details: 1 patch.)"),
+            "It folds. Loosen it.");
+  EXPECT_EQ(without_details("It folds. (Details: cut"), "It folds.");
+  EXPECT_EQ(without_details("It fits."), "It fits.");
 }
 
 TEST(Words, WarnOfSkinThatIsPressedOrStretchedTooFarOnly) {

@@ -233,7 +233,34 @@ TEST(SurfaceSamples, AreEvenAndHaveNormalsWhereTheMeshHasAnOutside) {
       EXPECT_NEAR(reversed.normals[i].z(), -1, 1e-9);
     }
   std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
-  EXPECT_TRUE(surface_samples(mesh, 100).normals.empty());
+  mesh.triangles.push_back(mesh.triangles[1]);  // one runs against its neighbours, one is there twice
+  const geometry::PointCloud mended = surface_samples(mesh, 100);
+  ASSERT_EQ(mended.normals.size(), reversed.normals.size());
+  for (std::size_t i = 0; i < 100; ++i) EXPECT_NEAR(mended.normals[i].dot(reversed.normals[i]), 1, 1e-9);
+}
+
+TEST(SurfaceSamples, HaveNoNormalsWhereTheMeshHasNoOutside) {
+  TriangleMesh mesh = tetrahedron(), soup;
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) soup.vertices.push_back(mesh.vertices[t[k]]);
+  for (int f = 0; f < 4; ++f) soup.triangles.emplace_back(3 * f, 3 * f + 1, 3 * f + 2);
+  EXPECT_TRUE(surface_samples(soup, 100).normals.empty()) << "no triangle has a neighbour";
+  TriangleMesh strip;  // Moebius: a band with half a turn
+  constexpr int kAround = 40;
+  for (int i = 0; i < kAround; ++i)
+    for (const double side : {-0.3, 0.3}) {
+      const double angle = 2 * M_PI * i / kAround;
+      const Vector3d out(std::cos(angle), std::sin(angle), 0);
+      strip.vertices.emplace_back(
+          out + side * (std::cos(angle / 2) * out + std::sin(angle / 2) * Vector3d::UnitZ()));
+    }
+  for (int i = 0; i < kAround; ++i) {
+    const bool last = i + 1 == kAround;
+    const int a = 2 * i, b = a + 1, c = last ? 1 : a + 2, d = last ? 0 : a + 3;
+    strip.triangles.emplace_back(a, b, d);
+    strip.triangles.emplace_back(a, d, c);
+  }
+  EXPECT_TRUE(surface_samples(strip, 100).normals.empty());
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "reconstruction/reconstruction_handler.hpp"
 #include "reconstruction/validate.hpp"
 #include "ros/body_messages.hpp"
-#include "tensegric/kept_garment.hpp"
+#include "tensegric/kept_garment_message.hpp"
 #include "tensegric/tensegric_handler.hpp"
 #include "tensegric_bust.hpp"
 #include "tffd/tffd_handler.hpp"

@@ -61,12 +61,12 @@ class ScanFileTest : public testing::Test {
   }
 
   static void expect_cloud(const std::string& path) {
-    EXPECT_EQ(geometry::points_of(scan_files::read_scan(path)).points, cloud().points) << path;
+    EXPECT_EQ(geometry::points_of(scan_files::read_scan_file(path).cloud).points, cloud().points) << path;
   }
 
   static std::string refusal_of(const std::string& path) {
     try {
-      scan_files::read_scan(path);
+      scan_files::read_scan_file(path);
     } catch (const geometry::Refusal& refusal) {
       EXPECT_NE(std::string(refusal.what()).find(fs::path(path).filename().string()), std::string::npos);
       return refusal.code();
@@ -86,7 +86,7 @@ TEST_F(ScanFileTest, EveryKindIsReadAsItWasWritten) {
   pcl::io::savePCDFileBinary(file("binary.pcd"), pcl_cloud());
   pcl::io::savePCDFileBinaryCompressed(file("compressed.PCD"), pcl_cloud());
   for (const char* name : {"ascii.pcd", "binary.pcd", "compressed.PCD"}) expect_cloud(file(name));
-  scan_files::write_bag_scan(file("a.bag"), cloud(), "booth", ros::Time(5));
+  scan_files::write_bag_scan(file("a.bag"), cloud(), "booth", std::chrono::seconds(5));
   expect_cloud(file("a.bag"));
 }
 
@@ -95,13 +95,13 @@ TEST_F(ScanFileTest, BagsOfOneCloudAreTheSameBytes) {
     std::ifstream in(path, std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(in), {});
   };
-  scan_files::write_bag_scan(file("a.bag"), cloud(), "booth", ros::Time(5));
-  scan_files::write_bag_scan(file("b.bag"), cloud(), "booth", ros::Time(5));
+  scan_files::write_bag_scan(file("a.bag"), cloud(), "booth", std::chrono::seconds(5));
+  scan_files::write_bag_scan(file("b.bag"), cloud(), "booth", std::chrono::seconds(5));
   EXPECT_EQ(bytes(file("a.bag")), bytes(file("b.bag")));
 }
 
 TEST_F(ScanFileTest, ABagsScanTopicComesBeforeOtherClouds) {
-  scan_files::write_bag_scan(file("a.bag"), cloud(), "booth", ros::Time(5));
+  scan_files::write_bag_scan(file("a.bag"), cloud(), "booth", std::chrono::seconds(5));
   {
     rosbag::Bag bag(file("a.bag"), rosbag::bagmode::Append);
     bag.write("/another/points", ros::Time(1), sensor_msgs::PointCloud2());  // earlier, and empty
@@ -117,7 +117,7 @@ TEST_F(ScanFileTest, ABagOfAllSensorsHasTheirClouds) {
                              Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ());  // x is the booth's y
     scans[sensor].cloud.points = {pose.booth_from_sensor * Vector3d(1, 2, 3)};
   }
-  virtual_booth::write_sensor_bag(file("sensors.bag"), scans, "booth", ros::Time(5));
+  virtual_booth::write_sensor_bag(file("sensors.bag"), scans, "booth", std::chrono::seconds(5));
   int clouds = 0, poses = 0;
   const rosbag::Bag bag(file("sensors.bag"));
   for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
@@ -160,7 +160,7 @@ TEST_F(ScanFileTest, TruncatedFilesAreRefused) {
   pcl::io::savePCDFileASCII(file("ascii.pcd"), pcl_cloud());
   pcl::io::savePCDFileBinary(file("binary.pcd"), pcl_cloud());
   pcl::io::savePCDFileBinaryCompressed(file("compressed.pcd"), pcl_cloud());
-  scan_files::write_bag_scan(file("a.bag"), cloud(), "booth", ros::Time(5));
+  scan_files::write_bag_scan(file("a.bag"), cloud(), "booth", std::chrono::seconds(5));
   for (const char* name : {"a.ply", "ascii.pcd", "binary.pcd", "compressed.pcd", "a.bag"})
     for (const double share : {0.0, 0.01, 0.2, 0.5, 0.9})
       EXPECT_EQ(refusal_of(cut(file(name), share)), geometry::refusal::kBrokenFile)

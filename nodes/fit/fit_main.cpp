@@ -1,7 +1,5 @@
-#include "fit/run.hpp"
-
+/// fit: input files -> result files.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -11,6 +9,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "body_model/parts.hpp"
+#include "files/owner_only.hpp"
+#include "fit/command_line.hpp"
 #include "fit/compute.hpp"
 #include "fit/maker_export.hpp"
 #include "fit/result_folder.hpp"
@@ -62,9 +62,7 @@ class Run {
   const Source& source() const { return done_.source; }
 
  private:
-  void say(const std::string& what) const {
-    if (!line_.quiet && isatty(STDERR_FILENO) != 0) fmt::print(stderr, "{} ...\n", what);
-  }
+  void say(const std::string& what) const { say_progress(line_.quiet, what); }
 
   std::string path(const std::string& name) const { return (fs::path(line_.out) / name).string(); }
 
@@ -136,36 +134,26 @@ class Run {
   Computed done_;
 };
 
-}  // namespace
-
 int run(const CommandLine& line) {
-  std::vector<const std::string*> inputs{&line.mesh, &line.garment, &line.tissue, &line.control, &line.fixed};
-  for (const std::string& file : line.scans) inputs.push_back(&file);
-  if (const std::string* input = endangered_input(inputs, line.out, kResults)) {
-    fmt::print(stderr, "--out: the results would overwrite the input {}\n", *input);
-    return 2;
-  }
+  std::vector<std::string> inputs{line.mesh, line.garment, line.tissue, line.control, line.fixed};
+  inputs.insert(inputs.end(), line.scans.begin(), line.scans.end());
   Run chain(line);
-  try {
-    fs::create_directories(line.out);
-    remove_results(line.out, kResults);
+  const auto work = [&] {
     chain();
     if (!line.quiet) fmt::print(stderr, "results: {}\n", fs::absolute(line.out).lexically_normal().string());
-    return 0;
-  } catch (const geometry::Refusal& refusal) {
-    fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());
-    remove_results(line.out, kResults);
-    try {
-      write_json(fs::path(line.out) / "report.json", report_of(chain.source(), refusal));
-    } catch (const std::exception& error) {
-      fmt::print(stderr, "fit: {}\n", error.what());
-    }
-    return 3;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "fit: {}\n", error.what());
-    remove_results(line.out, kResults);
-    return 1;
-  }
+  };
+  return run_into_folder({"fit", line.out, kResults, inputs, work, [&](const geometry::Refusal& refusal) {
+                            write_json(fs::path(line.out) / "report.json",
+                                       report_of(chain.source(), refusal));
+                          }});
 }
 
+}  // namespace
 }  // namespace tensegric_fit::fit
+
+int main(int argc, char** argv) {
+  tensegric_fit::files::owner_only();
+  tensegric_fit::fit::CommandLine line;
+  if (const auto exit_code = tensegric_fit::fit::parse(argc, argv, line)) return *exit_code;
+  return tensegric_fit::fit::run(line);
+}

@@ -1,4 +1,4 @@
-#include "tensegric/kept_garment.hpp"
+#include "tensegric/kept_garment_message.hpp"
 
 #include <fmt/format.h>
 #include <ros/serialization.h>

@@ -1,141 +1,18 @@
-/// Messages <-> core types, and what the ROS layer decides without a master.
+/// Messages of garments and fits <-> core types.
 #include <gtest/gtest.h>
-#include <boost/make_shared.hpp>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
-#include "geometry/status.hpp"
-#include "ros/body_messages.hpp"
 #include "ros/line_force.hpp"
-#include "ros/scan_join.hpp"
-#include "ros/scan_tag.hpp"
+#include "ros_messages.hpp"
 #include "tensegric/fit_messages.hpp"
-#include "tensegric/wardrobe.hpp"
 
 namespace tensegric_fit::node {
 namespace {
 
-using geometry::Refusal;
-
 const std::string kGarments = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/garments";
-
-ScanTag some_tag() {
-  ScanTag tag;
-  tag.header.stamp = ros::Time(12, 34);
-  tag.header.frame_id = "booth";
-  tag.scan_id = "12.000000034-0badcafe";
-  return tag;
-}
-
-geometry::TriangleMesh tetrahedron() {
-  return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
-}
-
-geometry::ControlMesh small_control_mesh() {
-  geometry::ControlMesh control;
-  control.outer = {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 1.0 / 3}};
-  control.inner = {{0, 0, -0.01}, {0.1, 0, -0.01}, {0.1, 0.1, -0.01}, {0, 0.1, 0.3}};
-  control.triangles = {{0, 1, 2}, {0, 2, 3}};
-  control.outer_fixed = {1, 0, 0, 1};
-  control.inner_fixed = {1, 1, 1, 1};
-  control.names = {"side_L", "", "sternum", ""};
-  control.regions = {{"bust", {0, 1}}};
-  control.lines = {{"chest", {0, 2}}};
-  return control;
-}
-
-template <typename Call>
-std::string code_of(Call call) {
-  try {
-    call();
-  } catch (const Refusal& refusal) {
-    return refusal.code();
-  }
-  return "accepted";
-}
-
-TEST(BodyMessages, MeshComesBackAsItWas) {
-  const geometry::TriangleMesh mesh = tetrahedron();
-  const TriangleMesh message = to_message(some_tag(), mesh, {0, 1, 0, 1});
-  EXPECT_EQ(message.scan_id, some_tag().scan_id);
-  EXPECT_EQ(message.header.stamp, ros::Time(12, 34));
-  const geometry::TriangleMesh back = mesh_in(message);
-  EXPECT_EQ(back.triangles, mesh.triangles);
-  EXPECT_EQ(filled_in(message), (std::vector<char>{0, 1, 0, 1}));
-  ASSERT_EQ(back.vertices.size(), mesh.vertices.size());
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
-    EXPECT_LE((back.vertices[i] - mesh.vertices[i]).norm(), 1e-7);  // float32 at 1 m
-}
-
-TEST(BodyMessages, BrokenMeshesAreRefusedByName) {
-  const TriangleMesh good = to_message(some_tag(), tetrahedron(), {});
-  TriangleMesh bad = good;
-  bad.vertices.pop_back();
-  EXPECT_EQ(code_of([&] { mesh_in(bad); }), "bad_mesh");
-  bad = good;
-  bad.triangles[0] = 4;
-  EXPECT_EQ(code_of([&] { mesh_in(bad); }), "bad_mesh");
-  bad = good;
-  bad.triangles[0] = 4000000000u;
-  EXPECT_EQ(code_of([&] { mesh_in(bad); }), "bad_mesh");
-  bad = good;
-  bad.vertices[3] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(code_of([&] { mesh_in(bad); }), "non_finite");
-  bad = good;
-  bad.filled.pop_back();
-  EXPECT_EQ(code_of([&] { filled_in(bad); }), "bad_mesh");
-  bad.vertices.clear();
-  bad.triangles.clear();
-  bad.filled.clear();
-  EXPECT_EQ(code_of([&] { mesh_in(bad); }), "bad_mesh") << "nothing; found by fuzzing";
-}
-
-TEST(BodyMessages, MeasuresComeBackBitForBit) {
-  geometry::BodyMeasures measures;
-  measures.body_from_scan.linear() =
-      Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-  measures.body_from_scan.translation() << 0.1, -1.0 / 3, 2;
-  measures.landmarks = {{"navel", {0.1, 0.2, 1.0 / 3}, 0.9, ""}, {"crotch", {0, 0, 0.8}, 0.2, "unseen"}};
-  measures.heights = {{"bust", 1.2, 0.8, ""}};
-  measures.girths = {{"waist", 0.7, 0.4, "no inner minimum"}};
-  measures.missing = {{"neck_front", "no head"}};
-  measures.loops = {{"waist", {{0, 0, 1}, {0.1, 0, 1}, {0.1, 0.1, 1}}}};
-
-  const geometry::BodyMeasures back = measures_in(to_message(some_tag(), measures));
-  EXPECT_EQ(back.body_from_scan.matrix(), measures.body_from_scan.matrix());
-  ASSERT_EQ(back.landmarks.size(), 2u);
-  EXPECT_EQ(back.landmarks[0].position, measures.landmarks[0].position);
-  EXPECT_EQ(back.landmarks[1].name, "crotch");
-  EXPECT_EQ(back.landmarks[1].confidence, 0.2);
-  EXPECT_EQ(back.landmarks[1].reason, "unseen");
-  EXPECT_EQ(back.heights.at(0).metres, 1.2);
-  EXPECT_EQ(back.girths.at(0).reason, "no inner minimum");
-  EXPECT_EQ(back.loops.at(0).points, measures.loops[0].points);
-  EXPECT_EQ(back.missing.at(0).name, "neck_front");
-  EXPECT_EQ(back.missing.at(0).reason, "no head");
-}
-
-TEST(BodyMessages, ATransformThatIsNoneIsRefused) {
-  Landmarks message = to_message(some_tag(), geometry::BodyMeasures());
-  message.body_from_scan[0] = 2;
-  EXPECT_EQ(code_of([&] { measures_in(message); }), "bad_mesh");
-}
-
-TEST(BodyMessages, ControlMeshComesBackBitForBit) {
-  const geometry::ControlMesh control = small_control_mesh();
-  const geometry::ControlMesh back = control_in(to_message(some_tag(), control));
-  EXPECT_EQ(back.outer, control.outer);
-  EXPECT_EQ(back.inner, control.inner);
-  EXPECT_EQ(back.triangles, control.triangles);
-  EXPECT_EQ(back.outer_fixed, control.outer_fixed);
-  EXPECT_EQ(back.inner_fixed, control.inner_fixed);
-  EXPECT_EQ(back.names, control.names);
-  EXPECT_EQ(back.regions.at(0).name, "bust");
-  EXPECT_EQ(back.regions.at(0).triangles, control.regions[0].triangles);
-  EXPECT_EQ(back.lines.at(0).name, "chest");
-  EXPECT_EQ(back.lines.at(0).nodes, control.lines[0].nodes);
-}
 
 TEST(FitMessages, GarmentComesBackAsItWas) {
   GarmentRequest request;
@@ -369,105 +246,36 @@ TEST(Messages, FibresOfABandHaveAsManyPoints) {
   EXPECT_EQ(band.worn, (std::vector<float>{0, 0, 1, 0, 0.25, 1, 0, 0.5, 1, 0, 0, 2, 1, 0.5, 2, 0, 1, 2}));
 }
 
-TEST(ScanTag, SameScanSameIdAndAnyChangeAnother) {
-  sensor_msgs::PointCloud2 scan;
-  scan.header.stamp = ros::Time(5, 6);
-  scan.width = 3;
-  scan.height = 1;
-  scan.data = {1, 2, 3};
-  const ScanTag tag = tag_of(scan);
-  EXPECT_EQ(tag.scan_id.substr(0, 12), "5.000000006-");
-  EXPECT_EQ(tag.scan_id.size(), 20u);
-  EXPECT_EQ(tag.header.frame_id, "scan");
-  scan.header.seq = 99;  // set anew by every publisher
-  EXPECT_EQ(tag_of(scan).scan_id, tag.scan_id);
-  sensor_msgs::PointCloud2 other = scan;
-  other.data[2] = 4;
-  EXPECT_NE(tag_of(other).scan_id, tag.scan_id);
-  other = scan;
-  other.header.stamp.nsec = 7;
-  EXPECT_NE(tag_of(other).scan_id, tag.scan_id);
-}
-
-class ScanJoinTest : public testing::Test {
- protected:
-  template <typename Message>
-  void arrive(const std::string& scan_id) {
-    const auto message = boost::make_shared<Message>();
-    message->scan_id = scan_id;
-    const auto joined = join_.add(boost::shared_ptr<const Message>(message));
-    if (!joined) return;
-    const auto& [fit, mesh, control] = *joined;
-    EXPECT_EQ(fit->scan_id, mesh->scan_id);
-    EXPECT_EQ(fit->scan_id, control->scan_id);
-    joined_.push_back(fit->scan_id);
-  }
-  std::vector<std::string> joined_;
-  ScanJoin<FitState, TriangleMesh, ControlMesh> join_;
-};
-
-TEST_F(ScanJoinTest, CompletesInAnyOrderOfArrival) {
-  arrive<FitState>("A");
-  arrive<ControlMesh>("A");
-  EXPECT_TRUE(joined_.empty());
-  arrive<TriangleMesh>("A");
-  EXPECT_EQ(joined_, std::vector<std::string>{"A"});
-}
-
-TEST_F(ScanJoinTest, NeverMixesTwoScans) {
-  arrive<TriangleMesh>("A");
-  arrive<ControlMesh>("A");
-  arrive<TriangleMesh>("B");
-  arrive<FitState>("A");  // late: its body is gone
-  arrive<ControlMesh>("B");
-  EXPECT_TRUE(joined_.empty());
-  arrive<FitState>("B");
-  EXPECT_EQ(joined_, std::vector<std::string>{"B"});
-}
-
-TEST_F(ScanJoinTest, EachTriggerCompletesOnce) {
-  arrive<TriangleMesh>("A");
-  arrive<ControlMesh>("A");
-  arrive<FitState>("A");
-  arrive<TriangleMesh>("A");  // the same scan played again: its fit is still to come
-  arrive<ControlMesh>("A");
-  EXPECT_EQ(joined_.size(), 1u);
-  arrive<FitState>("A");
-  arrive<FitState>("A");  // another garment
-  EXPECT_EQ(joined_.size(), 3u);
-}
-
-TEST(Wardrobe, PutsRatiosIntoShippedGarments) {
-  const Wardrobe wardrobe(kGarments);
+TEST(GarmentRequests, PutsRatiosIntoShippedGarments) {
   SetGarment::Request request;
   request.name = "B1";
   request.lines = {"chest"};
   request.ratios = {0.87};
-  const GarmentRequest asked = wardrobe.take(request);
+  const GarmentRequest asked = request_in(request, kGarments);
   EXPECT_EQ(asked.garment.name, "B1");
   EXPECT_EQ(asked.garment.lines.at(0).ratio, 0.87);
   request.lines = {""};  // every line
   request.ratios = {0.91};
-  for (const tensegric::GarmentLine& line : wardrobe.take(request).garment.lines) EXPECT_EQ(line.ratio, 0.91);
+  for (const tensegric::GarmentLine& line : request_in(request, kGarments).garment.lines)
+    EXPECT_EQ(line.ratio, 0.91);
 }
 
-TEST(Wardrobe, RefusesByName) {
-  const Wardrobe wardrobe(kGarments);
+TEST(GarmentRequests, RefusesByName) {
   SetGarment::Request request;
-  EXPECT_EQ(code_of([&] { wardrobe.take(request); }), "bad_garment");  // nothing asked for
+  EXPECT_EQ(code_of([&] { request_in(request, kGarments); }), "bad_garment");  // nothing asked for
   for (const std::string& name : {std::string("no_such_garment"), std::string("/"), std::string(5000, 'x')}) {
     request.name = name;
-    EXPECT_EQ(code_of([&] { wardrobe.take(request); }), "bad_garment");
+    EXPECT_EQ(code_of([&] { request_in(request, kGarments); }), "bad_garment");
   }
   request.name = "B1";
   request.lines = {"no_such_line"};
   request.ratios = {0.9};
-  EXPECT_EQ(code_of([&] { wardrobe.take(request); }), "unknown_line");
+  EXPECT_EQ(code_of([&] { request_in(request, kGarments); }), "unknown_line");
   request.lines = {"chest"};
   request.ratios = {-0.9};
-  EXPECT_EQ(code_of([&] { wardrobe.take(request); }), "bad_garment");
+  EXPECT_EQ(code_of([&] { request_in(request, kGarments); }), "bad_garment");
   request.ratios = {};
-  EXPECT_EQ(code_of([&] { wardrobe.take(request); }), "bad_garment");
+  EXPECT_EQ(code_of([&] { request_in(request, kGarments); }), "bad_garment");
 }
 
 }  // namespace

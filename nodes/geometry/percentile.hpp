@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace tensegric_fit::reconstruction {
+namespace tensegric_fit::geometry {
 
 /// The value below which that fraction (0 to 1) of the values lies. \pre not empty
 inline double percentile(std::vector<double> values, double fraction) {
@@ -14,4 +14,12 @@ inline double percentile(std::vector<double> values, double fraction) {
   return *nth;
 }
 
-}  // namespace tensegric_fit::reconstruction
+/// Of an even number of values the upper one of the two in the middle. \pre not empty
+template <typename Value>
+Value median(std::vector<Value> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace tensegric_fit::geometry

@@ -1,17 +1,13 @@
-#include "capture/stage_reports.hpp"
+#include "capture/stage_report_message.hpp"
 
 #include <cstdlib>
+
+#include "ros/status_fact.hpp"
 
 namespace tensegric_fit::node {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
-
-std::string fact(const DiagnosticStatus& status, const std::string& key) {
-  for (const diagnostic_msgs::KeyValue& pair : status.values)
-    if (pair.key == key) return pair.value;
-  return "";
-}
 
 double number(const DiagnosticStatus& status, const std::string& key) {
   return std::strtod(fact(status, key).c_str(), nullptr);

@@ -1,0 +1,24 @@
+#include "inspect/correlation_model.hpp"
+
+#include "mesh_files/glb.hpp"
+
+namespace tensegric_fit::inspect {
+
+std::string correlation_glb(const CorrelationScene& scene) {
+  const auto in_body_frame = [&](std::vector<Eigen::Vector3d> points) {
+    for (Eigen::Vector3d& p : points) p = scene.body_from_scan * p;
+    return points;
+  };
+  mesh_files::GlbMesh body{"body", {in_body_frame(scene.before.vertices), scene.before.triangles}};
+  body.colours = distance_colours(scene.distance, scene.compared);
+  mesh_files::GlbScalar distance{"_DISTANCE", {}};
+  for (std::size_t v = 0; v < scene.distance.size(); ++v)
+    distance.values.push_back(scene.compared[v] ? static_cast<float>(scene.distance[v])
+                                                : kNotComparedDistance);
+  body.scalars = {std::move(distance)};
+  body.morphs = {{"simulated", in_body_frame(scene.simulated.vertices)}};
+  return mesh_files::glb_bytes(
+      {body, {"beside", {in_body_frame(scene.worn.vertices), scene.worn.triangles}}});
+}
+
+}  // namespace tensegric_fit::inspect

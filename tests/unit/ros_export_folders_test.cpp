@@ -1,0 +1,112 @@
+/// Folders of exports: encrypted, old, made to harm, deleted.
+#include <sys/stat.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "ros/sealed.hpp"
+#include "ros_exported_scan.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+TEST_F(ExportFitTest, AnEncryptedExportIsReadWithItsKeyAlone) {
+  if (std::system("command -v age-keygen > /dev/null") != 0) GTEST_SKIP() << "age is not installed";
+  fs::create_directories(root_);
+  const std::string key = (root_ / "key").string(), out = (root_ / "out").string();
+  ASSERT_EQ(
+      std::system(
+          ("age-keygen -o " + key + " 2> /dev/null && age-keygen -y " + key + " > " + key + ".pub").c_str()),
+      0);
+  std::string recipient = text_of(key + ".pub");
+  recipient.pop_back();  // end of the line
+  EXPECT_NO_THROW(check_recipient(recipient));
+  for (const std::string& bad : {std::string("age1short"), "-o/etc/passwd" + recipient, recipient + "\n"})
+    EXPECT_THROW(check_recipient(bad), geometry::Refusal) << bad;
+
+  const fs::path folder = root_ / "exports" / "one";
+  EXPECT_EQ(export_fit(scan_, folder, {true, recipient}).size(), 2u);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2) << "nothing else";
+  EXPECT_EQ(nlohmann::json::parse(text_of(folder / "sealed.json")).size(), 3u);
+  fs::create_directories(out);
+  ASSERT_EQ(
+      std::system(
+          ("age -d -i " + key + " " + (folder / "fit.tar.age").string() + " | tar -x -C " + out).c_str()),
+      0);
+  export_fit(scan_, root_ / "plain", kWhole);
+  for (const auto& entry : fs::directory_iterator(root_ / "plain"))
+    EXPECT_EQ(text_of(entry.path()), text_of(fs::path(out) / entry.path().filename())) << entry.path();
+  EXPECT_EQ(delete_exports(root_ / "exports", scan_.body->scan_id), std::vector<std::string>{folder});
+}
+
+TEST_F(ExportFitTest, OldExportsGoAndNothingElse) {
+  for (const char* name : {"old", "new", "spoilt"}) export_fit(scan_, root_ / name, kWhole);
+  std::ofstream(root_ / "spoilt" / "precious") << "mine";
+  fs::create_directories(root_ / "no_export");
+  fs::create_directory_symlink(root_ / "new", root_ / "link");
+  const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(24 * 31);
+  for (const char* name : {"old", "spoilt"}) fs::last_write_time(root_ / name / "fit.json", long_ago);
+  std::vector<std::string> left;
+  EXPECT_TRUE(delete_old_exports(root_, 32, left).empty());
+  EXPECT_TRUE(left.empty());
+  EXPECT_EQ(delete_old_exports(root_, 30, left), std::vector<std::string>{root_ / "old"});
+  EXPECT_EQ(left.size(), 1u) << "the spoilt one";
+  for (const char* name : {"new", "spoilt", "no_export"}) EXPECT_TRUE(fs::exists(root_ / name)) << name;
+  left.clear();
+  EXPECT_TRUE(delete_old_exports(root_ / "nowhere", 30, left).empty());
+  EXPECT_EQ(left.size(), 1u);
+}
+
+TEST_F(ExportFitTest, AFolderMadeToHarmIsLeftAlone) {
+  const std::string id = scan_.body->scan_id;
+  export_fit(scan_, root_ / "one", kWhole);
+  fs::rename(root_ / "one" / "fit.json", root_ / "aside.json");
+  const auto is_left_alone = [&] {
+    return not_deleted(root_, id) == "nothing_yet" && fs::exists(root_ / "one");
+  };
+  fs::create_symlink(root_ / "aside.json", root_ / "one" / "fit.json");
+  EXPECT_TRUE(is_left_alone()) << "a document that is a link";
+  fs::remove(root_ / "one" / "fit.json");
+  ASSERT_EQ(mkfifo((root_ / "one" / "fit.json").c_str(), 0600), 0);
+  EXPECT_TRUE(is_left_alone()) << "a pipe that nobody writes to";
+  fs::remove(root_ / "one" / "fit.json");
+  std::ofstream(root_ / "one" / "fit.json") << std::string(1 << 20, '[');
+  EXPECT_TRUE(is_left_alone()) << "a document that is nested too deeply";
+  fs::resize_file(root_ / "one" / "fit.json", std::uintmax_t{1} << 40);
+  EXPECT_TRUE(is_left_alone()) << "a document of a terabyte";
+  fs::rename(root_ / "aside.json", root_ / "one" / "fit.json");
+  fs::remove(root_ / "one" / "body.ply");
+  fs::create_symlink("/etc/passwd", root_ / "one" / "body.ply");
+  EXPECT_EQ(not_deleted(root_, id), "bad_option") << "a link in place of a file of ours";
+  EXPECT_TRUE(fs::exists(root_ / "one"));
+}
+
+TEST_F(ExportFitTest, ExportsAreDeletedByScanAndNothingElseIs) {
+  const std::string id = scan_.body->scan_id;
+  for (const char* name : {"one", "two"}) export_fit(scan_, root_ / name, kWhole);
+  export_fit(fitted("3.000000000-00000003"), root_ / "other", kWhole);
+  fs::create_directories(root_ / "no_export");
+  std::ofstream(root_ / "no_export" / "fit.json") << R"({"scan": {"scan_id": ")" << id << "\"}}";
+  fs::create_directories(root_ / "elsewhere");
+  fs::create_directory_symlink(root_ / "one", root_ / "elsewhere" / "link");
+
+  EXPECT_EQ(not_deleted(root_ / "elsewhere", id), "nothing_yet");  // links are not followed
+  EXPECT_EQ(not_deleted("relative", id), "bad_option");
+  EXPECT_EQ(not_deleted(root_, ""), "bad_option");
+  EXPECT_EQ(not_deleted(root_ / "nowhere", id), "cannot_write");
+  EXPECT_EQ(delete_exports(root_.string() + "/", id),
+            (std::vector<std::string>{root_ / "one", root_ / "two"}));
+  EXPECT_EQ(not_deleted(root_, id), "nothing_yet");
+  EXPECT_TRUE(fs::exists(root_ / "other" / "fit.json"));
+  EXPECT_TRUE(fs::exists(root_ / "no_export" / "fit.json"));
+
+  std::ofstream(root_ / "other" / "precious") << "mine";
+  EXPECT_EQ(not_deleted(root_, "3.000000000-00000003"), "bad_option");
+  EXPECT_EQ(std::distance(fs::directory_iterator(root_ / "other"), {}), 12);
+  fs::remove(root_ / "other" / "precious");
+  EXPECT_EQ(not_deleted(root_ / "other", "3.000000000-00000003"), "");  // the export itself
+  EXPECT_FALSE(fs::exists(root_ / "other"));
+}
+
+}  // namespace
+}  // namespace tensegric_fit::node

@@ -1,0 +1,79 @@
+/// The page of an export, also as a browser shows it.
+#include <cstdlib>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "ros_exported_scan.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+TEST_F(ExportFitTest, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
+  export_fit(scan_, root_ / "one", kWhole);
+  const std::string page = text_of(root_ / "one" / "fit.html");
+  EXPECT_NE(page.find("<td>bust girth, cm</td><td>94.2</td><td>84.8</td><td>-9.4</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>lift of the bust, mm</td><td></td><td></td><td>+0</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>chest</td><td>40.0</td><td>36.0</td><td>10.0 %</td>"), std::string::npos);
+  EXPECT_NE(page.find("<button data-loop=\"bust\""), std::string::npos);
+  EXPECT_EQ(page.find("data-loop=\"underbust\""), std::string::npos) << "its tape is not known";
+  EXPECT_NE(page.find("<b>75D</b>"), std::string::npos);
+  EXPECT_NE(page.find("hair, &lt;b&gt;long&lt;/b&gt;"), std::string::npos);
+  EXPECT_EQ(page.find("<script src"), std::string::npos);
+  EXPECT_EQ(page.find("<link"), std::string::npos);
+  const std::string html = page.substr(0, page.find("<script"));
+  std::size_t pictures = 0;
+  for (std::size_t at = html.find("src="); at != std::string::npos;
+       at = html.find("src=", at + 1), ++pictures)
+    EXPECT_EQ(html.compare(at, 27, "src=\"data:image/png;base64,"), 0);
+  EXPECT_EQ(pictures, 3u);
+  EXPECT_EQ(html.find("href="), std::string::npos);
+  EXPECT_LT(page.size(), 8'000'000u);
+  EXPECT_EQ(text_of(root_ / "one" / "measurements.csv"),
+            "kind,name,before_mm,after_mm,confidence,half_width_mm,reason\r\n"
+            "height,bust,1200.0,1200.0,0.90,,\r\n"
+            "height,stature,1700.0,1700.0,1.00,,\r\n"
+            "girth,bust,942.0,847.8,0.90,4.0,\r\n"
+            "girth,underbust,750.0,,0.40,,\"hair, <b>long</b>\"\r\n");
+}
+
+/// A picture of the page as headless Chromium shows it, opened at that address.
+cv::Mat shown(const fs::path& page, const std::string& address) {
+  const fs::path picture = page.parent_path() / "shown.png", profile = page.parent_path() / "profile";
+  fs::remove(picture);
+  const std::string command =
+      "timeout 120 chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader "
+      "--enable-unsafe-swiftshader --window-size=390,900 --virtual-time-budget=8000 --user-data-dir='" +
+      profile.string() + "' --screenshot='" + picture.string() + "' 'file://" + page.string() + "#" +
+      address + "' > /dev/null 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;
+  return cv::imread(picture.string());
+}
+
+/// Share of the pixels that differ clearly.
+double difference(const cv::Mat& a, const cv::Mat& b) {
+  if (a.empty() || a.size() != b.size()) return -1;
+  cv::Mat apart;
+  cv::absdiff(a, b, apart);
+  int clear = 0;
+  for (int y = 0; y < apart.rows; ++y)
+    for (int x = 0; x < apart.cols; ++x) {
+      const auto& p = apart.at<cv::Vec3b>(y, x);
+      clear += std::max({p[0], p[1], p[2]}) > 20;
+    }
+  return static_cast<double>(clear) / (a.rows * a.cols);
+}
+
+TEST_F(ExportFitTest, TheBodyInThePageTurnsAndChanges) {
+  if (std::system("command -v chromium > /dev/null") != 0) GTEST_SKIP() << "chromium is not installed";
+  export_fit(scan_, root_ / "one", kWhole);
+  const fs::path page = root_ / "one" / "fit.html";
+  const cv::Mat worn = shown(page, "share=100");
+  ASSERT_FALSE(worn.empty());
+  EXPECT_EQ(difference(worn, shown(page, "share=100")), 0) << "the same picture twice";
+  EXPECT_GT(difference(worn, shown(page, "share=0")), 0.02) << "the trunk is wider, its colour another";
+  EXPECT_GT(difference(worn, shown(page, "share=100&loop=bust")), 0.001) << "the tape";
+  EXPECT_GT(difference(worn, shown(page, "share=100&beside=1")), 0.02);
+}
+
+}  // namespace
+}  // namespace tensegric_fit::node

@@ -1,0 +1,105 @@
+/// What is kept from garment to garment.
+#include <gtest/gtest.h>
+
+#include "fit/bind_body.hpp"
+#include "geometry/status.hpp"
+#include "tensegric/garment_fitter.hpp"
+#include "tensegric_bust.hpp"
+#include "tffd/binding.hpp"
+
+namespace tensegric_fit::tensegric {
+namespace {
+
+const Progress kGoOn = [](const auto&, const auto&, const auto&) { return true; };
+
+Garment chest_at(double ratio) {
+  Garment garment;
+  garment.regions = {"bust"};
+  garment.lines.resize(1);
+  garment.lines[0].name = "chest";
+  garment.lines[0].ratio = ratio;
+  return garment;
+}
+
+std::optional<Solution> fit(GarmentFitter& fitter, double ratio, const Progress& progress = kGoOn) {
+  return fitter.fit(chest_at(ratio), SolverName::equilibrium, 0, progress);
+}
+
+class GarmentFitterTest : public testing::Test {
+ protected:
+  std::string refusal_of(const Garment& garment) const {
+    try {
+      fitter_.check(garment);
+    } catch (const geometry::Refusal& refusal) {
+      return refusal.code();
+    }
+    return "accepted";
+  }
+
+  const geometry::ControlMesh control_ = bust_mesh();
+  GarmentFitter fitter_{FitterOptions(), fit::bind_body};
+};
+
+TEST_F(GarmentFitterTest, AStoppedFitIsNoneAndTheNextIsAsIfItHadNotBeen) {
+  GarmentFitter undisturbed{FitterOptions(), fit::bind_body};
+  for (GarmentFitter* fitter : {&fitter_, &undisturbed}) {
+    fitter->take(control_, nullptr, nullptr);
+    ASSERT_TRUE(fit(*fitter, 0.95));
+  }
+  int steps = 0;
+  EXPECT_FALSE(fit(fitter_, 0.8, [&steps](const auto&, const auto&, const auto&) { return ++steps < 3; }));
+  EXPECT_EQ(steps, 3);  // it stopped there and then
+  const auto after = fit(fitter_, 0.94);
+  const auto expected = fit(undisturbed, 0.94);
+  ASSERT_TRUE(after && expected);
+  EXPECT_EQ(after->iterations, expected->iterations);
+  EXPECT_EQ(after->outer, expected->outer);  // to the bit
+}
+
+TEST_F(GarmentFitterTest, GarmentsAreCheckedAgainstTheNewestModel) {
+  Garment hat = chest_at(0.95), belt = chest_at(0.95);
+  hat.regions = {"hat"};
+  belt.lines[0].name = "belt";
+  EXPECT_EQ(refusal_of(hat), "accepted");  // no model yet to say no
+  fitter_.take(control_, nullptr, nullptr);
+  EXPECT_EQ(refusal_of(chest_at(0.9)), "accepted");
+  EXPECT_EQ(refusal_of(hat), "bad_garment");
+  EXPECT_EQ(refusal_of(belt), "unknown_line");
+}
+
+TEST_F(GarmentFitterTest, KeepsTheBodysVolumeWhereItIsAskedTo) {
+  const geometry::ControlMesh control = bust_mesh();
+  const geometry::TriangleMesh skin{control.outer, control.triangles};
+  FitterOptions options;
+  options.solver.volume = KeptVolume::body;
+  GarmentFitter fitter(options, fit::bind_body);
+  fitter.take(control, nullptr, [&skin] { return skin; });
+  const auto solution = fit(fitter, 0.93);
+  ASSERT_TRUE(solution);
+  EXPECT_EQ(solution->status, Status::converged);
+  const auto after = tffd::Binding(skin, control, {}).deform(solution->outer, solution->inner);
+  const Eigen::Vector3d apex = geometry::region_apex(control, control.regions[0]);
+  EXPECT_NEAR(geometry::cone_volume(after, skin.triangles, apex) /
+                  geometry::cone_volume(skin.vertices, skin.triangles, apex),
+              1, 1e-9);  // nodes/tensegric/README.md, Exactness
+}
+
+TEST_F(GarmentFitterTest, APostureTakesTheBoundNodesAlong) {
+  FitterOptions options;
+  options.posture.twist = 0.2;
+  GarmentFitter fitter(options, fit::bind_body);
+  geometry::BodyMeasures measures;
+  measures.heights = {{"hip", 0.9, 1, ""}, {"underbust", 1.12, 1, ""}};
+  measures.landmarks = {{"crotch", {0, 0, 0.8}, 1, ""}};
+  fitter.take(control_, &measures, nullptr);
+  const auto solution = fit(fitter, 0.97);
+  ASSERT_TRUE(solution);
+  EXPECT_EQ(solution->status, Status::converged);
+  const geometry::BoneFrames bones(measures, options.posture);
+  const geometry::ControlMesh control = bust_mesh();
+  for (std::size_t v = 0; v < control.inner.size(); ++v)
+    EXPECT_LT((solution->inner[v] - bones.moved(control.inner[v])).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace tensegric_fit::tensegric
