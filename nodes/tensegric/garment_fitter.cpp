@@ -16,6 +16,11 @@ std::optional<Solution> GarmentFitter::fit(const Garment& garment, SolverName so
   options.bones = bones_;
   options.solver = solver;
   const bool warm = last_ && last_rest_ == rest && last_->status == Status::converged;
+  SkinFolds folds;
+  if (knows_skin_)
+    folds = [&now](const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner) {
+      return now->body->folds(outer, inner);
+    };
   bool stopped = false;
   Solution solution = solve(
       now->model, garment, options, warm ? &*last_ : nullptr,
@@ -24,10 +29,7 @@ std::optional<Solution> GarmentFitter::fit(const Garment& garment, SolverName so
         stopped = !progress(iterate, outer, inner);
         return !stopped;
       },
-      body_volumes_, now->body->lay(garment),
-      [&now](const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner) {
-        return now->body->folds(outer, inner);
-      });
+      body_volumes_, now->body->lay(garment), folds);
   if (stopped) return std::nullopt;
   last_ = std::move(solution);
   last_rest_ = rest;
@@ -47,10 +49,12 @@ std::shared_ptr<const GarmentFitter::Wearer> GarmentFitter::wearer() const {
 void GarmentFitter::take(const geometry::ControlMesh& control, const geometry::BodyMeasures* measures,
                          std::function<geometry::TriangleMesh()> body) {
   bones_ = measures ? geometry::BoneFrames(*measures, options_.posture) : geometry::BoneFrames();
+  const bool knows_skin = static_cast<bool>(body);
   const std::shared_ptr<const Wearer> wearer(new Wearer{
       build_model(control, options_.model), bind_body_(std::move(body), control, bones_, options_.beta)});
   const bool keeps_body = options_.solver.volume == KeptVolume::body;
   body_volumes_ = keeps_body ? wearer->body->volumes() : std::vector<VolumeFunction>();
+  knows_skin_ = knows_skin;
   last_.reset();
   std::lock_guard<std::mutex> lock(mutex_);
   wearer_ = wearer;

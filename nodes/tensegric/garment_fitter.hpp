@@ -37,8 +37,8 @@ class GarmentFitter {
   // What follows is for one thread.
 
   /// The next garments are fitted to this control mesh. `measures` are needed for a posture, else null;
-  /// `body` makes the mesh of the same scan where a band asks for it. \throw Refusal as build_model: the mesh
-  /// before stays
+  /// `body` makes the mesh of the same scan where it is asked for; null: strings alone, and nothing is known
+  /// of the skin. \throw Refusal as build_model: the mesh before stays
   void take(const geometry::ControlMesh& control, const geometry::BodyMeasures* measures,
             std::function<geometry::TriangleMesh()> body);
 
@@ -62,7 +62,8 @@ class GarmentFitter {
   geometry::BoneFrames bones_;
   std::vector<VolumeFunction> body_volumes_;
   std::optional<Solution> last_;
-  int last_rest_ = 0;  // of last_
+  bool knows_skin_ = false;  // whether skin is turned over
+  int last_rest_ = 0;        // of last_
 
   mutable std::mutex mutex_;
   std::shared_ptr<const Wearer> wearer_;  // the newest
