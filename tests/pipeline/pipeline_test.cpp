@@ -16,6 +16,7 @@
 #include <memory>
 
 #include "fitted_chain.hpp"
+#include "ros/line_force.hpp"
 
 namespace tensegric_fit::tests {
 namespace {
