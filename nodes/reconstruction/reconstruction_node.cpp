@@ -6,6 +6,7 @@
 #include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
+#include "ros/watched_input.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -17,7 +18,10 @@ class ReconstructionNode {
         model_(node.advertise<BodyModel>("body/model", 1, true)),
         mesh_(node.advertise<TriangleMesh>("body/mesh", 1, true)),
         display_(private_node),
-        scan_(node.subscribe("scan/points", 2, &ReconstructionNode::on_scan, this)),
+        scan_(node,
+              [this, node]() mutable {
+                return node.subscribe("scan/points", 2, &ReconstructionNode::on_scan, this);
+              }),
         stage_("reconstruction", node) {}
 
  private:
@@ -59,7 +63,7 @@ class ReconstructionNode {
   Display display_;
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_{transforms_};
-  ros::Subscriber scan_;
+  WatchedInput scan_;
   Stage stage_;  // last: its worker uses all of the above
 };
 
