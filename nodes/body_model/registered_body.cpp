@@ -19,6 +19,9 @@ Eigen::Vector3d skin_point(const Model& model, const std::vector<Eigen::Vector3d
 Eigen::Vector3d RegisteredBody::skin_point(const std::string& name) const {
   return body_model::skin_point(*model, skin, name);
 }
+Eigen::Vector3d RegisteredBody::posed_point(const std::string& name) const {
+  return body_model::skin_point(*model, posed, name);
+}
 
 Eigen::Vector3d RegisteredBody::bone_point(const std::string& name) const {
   for (std::size_t i = 0; i < bone_points.size(); ++i)

@@ -46,6 +46,7 @@ struct RegisteredBody {
 
   /// \throw std::out_of_range: the model has no such point
   Eigen::Vector3d skin_point(const std::string& name) const;
+  Eigen::Vector3d posed_point(const std::string& name) const;  ///< the same by pose and shape alone
   Eigen::Vector3d bone_point(const std::string& name) const;
   Eigen::Vector3d joint(const std::string& name) const;
   /// Her left and the pelvis' up, unit vectors.

@@ -64,6 +64,11 @@ double deviation(const Spread& spread, const Figure& figure) {
                     spread.support * figure.support);
 }
 
+/// 0 to 1: how far the body is outside what the model can make.
+double share_outside(const Span& span, double misfit) {
+  return misfit <= span.women ? 0 : std::min((misfit - span.women) / (span.others - span.women), 1.0);
+}
+
 const FigurePrecision& precision_of(const Figure& figure, const Precision& precision, bool scanned) {
   const auto& of_source = scanned ? precision.of_scan : precision.of_mesh;
   const auto found = of_source.find(key_of(figure));
@@ -92,22 +97,17 @@ const Precision& shipped_precision() {
   return precision;
 }
 
-double share_outside(const Precision& precision, double misfit, bool scanned) {
-  const Span& span = scanned ? precision.scan_span : precision.mesh_span;
-  return misfit <= span.women ? 0 : std::min((misfit - span.women) / (span.others - span.women), 1.0);
-}
-
 double spread_of_model(const Figure& figure, const Precision& precision, bool scanned) {
   return deviation(precision_of(figure, precision, scanned).model, figure);
 }
 
 Settled settle(const Figure& figure, const Precision& precision, bool scanned) {
   const FigurePrecision& p = precision_of(figure, precision, scanned);
-  const double outside = share_outside(precision, figure.misfit, scanned);
+  const double outside = share_outside(scanned ? precision.scan_span : precision.mesh_span, figure.misfit);
   const double mesh = std::hypot(deviation(p.mesh, figure), outside * p.mesh.outside),
                model = std::hypot(deviation(p.model, figure), outside * p.model.outside);
-  const auto unbiased = [outside](const Eigen::Vector3d& reading, const Spread& spread) {
-    return Eigen::Vector3d(reading - (1 - outside) * spread.bias * Eigen::Vector3d::UnitX());
+  const auto unbiased = [](const Eigen::Vector3d& reading, const Spread& spread) {
+    return Eigen::Vector3d(reading - spread.bias * Eigen::Vector3d::UnitX());
   };
   if (!figure.on_mesh) return {unbiased(*figure.on_model, p.model), p.half_width * model, true};
   const Eigen::Vector3d on_mesh = unbiased(*figure.on_mesh, p.mesh);

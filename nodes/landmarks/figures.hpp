@@ -13,8 +13,7 @@ namespace tensegric_fit::landmarks {
 /// How far off a reading is, m, on bodies whose truth is known: on average by `bias` (of heights and girths;
 /// of points 0), round that by the root of (base * (Figure::misfit / 2 mm)^growth)^2 and (support *
 /// Figure::support)^2. Readings on the mesh may grow with misfit, too: some are looked for near the model's.
-/// On a body that the model cannot make, by `outside` more, as squares, and without the bias, which is of
-/// women whom it can make.
+/// On a body that the model cannot make, by `outside` more, as squares.
 struct Spread {
   double bias, base, growth, support, outside = 0;
 };
@@ -65,9 +64,6 @@ struct Settled {
   double half_width;    ///< m, of the 95 % interval; of a point, the radius
   bool rests_on_model;  ///< the mesh does not show it, or shows something else
 };
-
-/// 0 to 1: how far a body of that misfit (m) is outside what the model can make.
-double share_outside(const Precision& precision, double misfit, bool scanned);
 
 /// How far off the model's reading of a figure may be on a body of the model's span, m: what windows of
 /// searches were fitted with. Its values are not read.

@@ -49,16 +49,6 @@ double length(const Tape& tape) {
   return geometry::length_of(tape, true);
 }
 
-/// The model's skin where the scan is mistaken or blind (folds, crotch, hair on the neck): by shape and pose
-/// alone, since the displaced skin follows whatever lies across a fold. Of a body that the model cannot make,
-/// displaced: there the neighbours know more.
-std::vector<Vector3d> shape_of(const RegisteredBody& body, const Precision& precision) {
-  const double outside = share_outside(precision, body.residual, body.scanned);
-  std::vector<Vector3d> skin = body.posed;
-  for (std::size_t v = 0; v < skin.size(); ++v) skin[v] += outside * (body.skin[v] - skin[v]);
-  return skin;
-}
-
 /// One of the two surfaces that a figure is read on.
 struct Source {
   Surface surface;
@@ -75,7 +65,7 @@ class Reader {
         frame_(body_frame(model)),
         mesh_(labelled(mesh, filled, model, frame_)),
         skin_(skin_of(model, model.skin, frame_)),
-        shape_(skin_of(model, shape_of(model, precision), frame_)),
+        shape_(skin_of(model, model.posed, frame_)),
         normals_(geometry::vertex_normals(skin_.surface.mesh.vertices, skin_.surface.mesh.triangles)),
         tree_(skin_.surface.mesh.vertices) {}
 
@@ -109,9 +99,7 @@ class Reader {
  private:
   Vector3d expected(const std::string& name) const { return frame_ * body_.skin_point(name); }
 
-  Vector3d shaped(const std::string& name) const {
-    return body_model::skin_point(*body_.model, shape_.surface.mesh.vertices, name);
-  }
+  Vector3d shaped(const std::string& name) const { return frame_ * body_.posed_point(name); }
 
   /// RegisteredBody::support round a point.
   double support_at(const Vector3d& point) const {
@@ -214,8 +202,7 @@ class Reader {
   }
 
   void crotch() {
-    Vector3d there = shaped("crotch");
-    there.y() = midline();
+    const Vector3d there = shaped("crotch");
     auto on_mesh = find_crotch(mesh_.surface, there);
     if (on_mesh && unseen_share(mesh_.surface, *on_mesh, kPerineum) > 0.5)
       on_mesh.reset();  // a filled gap has its own lowest place
@@ -238,10 +225,6 @@ class Reader {
               find_buttock(skin_.trunk, *rearmost), support_at(*rearmost));
   }
   double expected_crotch_y() const { return expected("crotch").y(); }
-  /// Of pose and shape alone: a displacement of 4 mm to the side leads the crotch's section into a thigh.
-  double midline() const {
-    return (frame_ * body_model::skin_point(*body_.model, body_.posed, "crotch")).y();
-  }
 
   void waist() {
     if (find(Kind::height, "hip") == nullptr || find(Kind::height, "underbust") == nullptr) return;
@@ -394,7 +377,7 @@ class Reader {
   const Precision& precision_;
   Eigen::Isometry3d frame_;
   Source mesh_, skin_;
-  Source shape_;  ///< `shape_of`
+  Source shape_;  ///< for folds and the neck: what is displaced follows skin across a fold, and hair
   std::vector<Vector3d> normals_;
   geometry::PointTree tree_;
   std::vector<Figure> figures_;

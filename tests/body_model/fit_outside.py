@@ -4,7 +4,7 @@
 How far off figures are on bodies outside the body model's span. PRECISION is what fit_precision.py wrote of women; it is changed in place, what it
 says of women is left as it is. READINGS and TRUTHS are as there, of women (training) and of bodies that the model was not made from and cannot make.
 A body is outside by a share that rises from 0 at the misfit that 95 % of the women stay below (`span`, first number) to 1 at the median misfit of the others
-(second number); that share of the deviation `outside` is added to each reading's own, as squares, and that share of women's bias is taken off. It is fitted to the others' errors by likelihood, of Student's t
+(second number); that share of the deviation `outside` is added to each reading's own, as squares. It is fitted to the others' errors by likelihood, of Student's t
 with 4 degrees of freedom. Needs python3-numpy, python3-scipy, python3-yaml.
 """
 import argparse
@@ -44,7 +44,7 @@ def with_outside(row, known, share):
         s = known[key]
         if s['base'] < MOST:
             inside = np.hypot(s['base'] * (row[3] / UNIT) ** s['growth'], s['support'] * row[2])
-            fit[key] = np.array([np.hypot(inside, share * s.get('outside', 0.)), 0., (1 - share) * s['bias']])
+            fit[key] = np.array([np.hypot(inside, share * s.get('outside', 0.)), 0., s['bias']])
     return fit
 
 
@@ -80,7 +80,8 @@ def main():
                 s, use = known[key], [k for k, r in enumerate(rows) if r[i] is not None]
                 s['outside'] = 0.
                 if figure not in CONVENTIONAL and len(use) >= FEWEST and LEAST < s['base'] < MOST:  # it is read there, and not true by definition
-                    errors = np.array([max(np.linalg.norm(rows[k][i] - [(1 - shares[k]) * s['bias'], 0, 0]), LEAST) for k in use])
+                    bias = np.array([s['bias'], 0, 0])
+                    errors = np.array([max(np.linalg.norm(rows[k][i] - bias), LEAST) for k in use])
                     inside = np.array([np.hypot(s['base'] * (rows[k][3] / UNIT) ** s['growth'], s['support'] * rows[k][2]) for k in use])
                     s['outside'] = outside_of(errors, inside, shares[use])
                 tail = re.sub(r'^(  %s: .*?%s: \{[^}]*)' % (figure, key), lambda m, d=s['outside']: '%s, outside: %.3g' % (m.group(1), d), tail,
