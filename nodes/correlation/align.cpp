@@ -75,7 +75,7 @@ Step step_from(const std::vector<Match>& matches) {
     system += row * row.transpose();
     right += row * match.normal.dot(match.on_patch - match.on_scan);
   }
-  const SmallMotion eigenvalues =
+  const Eigen::Matrix<double, 6, 1> eigenvalues =
       Eigen::SelfAdjointEigenSolver<Matrix6d>(system, Eigen::EigenvaluesOnly).eigenvalues();
   if (!(eigenvalues[0] > kLoosest * eigenvalues[5])) return {Isometry3d::Identity(), 0, false};
   const SmallMotion step = system.ldlt().solve(right);

@@ -21,7 +21,8 @@ std::string pull(double newtons);
 std::string pressure(double kilopascals);
 /// "23 ± 8"; "4.7 ± 1.7".
 std::string with_uncertainty(double value);
-/// "hardly felt: less than ..." and so on; empty where it is not known (0).
+/// How it stands beside pressures measured on wearers: "less than a waistband ..."; empty where it is not
+/// known (0).
 std::string pressure_meaning(double kilopascals);
 /// What a line's pull and pressure mean; pressure 0: unknown.
 std::string pull_help(double newtons, double kilopascals);

@@ -82,7 +82,7 @@ Raster rasterise(const std::vector<Eigen::Vector3d>& points, const std::vector<E
   constexpr int kStrips = 4;
   cv::parallel_for_(cv::Range(0, kStrips), [&](const cv::Range& strips) {
     const int top = strips.start * height / kStrips, bottom = strips.end * height / kStrips;
-    for (int y = top; y < bottom; ++y) {  // faster than OpenCV fills
+    for (int y = top; y < bottom; ++y) {  // each strip by its own thread
       std::fill_n(raster.depth[y], width, std::numeric_limits<float>::infinity());
       std::fill_n(raster.triangle[y], width, -1);
     }

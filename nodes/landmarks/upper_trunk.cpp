@@ -26,7 +26,7 @@ bool is_outline(const SectionLoop& loop, const Vector3d& normal) {
   Vector3d twice_area = Vector3d::Zero();
   const Vector3d& first = loop.points.front();
   for (std::size_t i = 1; i + 1 < loop.points.size(); ++i)
-    twice_area += (loop.points[i] - first).cross(loop.points[i + 1] - first);
+    twice_area += geometry::area_vector(first, loop.points[i], loop.points[i + 1]);
   return loop.closed && twice_area.dot(normal) > 0;
 }
 

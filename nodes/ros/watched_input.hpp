@@ -9,10 +9,10 @@
 
 namespace tensegric_fit::node {
 
-/// Twice in some hundred launches a node was never connected to the publisher of scan/points, which the
-/// master knew: a negotiation of roscpp (1.15.15) that ends without an answer is neither ended nor begun
-/// again, and the latched scan was lost without a word. So where a publisher is announced and none is
-/// connected, twice in a row, the subscription is made anew.
+/// In two test runs the scan player had published its latched scan, and for two minutes the reconstruction
+/// waited for input. Why is not known. One way to it: roscpp 1.15.15 asks a publisher for a connection once,
+/// and waits for ever where no answer comes (tests/faults/silent_publisher.py). So where a publisher is
+/// announced and none is connected, at two looks in a row, the subscription is made anew.
 class WatchedInput {
  public:
   using Subscribe = std::function<ros::Subscriber()>;

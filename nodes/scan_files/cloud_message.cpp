@@ -1,5 +1,6 @@
 #include "scan_files/cloud_message.hpp"
 
+#include <pcl_conversions/pcl_conversions.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 
 namespace tensegric_fit::scan_files {
@@ -19,6 +20,12 @@ sensor_msgs::PointCloud2 cloud_message(const geometry::PointCloud& cloud, const 
     ++at;
   }
   return message;
+}
+
+pcl::PCLPointCloud2 cloud_in(const sensor_msgs::PointCloud2& message) {
+  pcl::PCLPointCloud2 cloud;
+  pcl_conversions::toPCL(message, cloud);
+  return cloud;
 }
 
 }  // namespace tensegric_fit::scan_files

@@ -1,16 +1,12 @@
 #include "scan_files/scan_bag.hpp"
 
-#include <pcl_conversions/pcl_conversions.h>
-
 #include "scan_files/bag_messages.hpp"
 #include "scan_files/cloud_message.hpp"
 
 namespace tensegric_fit::scan_files {
 
 pcl::PCLPointCloud2 read_bag_scan(const std::string& path) {
-  pcl::PCLPointCloud2 cloud;
-  pcl_conversions::toPCL(*read_bag_scans(path, 1).front(), cloud);
-  return cloud;
+  return cloud_in(*read_bag_scans(path, 1).front());
 }
 
 void write_bag_scan(const std::string& path, const geometry::PointCloud& cloud, const std::string& frame_id,

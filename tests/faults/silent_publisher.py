@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """silent_publisher.py
 
-A publisher of scan/points that the master knows, and that does not answer the first request for a connection, as it was seen of roscpp on a busy
-machine. The reconstruction has to ask again; it asked once, and a latched scan was lost. Exit 0 where it does, else 1.
+A publisher of scan/points that the master knows, and that does not answer the first request for a connection. The reconstruction has to ask again:
+roscpp by itself does not (nodes/ros/watched_input.hpp). Exit 0 where it does, else 1.
 """
 import os
 import pathlib

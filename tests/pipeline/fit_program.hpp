@@ -18,8 +18,6 @@ using nlohmann::json;
 
 inline const std::string kScans = TENSEGRIC_FIT_SCANS;
 
-inline const std::string kFit = std::string(TENSEGRIC_FIT_PROGRAMS) + "/fit";
-
 inline const char* const kResults[] = {"report.json",   "body.ply",    "control.ply", "control_deformed.ply",
                                        "deformed.ply",  "history.csv", "front.png",   "side.png",
                                        "distortion.png"};
@@ -45,12 +43,16 @@ class FitProgram : public ::testing::Test {
     return file(name);
   }
 
-  // Exit code of fit; -1 where a signal ended it.
-  int fit(const std::string& arguments, const std::string& out = "out") const {
+  // Exit code of a program of this package; -1 where a signal ended it.
+  int run(const std::string& words) const {
     const int status = std::system(
-        (kFit + " " + arguments + " --quiet --out " + file(out) + " > " + file("log") + " 2>&1").c_str());
+        (std::string(TENSEGRIC_FIT_PROGRAMS) + "/" + words + " > " + file("log") + " 2>&1").c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
+  int fit(const std::string& arguments, const std::string& out = "out") const {
+    return run("fit " + arguments + " --quiet --out " + file(out));
+  }
+  std::string log() const { return read_file(file("log")); }
   json report(const std::string& out = "out") const {
     return json::parse(read_file(folder_ / out / "report.json"));
   }

@@ -1,48 +1,19 @@
 // `fit` on shapes that are no bodies, bent by gravity (P1 §3.2, Fig. 3).
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "fit_program.hpp"
 #include "geometry/ply.hpp"
 
 namespace {
 
-namespace fs = std::filesystem;
 using Eigen::Vector3d;
-using nlohmann::json;
 using tensegric_fit::geometry::TriangleMesh;
 
 constexpr double kHeld = -0.36;  // what virtual_booth says to hold lies behind it
 
-class FitShape : public ::testing::Test {
+class FitShape : public FitProgram {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("tensegric_fit_shape_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string file(const std::string& name) const { return (folder_ / name).string(); }
-
-  int run(const std::string& words) const {
-    const int status = std::system(
-        (std::string(TENSEGRIC_FIT_PROGRAMS) + "/" + words + " > " + file("log") + " 2>&1").c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  std::string log() const {
-    std::ostringstream text;
-    text << std::ifstream(file("log")).rdbuf();
-    return text.str();
-  }
-  json report() const { return json::parse(std::ifstream(file("out/report.json"))); }
   TriangleMesh mesh(const std::string& name) const {
     return tensegric_fit::geometry::read_ply_mesh(file("out/" + name));
   }
@@ -51,8 +22,7 @@ class FitShape : public ::testing::Test {
     ASSERT_EQ(run("virtual_booth --shape " + shape + " --out " + folder_.string()), 0) << log();
   }
   int bend(const std::string& more) const {
-    return run("fit --quiet --mesh " + file("shape.ply") + " --fixed " + file("fixed.yaml") + " --out " +
-               file("out") + " " + more);
+    return fit("--mesh " + file("shape.ply") + " --fixed " + file("fixed.yaml") + " " + more);
   }
 
   // What must hold of any shape under any load that it can bear.
@@ -92,8 +62,6 @@ class FitShape : public ::testing::Test {
       if (edge.right >= 0 && facing(before, edge) > 0 && facing(after, edge) < -0.5) ++count;
     return count;
   }
-
-  fs::path folder_;
 };
 
 double lowest_near(const TriangleMesh& mesh, const TriangleMesh& where, double from_x) {
