@@ -155,6 +155,12 @@ def launch_faults(text, folder=ROOT / "launch"):
     return faults
 
 
+def twice_named(root=ROOT):
+    """Launch files of one name: roslaunch finds them by name anywhere in a package, and starts neither of two."""
+    files = sorted(path for path in root.rglob("*.launch") if "build" not in path.relative_to(root).parts)
+    return [str(path.relative_to(root)) for path in files if sum(path.name == other.name for other in files) > 1]
+
+
 def range_faults(rows, expected):
     """Of rows of key, range: each number's range as the code has it."""
     said = {key: row[1] for row in rows for key in quoted(row[0])}
@@ -222,6 +228,9 @@ class Interface(unittest.TestCase):
 
     def test_launch_files(self):
         self.assertEqual(launch_faults(self.text), [])
+
+    def test_launch_files_have_names_of_their_own(self):
+        self.assertEqual(twice_named(), [])
 
 
 class Files(unittest.TestCase):
@@ -332,6 +341,14 @@ class FaultsAreFound(unittest.TestCase):
             self.assertEqual(launch_faults(text, folder), [])
             for wrong, right in (("| 0 |", "| 1 |"), ("| `rate` | 0 |", ""), ("`bag`", "`bug`"), ("a.launch", "b.launch")):
                 self.assertNotEqual(launch_faults(text.replace(wrong, right), folder), [])
+
+    def test_launch_files_of_one_name(self):
+        with tempfile.TemporaryDirectory() as name:
+            root = pathlib.Path(name)
+            for file in ("launch/a.launch", "launch/b.launch", "tests/a.launch", "build/b.launch"):
+                (root / file).parent.mkdir(exist_ok=True)
+                (root / file).write_text("<launch/>")
+            self.assertEqual(twice_named(root), ["launch/a.launch", "tests/a.launch"])
 
     def test_ranges(self):
         expected = {"ratio": (0.05, 10.0)}

@@ -59,7 +59,7 @@ class Shop:
         try:
             self.started.append(self.start(0, "roscore", "-p", PORT, stdout=self.log, stderr=self.log))
             for host, name in enumerate(self.names, 1):
-                self.started.append(self.start(host, "roslaunch", "--wait", HERE / "booth.launch", f"booth:={name}",
+                self.started.append(self.start(host, "roslaunch", "--wait", HERE / "one_booth.launch", f"booth:={name}",
                                                f"config:={self.config}", stdout=self.log, stderr=self.log))
             wait_until(lambda: len(nodes_at(self.uri, NODES)) == len(NODES) * len(self.names), "the nodes", 240)
             time.sleep(10)  # they are being made known to each other
