@@ -20,9 +20,10 @@ struct Evidence {
 /// Surface that is none of hers: hair, a thing, somebody else. Scan's frame, metres.
 struct Unexplained {
   Eigen::Vector3d centre;
-  double extent;       ///< between its farthest points
-  double share;        ///< of the whole surface, 0 to 1
-  std::string reason;  ///< where it is and what it may be, in words
+  double extent;        ///< between its farthest points
+  double share;         ///< of the whole surface, 0 to 1
+  std::string reason;   ///< where it is and what it may be, in words
+  bool person = false;  ///< beside her, and as large as somebody else would be
 };
 
 /// In the scan's frame, metres; per-vertex arrays have one entry per vertex of the model's skin.

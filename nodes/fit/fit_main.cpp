@@ -2,21 +2,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
-#include <future>
-#include <opencv2/imgcodecs.hpp>
 
-#include "body_model/parts.hpp"
 #include "files/owner_only.hpp"
 #include "fit/command_line.hpp"
 #include "fit/compute.hpp"
+#include "fit/effects.hpp"
 #include "fit/maker_export.hpp"
+#include "fit/picture_files.hpp"
 #include "fit/result_folder.hpp"
 #include "geometry/ply.hpp"
-#include "inspect/composition.hpp"
-#include "inspect/fit_pictures.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -31,7 +28,7 @@ const ResultNames kResults = [] {
   return names;
 }();
 
-constexpr int kPanel = 750;  // pixels; the height of the pictures of a fit
+constexpr double kLeastEffect = 0.05;  // mm: what is printed
 
 class Run {
  public:
@@ -44,9 +41,7 @@ class Run {
     if (done_.fit) {
       write_fit(*done_.fitting, *done_.fit);
     } else {
-      constexpr int kWhole = 900;
-      save_picture("front.png", measured(inspect::front_picture, kWhole));
-      save_picture("side.png", measured(inspect::side_picture, kWhole));
+      write_pictures(pictures_of(done_.body, wishes()));
     }
     export_for_makers(line_.out, line_.exports, done_.body, done_.fit ? &*done_.fit : nullptr);
     const std::size_t triangles = done_.body.mesh.mesh.triangles.size();
@@ -61,64 +56,25 @@ class Run {
 
   const Source& source() const { return done_.source; }
 
+  /// What the garment does, where it does anything.
+  void say_effects() const {
+    if (!done_.fit) return;
+    std::vector<std::string> words;
+    for (const Effect& effect : effects_of(done_.body, *done_.fit))
+      if (const double mm = 1e3 * (effect.after - effect.before); std::abs(mm) >= kLeastEffect)
+        words.push_back(fmt::format("{} {:+.1f} mm", effect.name, mm));
+    if (!words.empty()) fmt::print(stderr, "effects: {}\n", fmt::join(words, ", "));
+  }
+
  private:
   void say(const std::string& what) const { say_progress(line_.quiet, what); }
 
   std::string path(const std::string& name) const { return (fs::path(line_.out) / name).string(); }
 
-  void save_picture(const std::string& name, const cv::Mat& picture) const {
-    write_picture(path(name), picture);
-  }
+  PictureWishes wishes() const { return {!line_.is_shape(), line_.overlay}; }
 
-  void save_pictures(const Fitting& fitting, const Fit& fit) const {
-    inspect::FitScene scene{done_.body.mesh.mesh,
-                            fit.deformed,
-                            fit.distortion,
-                            done_.body.measures,
-                            inspect::parts_of(fitting.control, done_.body.measures.body_from_scan),
-                            {},
-                            {}};
-    for (const geometry::FitWarning& warning : done_.warnings)
-      if (warning.is_warning())
-        scene.warned.insert(scene.warned.end(), warning.vertices.begin(), warning.vertices.end());
-    for (const auto& line : fit.solution.lines) {
-      for (const auto& [fibres, drawn] :
-           {std::pair(&line.fibres_at_rest, &scene.lines_before), {&line.fibres, &scene.lines_after}}) {
-        drawn->push_back(fibres->front());  // both edges of a band
-        if (fibres->size() > 1) drawn->push_back(fibres->back());
-      }
-    }
-    std::vector<std::function<void()>> pictures{
-        [&] {
-          save_picture("front.png", beside_measured(inspect::front_picture, inspect::front_picture(scene)));
-        },
-        [&] {
-          save_picture("side.png", beside_measured(inspect::side_picture, inspect::side_picture(scene)));
-        },
-        [&] { save_picture("distortion.png", inspect::distortion_picture(scene)); }};
-    if (std::any_of(scene.parts.begin(), scene.parts.end(), [](const auto& part) { return part.behind; }))
-      pictures.emplace_back([&] { save_picture("back.png", inspect::back_picture(scene)); });
-    std::vector<std::future<void>> making;
-    for (const auto& picture : pictures) making.push_back(std::async(std::launch::async, picture));
-    for (std::future<void>& made : making) made.get();
-  }
-
-  using MeasuredPicture = cv::Mat (*)(const geometry::TriangleMesh&, const geometry::BodyMeasures&, int,
-                                      const inspect::ModelOverlay*);
-
-  cv::Mat measured(MeasuredPicture picture, int height) const {
-    const geometry::TriangleMesh& mesh = done_.body.mesh.mesh;
-    if (!line_.overlay) return picture(mesh, done_.body.measures, height, nullptr);
-    const body_model::RegisteredBody& body = *done_.body.model;
-    const inspect::ModelSkin skin{body.skin, body.model->quads, body.model->part, body.model->parts};
-    const std::vector<unsigned char> parts = body_model::parts_of(mesh, body);
-    const inspect::ModelOverlay overlay{skin, parts};
-    return picture(mesh, done_.body.measures, height, &overlay);
-  }
-
-  cv::Mat beside_measured(MeasuredPicture picture, const cv::Mat& pictures) const {
-    if (line_.is_shape()) return pictures;
-    return inspect::side_by_side(inspect::with_caption(measured(picture, kPanel), "measured"), pictures);
+  void write_pictures(const std::vector<PictureFile>& pictures) const {
+    for (const PictureFile& picture : pictures) write_text(path(picture.name), picture.png);
   }
 
   void write_fit(const Fitting& fitting, const Fit& fit) {
@@ -127,7 +83,7 @@ class Run {
       write_mesh(path(name), {*nodes, fitting.control.triangles}, {}, geometry::Coordinates::float64);
     write_mesh(path("deformed.ply"), {fit.deformed, done_.body.mesh.mesh.triangles});
     write_text(path("history.csv"), history_csv(done_.body, fitting, fit.solution));
-    save_pictures(fitting, fit);
+    write_pictures(pictures_of(done_.body, fitting, fit, done_.warnings, wishes()));
   }
 
   const CommandLine& line_;
@@ -140,7 +96,9 @@ int run(const CommandLine& line) {
   Run chain(line);
   const auto work = [&] {
     chain();
-    if (!line.quiet) fmt::print(stderr, "results: {}\n", fs::absolute(line.out).lexically_normal().string());
+    if (line.quiet) return;
+    chain.say_effects();
+    fmt::print(stderr, "results: {}\n", fs::absolute(line.out).lexically_normal().string());
   };
   return run_into_folder({"fit", line.out, kResults, inputs, work, [&](const geometry::Refusal& refusal) {
                             write_json(fs::path(line.out) / "report.json",

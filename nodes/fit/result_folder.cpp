@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
 #include "files/whole_folder.hpp"
@@ -68,12 +67,6 @@ void write_text(const std::string& path, const std::string& text) {
   } catch (const geometry::Refusal& refusal) {  // no input was refused
     throw std::runtime_error(refusal.what());
   }
-}
-
-void write_picture(const std::string& path, const cv::Mat& picture) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", picture, bytes);
-  write_text(path, {bytes.begin(), bytes.end()});
 }
 
 void write_mesh(const std::string& path, const geometry::TriangleMesh& mesh,

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
@@ -37,8 +36,7 @@ void say_progress(bool quiet, const std::string& what);
 /// Writes a whole file or none. \throw std::runtime_error where it cannot be written
 void write_text(const std::string& path, const std::string& text);
 
-/// The same of a PNG, and of a PLY as geometry::ply_bytes makes it.
-void write_picture(const std::string& path, const cv::Mat& picture);
+/// The same of a PLY as geometry::ply_bytes makes it.
 void write_mesh(const std::string& path, const geometry::TriangleMesh& mesh,
                 const std::vector<std::array<std::uint8_t, 3>>& colours = {},
                 geometry::Coordinates coordinates = geometry::Coordinates::float32);

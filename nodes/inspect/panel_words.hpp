@@ -24,9 +24,9 @@ inline constexpr char kViewFront[] = "Front", kViewLeft[] = "Left", kViewBack[] 
                       kViewHelp[] = "The view from there; All: her whole body, or where the garment is",
                       kViewFollowsHelp[] = "Another garment turns the view to where it acts";
 inline constexpr char kLine[] = "Line", kNeutral[] = "neutral length", kNow[] = "now", kPull[] = "pull";
-inline constexpr char kGirth[] = "Girth", kScanned[] = "scan", kWornGirth[] = "worn", kChange[] = "change",
-                      kBraSize[] = "Bra size", kNoSize[] = "-", kLift[] = "lift of the bust",
-                      kApart[] = "bust points apart", kVolume[] = "Volume";
+inline constexpr char kMeasure[] = "Measure", kScanned[] = "scan", kWornGirth[] = "worn",
+                      kChange[] = "change", kBraSize[] = "Bra size", kNoSize[] = "-",
+                      kLift[] = "lift of the bust", kApart[] = "bust points apart", kVolume[] = "Volume";
 inline constexpr char kOldBody[] = " Shown pale below: the body before.",
                       kOldBodyGone[] = " The body before is no longer shown.";
 inline constexpr char kNoLines[] = "No garment is worn so far.";

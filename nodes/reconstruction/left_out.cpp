@@ -20,6 +20,7 @@ constexpr int kCompany = 5;  // points, of which one lies within kLimb / 2 of th
 constexpr double kFarFromBody = 0.3;  // m; farther things are the booth's
 constexpr double kSmall = 0.005,
                  kLarge = 0.25;     // of the body's points: less is stray; more is named wherever it is
+constexpr double kTall = 0.5;       // of her stature: as large as a person, if it is kLarge, too
 constexpr std::size_t kNamed = 10;  // things that are named at most
 
 }  // namespace
@@ -61,10 +62,13 @@ std::vector<body_model::Unexplained> things_beside(const Points& left_out,
     }
     if (nearest > kFarFromBody && share < kLarge) continue;
     const auto box = geometry::bounding_box(points);
+    const double extent = (box[1] - box[0]).norm();
+    const bool person = share >= kLarge && extent > kTall * body.stature();
     things.push_back(
-        {centre, (box[1] - box[0]).norm(), share,
-         fmt::format("left out: {} points as a thing of its own, {:.0f} mm across, {:.0f} mm from {}",
-                     points.size(), 1e3 * (box[1] - box[0]).norm(), 1e3 * nearest, part)});
+        {centre, extent, share,
+         fmt::format("left out: {} points as {}, {:.0f} mm across, {:.0f} mm from {}", points.size(),
+                     person ? "somebody else" : "a thing of its own", 1e3 * extent, 1e3 * nearest, part),
+         person});
   }
   return things;
 }

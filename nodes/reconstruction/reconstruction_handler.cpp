@@ -81,6 +81,17 @@ std::string lacks_of(const std_msgs::Header& header, const std::vector<std::stri
   return words;
 }
 
+std::string company_of(const body_model::RegisteredBody& body) {
+  for (const body_model::Unexplained& thing : body.unexplained)
+    if (thing.person)
+      return fmt::format(
+          "two_persons: somebody else, or something as large, is in the scan, {:.1f} m from her, and was "
+          "left "
+          "out; is it she that is shown? Scan her alone.",
+          (thing.centre - body.joints.front()).head<2>().norm());
+  return {};
+}
+
 ReconstructionHandler::ReconstructionHandler(Parameters parameters)
     : options_(reconstruction_options(parameters)), anatomy_(shipped_anatomy()) {
   parameters.check_all_known();

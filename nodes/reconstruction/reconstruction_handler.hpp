@@ -26,6 +26,9 @@ reconstruction::Anatomy shipped_anatomy();
 /// scan is taken all the same.
 std::string lacks_of(const std_msgs::Header& header, const std::vector<std::string>& known = {});
 
+/// Somebody else in the scan (`two_persons`), with what to do about it; "" where there is nobody.
+std::string company_of(const body_model::RegisteredBody& body);
+
 class ReconstructionHandler {
  public:
   /// \throw Refusal bad_option, broken_file: the body model

@@ -30,12 +30,16 @@ class ReconstructionNode {
     stage_.begin(tag.scan_id);
     stage_.post(tag.scan_id, [this, scan, tag]() -> Stage::Result {
       const auto output = handler_.handle(*scan, tag);
+      const std::string lacks = lacks_of(scan->header, frames()), company = company_of(output.result->model);
       return {[this, output] {
                 model_.publish(output.model);
                 mesh_.publish(output.mesh);
                 show(output.result, output.mesh->header);
               },
-              output.facts, lacks_of(scan->header, frames())};
+              output.facts,
+              lacks.empty()     ? company
+              : company.empty() ? lacks
+                                : lacks + " " + company};
     });
   }
 

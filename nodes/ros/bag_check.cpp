@@ -84,7 +84,8 @@ class BagReader {
       find(true, "other_version",
            fmt::format("{}: {} of another version: md5 {}, this build has {}", connection->topic,
                        connection->datatype, connection->md5sum, known->second),
-           "record again with this version, or convert it: rosbag fix old.bag new.bag");
+           "record again with this version, or convert it: rosbag fix old.bag new.bag "
+           "$(rospack find tensegric_fit)/launch/migration/*.bmr");
     }
   }
 

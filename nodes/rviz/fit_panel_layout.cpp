@@ -18,6 +18,7 @@
 #include "rviz/fit_panel.hpp"
 #include "rviz/qt_text.hpp"
 #include "rviz/upright_scroll.hpp"
+#include "rviz/wheel.hpp"
 
 namespace tensegric_fit::inspect {
 namespace {
@@ -44,6 +45,7 @@ QComboBox* narrow_choice() {
   auto* box = new QComboBox;
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box->setMinimumContentsLength(kShownLetters);
+  new WheelInFocus(box);
   return box;
 }
 
@@ -159,6 +161,7 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   blend_ = new QSlider(Qt::Horizontal);
   blend_->setRange(0, 100);
   blend_->setValue(100);
+  new WheelInFocus(blend_);
   label->setBuddy(blend_);
   blending->addWidget(label);
   blending->addWidget(blend_, 1);
@@ -244,7 +247,7 @@ void FitPanel::order_tabs() {
        std::initializer_list<QWidget*>{undo_, redo_, reset_, linked_, compare_, blend_, marks_})
     follow(next);
   for (QWidget* next : view_->controls()) follow(next);
-  for (QWidget* next : std::initializer_list<QWidget*>{table_, folder_, export_}) follow(next);
+  for (QWidget* next : std::initializer_list<QWidget*>{table_, customer_, folder_, export_}) follow(next);
 }
 
 void FitPanel::build_regions() {

@@ -30,10 +30,11 @@ std::string size_of(const Girths& girths) {
 }  // namespace
 
 GirthTable::GirthTable() : QTableWidget(0, 4) {
-  setHorizontalHeaderLabels({words::kGirth, words::kScanned, words::kWornGirth, words::kChange});
+  setHorizontalHeaderLabels({words::kMeasure, words::kScanned, words::kWornGirth, words::kChange});
   verticalHeader()->hide();
   verticalHeader()->setDefaultSectionSize(kRowHeight);
   horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);  // names are read whole
   setEditTriggers(QAbstractItemView::NoEditTriggers);
   setSelectionMode(QAbstractItemView::NoSelection);
   setMinimumHeight((kFewest + 1) * kRowHeight);
@@ -61,13 +62,14 @@ void GirthTable::show_measures(const geometry::BodyMeasures& measures, const geo
                                       measure.after ? words::centimetres(*measure.after) : words::kNoSize,
                                       measure.after ? words::change(measure.change()) : words::kNoSize};
   };
-  // The size is of the body without a garment: what a garment squeezes has none.
-  std::vector<std::array<std::string, 4>> rows{{words::kBraSize, size_of(girths), "", ""}};
+  std::vector<std::array<std::string, 4>> rows;
   for (const geometry::ChangedMeasure& height : geometry::heights_after(measures, skin))
     if (height.before.name == "bust" && height.after)
       rows.push_back({words::kLift, "", "", words::rise(height.change())});
   if (const auto apart = geometry::bust_points_apart(measures, skin))
     rows.push_back(row_of(words::kApart, *apart));
+  // The size is of the body without a garment: what a garment squeezes has none.
+  rows.push_back({words::kBraSize, size_of(girths), "", ""});
   for (const geometry::ChangedMeasure& girth : girths)
     rows.push_back(row_of(spoken(girth.before.name), girth));
   setRowCount(static_cast<int>(rows.size()));

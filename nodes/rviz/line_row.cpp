@@ -7,6 +7,7 @@
 #include "inspect/fit_session.hpp"
 #include "inspect/panel_words.hpp"
 #include "rviz/qt_text.hpp"
+#include "rviz/wheel.hpp"
 
 namespace tensegric_fit::inspect {
 namespace {
@@ -43,8 +44,10 @@ LineRow::LineRow(const std::string& line, int number, QGridLayout* grid)
   slider_->setMinimumWidth(kShortestSlider);
   const QString name = text(line);
   for (QWidget* widget : {static_cast<QWidget*>(slider_), static_cast<QWidget*>(per_cent_),
-                          static_cast<QWidget*>(centimetres_)})
+                          static_cast<QWidget*>(centimetres_)}) {
     widget->setAccessibleName(name);
+    new WheelInFocus(widget);
+  }
   name_->setText(QString("&%1 %2").arg(number).arg(
       name_->fontMetrics().elidedText(name, Qt::ElideMiddle, kLongestName)));
   name_->setToolTip(name);

@@ -106,7 +106,7 @@ class ScanPlayer {
       if (private_node_.hasParam("played_files"))
         folder_->skip(setup_.played_files);
       else if (!setup_.existing)
-        folder_->skip_all();
+        skip_existing();
       remember();
     } else {
       files_.push_back(setup_.file);
@@ -115,6 +115,19 @@ class ScanPlayer {
                         : setup_.rate > 0 ? std::min(0.1, 0.1 / setup_.rate)
                                           : 0.1;
     clock_ = node.createWallTimer(ros::WallDuration(tick), [this](const ros::WallTimerEvent&) { go_on(); });
+  }
+
+  /// Who puts the first scan there before the booth is up should not wait without a word.
+  void skip_existing() {
+    folder_->skip_all();
+    if (const std::size_t count = folder_->played().size(); count > 0)
+      stage_.post("", [count]() -> Stage::Result {
+        return {[] {},
+                {},
+                fmt::format("existing_files: {} were in the folder at the start and are not played; new ones "
+                            "are, and those with existing:=true.",
+                            count)};
+      });
   }
 
   /// If it restarted, it would play its files again.

@@ -95,6 +95,26 @@ def sliders_at_their_ends_and_nonsense_typed(shop):
     assert LEAST <= shop.ratio() <= MOST, "the line went to %g" % shop.ratio()
 
 
+def the_wheel_turns_what_was_chosen_only(shop):
+    def turn(times):
+        for _ in range(times):
+            subprocess.check_call(["xdotool", "click", "5"])
+        time.sleep(1)
+
+    shop.comes_to(0.95)
+    shop.press("alt+1")
+    for x, y in ((1100, 414), (1005, 391), (1040, 192)):  # slider, per cent, garment
+        shop.press("alt+f")  # the folder is chosen
+        subprocess.check_call(["xdotool", "mousemove", str(x), str(y)])
+        turn(1)
+        assert shop.ratio() == 0.95, "the wheel over the panel changed a line"
+        assert shop.message["body/deformed"].garment == "B1", "the wheel over the panel changed the garment"
+    shop.press("alt+1")  # the slider is chosen
+    subprocess.check_call(["xdotool", "mousemove", "1100", "414"])
+    turn(1)
+    wait_for("line that the wheel changed", lambda: shop.ratio() not in (None, 0.95))
+
+
 def a_garment_file_spoilt_while_it_is_worn(shop):
     path = os.path.join(shop.out, "mine.yaml")
     shutil.copy(os.path.join(LAUNCH, "garments", "B1.yaml"), path)
@@ -269,7 +289,7 @@ def the_pipeline_gone_and_back(shop):
     shop.picture(os.path.join(shop.out, "back.png"))
 
 
-SCENES = (sliders_at_their_ends_and_nonsense_typed, a_garment_file_spoilt_while_it_is_worn,
+SCENES = (sliders_at_their_ends_and_nonsense_typed, the_wheel_turns_what_was_chosen_only, a_garment_file_spoilt_while_it_is_worn,
           the_scan_over_beside_and_wiped_against_the_garment, messages_that_are_no_good,
           exports_are_of_the_scan_that_is_shown, exports_that_cannot_be_written, two_panels_at_once, the_pipeline_gone_and_back)
 

@@ -51,6 +51,16 @@ TEST(ReconstructionHandler, NamesWhatAHeaderLacks) {
   EXPECT_EQ(lacks_of(header, {"booth_2/booth"}), "") << "another booth's";
 }
 
+TEST(ReconstructionHandler, NamesSomebodyElseInTheScan) {
+  body_model::RegisteredBody body;
+  body.joints = {{1, 0, 1}};
+  body.unexplained = {{{1, 0.5, 1}, 0.3, 0.02, "a bag"}};
+  EXPECT_EQ(company_of(body), "");
+  body.unexplained.push_back({{1, 1.2, 0.3}, 1.7, 0.5, "somebody else", true});
+  EXPECT_EQ(company_of(body).rfind("two_persons: ", 0), 0u);
+  EXPECT_NE(company_of(body).find(" 1.2 m from her"), std::string::npos);
+}
+
 TEST(Parameters, FromAFileAreReadAndCheckedLikeThoseOfANode) {
   Parameters given = parameters("{count: 7, size: 2, exact: true, word: b, name: '12', way: [0, 0.5, -1]}");
   EXPECT_EQ(given.integer("count", 1, {0, 10}), 7);
