@@ -68,9 +68,10 @@ cv::Mat3b shade(const geometry::TriangleMesh& mesh, const std::vector<Colour>& c
   for (const Eigen::Vector3d& n : geometry::shading_normals(mesh.vertices, mesh.triangles))
     normals.push_back((axes * n).cast<float>());
   const auto rgb_of = [&](int vertex) {
-    const Colour& colour = colours.empty() ? kNeutral : colours[vertex];
+    const Colour& colour = colours[vertex];
     return Eigen::Vector3f(colour[0], colour[1], colour[2]);
   };
+  const Eigen::Vector3f neutral(kNeutral[0], kNeutral[1], kNeutral[2]);
   cv::Mat3b picture(raster.triangle.size());
   std::fill_n(picture.ptr(), picture.total() * picture.elemSize(), kBackground);
   const auto at = [&](int index, double x, double y) -> cv::Vec3b {
@@ -79,9 +80,11 @@ cv::Mat3b shade(const geometry::TriangleMesh& mesh, const std::vector<Colour>& c
         picture_barycentric({x, y}, points[t[0]], points[t[1]], points[t[2]]).cast<float>();
     const Eigen::Vector3f normal = w[0] * normals[t[0]] + w[1] * normals[t[1]] + w[2] * normals[t[2]];
     const Eigen::Vector3f rgb =
-        light_on(normal.normalized()) * (w[0] * rgb_of(t[0]) + w[1] * rgb_of(t[1]) + w[2] * rgb_of(t[2]));
-    return {cv::saturate_cast<std::uint8_t>(rgb[2]), cv::saturate_cast<std::uint8_t>(rgb[1]),
-            cv::saturate_cast<std::uint8_t>(rgb[0])};
+        colours.empty() ? neutral
+                        : Eigen::Vector3f(w[0] * rgb_of(t[0]) + w[1] * rgb_of(t[1]) + w[2] * rgb_of(t[2]));
+    const float light = light_on(normal.normalized());
+    return {cv::saturate_cast<std::uint8_t>(light * rgb[2]), cv::saturate_cast<std::uint8_t>(light * rgb[1]),
+            cv::saturate_cast<std::uint8_t>(light * rgb[0])};
   };
   // Four pixels at a time: where one triangle has them all, they have one colour. Each four are their own, so
   // the number of threads changes nothing.

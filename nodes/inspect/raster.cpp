@@ -12,10 +12,21 @@ double twice_area(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eige
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
+// std::floor and std::ceil are calls of a function where the processor is not known; a cast is not. \pre
+// within an int's range
+int floored(double x) {
+  const int whole = static_cast<int>(x);
+  return whole - static_cast<int>(whole > x);
+}
+int ceiled(double x) {
+  const int whole = static_cast<int>(x);
+  return whole + static_cast<int>(whole < x);
+}
+
 // First and last pixel whose centre lies in [low, high], within the picture.
 std::pair<int, int> pixels(double low, double high, int size) {
-  return {static_cast<int>(std::clamp(std::ceil(low - 0.5), 0.0, double(size))),
-          static_cast<int>(std::clamp(std::floor(high - 0.5), -1.0, size - 1.0))};
+  return {ceiled(std::clamp(low - 0.5, 0.0, double(size))),
+          floored(std::clamp(high - 0.5, -1.0, size - 1.0))};
 }
 
 // A corner's weight is linear over the picture; inside the triangle none is negative.
@@ -28,16 +39,13 @@ struct Weight {
 
   // Narrows the pixels of the row with its centre at y to those inside.
   void narrow(double y, int& first, int& last) const {
+    if (first > last) return;
     constexpr double kRounding = 1e-9;  // pixels: a centre on an edge belongs to both triangles there
-    const double at_zero = constant + down * y;
+    const double at_zero = constant + down * y, zero = zero_per_weight * at_zero - 0.5;
     if (step > 0)
-      first = std::max(
-          first,
-          static_cast<int>(std::ceil(std::min(zero_per_weight * at_zero - 0.5 - kRounding, last + 1.0))));
+      first = std::max(first, ceiled(std::clamp(zero - kRounding, double(first), last + 1.0)));
     else if (step < 0)
-      last = std::min(
-          last,
-          static_cast<int>(std::floor(std::max(zero_per_weight * at_zero - 0.5 + kRounding, first - 1.0))));
+      last = std::min(last, floored(std::clamp(zero + kRounding, first - 1.0, double(last))));
     else if (at_zero < 0)
       last = first - 1;
   }
@@ -45,22 +53,38 @@ struct Weight {
   double step, down, constant, zero_per_weight;
 };
 
+// A triangle that covers pixels' centres, maybe, and where.
+struct Covering {
+  int index, first_row, last_row, first_column, last_column;
+};
+
+std::vector<Covering> covering(const std::vector<Eigen::Vector3d>& points,
+                               const std::vector<Eigen::Vector3i>& triangles, int width, int height) {
+  std::vector<Covering> all;
+  all.reserve(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Eigen::Vector3d &a = points[triangles[t][0]], &b = points[triangles[t][1]],
+                          &c = points[triangles[t][2]];
+    const auto [top, bottom] =
+        pixels(std::min({a.y(), b.y(), c.y()}), std::max({a.y(), b.y(), c.y()}), height);
+    if (top > bottom) continue;
+    const auto [left, right] =
+        pixels(std::min({a.x(), b.x(), c.x()}), std::max({a.x(), b.x(), c.x()}), width);
+    if (left <= right) all.push_back({static_cast<int>(t), top, bottom, left, right});
+  }
+  return all;
+}
+
 // Rows from `top` up to `bottom` only.
-void draw_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, int index,
-                   int top, int bottom, Raster& raster) {
-  const auto [first_row, last_row] =
-      pixels(std::min({a.y(), b.y(), c.y()}), std::max({a.y(), b.y(), c.y()}), raster.depth.rows);
-  if (last_row < top || first_row >= bottom || first_row > last_row) return;
-  const auto [first_column, last_column] =
-      pixels(std::min({a.x(), b.x(), c.x()}), std::max({a.x(), b.x(), c.x()}), raster.depth.cols);
-  if (first_column > last_column) return;
+void draw_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                   const Covering& covered, int top, int bottom, Raster& raster) {
   const double area = twice_area(a, b, c);
   if (area == 0) return;
   const Weight of_a(b, c, 1 / area), of_b(c, a, 1 / area), of_c(a, b, 1 / area);
   const double step = a.z() * of_a.step + b.z() * of_b.step + c.z() * of_c.step,
                down = a.z() * of_a.down + b.z() * of_b.down + c.z() * of_c.down;
-  for (int y = std::max(first_row, top); y <= std::min(last_row, bottom - 1); ++y) {
-    int first = first_column, last = last_column;
+  for (int y = std::max(covered.first_row, top); y <= std::min(covered.last_row, bottom - 1); ++y) {
+    int first = covered.first_column, last = covered.last_column;
     for (const Weight* weight : {&of_a, &of_b, &of_c}) weight->narrow(y + 0.5, first, last);
     float* depth = raster.depth[y];
     int* triangle = raster.triangle[y];
@@ -68,7 +92,7 @@ void draw_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
     for (int x = first; x <= last; ++x, z += step) {
       if (!(static_cast<float>(z) < depth[x])) continue;
       depth[x] = static_cast<float>(z);
-      triangle[x] = index;
+      triangle[x] = covered.index;
     }
   }
 }
@@ -78,6 +102,7 @@ void draw_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
 Raster rasterise(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3i>& triangles,
                  int width, int height) {
   Raster raster{cv::Mat1f(height, width), cv::Mat1i(height, width)};
+  const std::vector<Covering> seen = covering(points, triangles, width, height);
   // Each strip of rows takes the triangles in order, so the number of threads changes nothing.
   constexpr int kStrips = 4;
   cv::parallel_for_(cv::Range(0, kStrips), [&](const cv::Range& strips) {
@@ -86,9 +111,11 @@ Raster rasterise(const std::vector<Eigen::Vector3d>& points, const std::vector<E
       std::fill_n(raster.depth[y], width, std::numeric_limits<float>::infinity());
       std::fill_n(raster.triangle[y], width, -1);
     }
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-      draw_triangle(points[triangles[t][0]], points[triangles[t][1]], points[triangles[t][2]],
-                    static_cast<int>(t), top, bottom, raster);
+    for (const Covering& covered : seen) {
+      if (covered.last_row < top || covered.first_row >= bottom) continue;
+      const Eigen::Vector3i& t = triangles[covered.index];
+      draw_triangle(points[t[0]], points[t[1]], points[t[2]], covered, top, bottom, raster);
+    }
   });
   return raster;
 }

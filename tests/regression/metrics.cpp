@@ -110,6 +110,21 @@ double distance(const Eigen::Vector3d& found, const geometry::Landmark& truth,
   return off.norm();
 }
 
+/// `filled`, and head, hands and feet, whose details are as small as the mesh's triangles.
+std::vector<char> detailed(const BodyModel& model, std::vector<char> filled) {
+  for (std::size_t v = 0; v < filled.size() && v < model.mesh_parts.size(); ++v) {
+    if (model.mesh_parts[v] >= model.parts.size()) continue;
+    const std::string part = model.parts[model.mesh_parts[v]].substr(0, 4);
+    if (part == "head" || part == "hand" || part == "foot") filled[v] = 1;
+  }
+  return filled;
+}
+
+void add_normals(const std::string& name, const std::vector<double>& angles, Metrics& errors) {
+  errors[name + "median"] = quantile(angles, 0.5);
+  errors[name + "p95"] = quantile(angles, 0.95);
+}
+
 }  // namespace
 
 Metrics metrics_of(const Recording& recording) {
@@ -142,9 +157,10 @@ Metrics errors_of(const Recording& recording, const Customer& customer) {
   const std::vector<double> off = distances(body.vertices, node::filled_in(*recording.body), skin);
   errors["error/surface/median"] = quantile(off, 0.5);
   errors["error/surface/p95"] = quantile(off, 0.95);
-  const std::vector<double> turned = normal_angles(body, node::filled_in(*recording.body), skin);
-  errors["error/normals/median"] = quantile(turned, 0.5);
-  errors["error/normals/p95"] = quantile(turned, 0.95);
+  const std::vector<char> filled = node::filled_in(*recording.body);
+  add_normals("error/normals/", normal_angles(body, filled, skin), errors);
+  if (recording.model)
+    add_normals("error/normals/body/", normal_angles(body, detailed(*recording.model, filled), skin), errors);
   errors["noise/median"] = quantile(distances(customer.scan.points, {}, body), 0.5);
   if (!recording.landmarks) return errors;
 

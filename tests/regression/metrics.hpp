@@ -31,7 +31,8 @@ Metrics metrics_of(const Recording& recording);
 /// What is known of the errors of a recording of that customer. Names as above after "error/": heights and
 /// girths with their sign, landmark/NAME the distance, body/volume as a share; error/surface/median|p95 is
 /// how far the body mesh, where points support it, is from the true skin, and noise/median how far the scan's
-/// points are from the body mesh.
+/// points are from the body mesh. error/normals/median|p95: angle between the normals there, degrees;
+/// error/normals/body/median|p95: without head, hands and feet.
 Metrics errors_of(const Recording& recording, const Customer& customer);
 
 }  // namespace tensegric_fit::regression

@@ -78,13 +78,13 @@ Outcome measure(const Points& points) {
   options.poisson_depth = 7;
   try {
     const reconstruction::Reconstruction scanned = test::reconstructed({points, {}}, options);
-    Outcome outcome{"", test::measured(scanned)};
+    Outcome outcome{"", test::measured(scanned), {}, 0};
     for (const body_model::Unexplained& thing : scanned.model.unexplained) outcome.persons += thing.person;
     for (const geometry::Missing& part : body_model::missing_parts(scanned.model))
       outcome.missing.insert(part.name);
     return outcome;
   } catch (const geometry::Refusal& refusal) {
-    return {refusal.code()};
+    return {refusal.code(), {}, {}, 0};
   }
 }
 
