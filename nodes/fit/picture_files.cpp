@@ -7,13 +7,14 @@
 #include <utility>
 
 #include "body_model/parts.hpp"
+#include "geometry/shading_normals.hpp"
 #include "inspect/composition.hpp"
 #include "inspect/fit_pictures.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
 
-constexpr int kPanel = 750;  // pixels; the height of the pictures of a fit
+constexpr int kPanel = 600;  // pixels; the height of the pictures of a fit
 constexpr int kWhole = 900;  // of a body that is measured only
 
 PictureFile file(const std::string& name, const cv::Mat& picture) {
@@ -22,17 +23,19 @@ PictureFile file(const std::string& name, const cv::Mat& picture) {
   return {name, {bytes.begin(), bytes.end()}};
 }
 
+using Normals = std::vector<Eigen::Vector3d>;
 using MeasuredPicture = cv::Mat (*)(const geometry::TriangleMesh&, const geometry::BodyMeasures&, int,
-                                    const inspect::ModelOverlay*);
+                                    const inspect::ModelOverlay*, const Normals&);
 
-cv::Mat measured(MeasuredPicture picture, const Body& body, int height, bool overlaid) {
+cv::Mat measured(MeasuredPicture picture, const Body& body, int height, bool overlaid,
+                 const Normals& normals) {
   const geometry::TriangleMesh& mesh = body.mesh.mesh;
-  if (!overlaid) return picture(mesh, body.measures, height, nullptr);
+  if (!overlaid) return picture(mesh, body.measures, height, nullptr, normals);
   const body_model::RegisteredBody& model = *body.model;
   const inspect::ModelSkin skin{model.skin, model.model->quads, model.model->part, model.model->parts};
   const std::vector<unsigned char> parts = body_model::parts_of(mesh, model);
   const inspect::ModelOverlay overlay{skin, parts};
-  return picture(mesh, body.measures, height, &overlay);
+  return picture(mesh, body.measures, height, &overlay, normals);
 }
 
 inspect::FitScene scene_of(const Body& body, const Fitting& fitting, const Fit& fit,
@@ -70,11 +73,19 @@ std::vector<PictureFile> made_at_once(const std::vector<std::function<PictureFil
 std::vector<PictureFile> pictures_of(const Body& body, const Fitting& fitting, const Fit& fit,
                                      const std::vector<geometry::FitWarning>& warnings,
                                      const PictureWishes& wishes) {
-  const inspect::FitScene scene = scene_of(body, fitting, fit, warnings);
+  inspect::FitScene scene = scene_of(body, fitting, fit, warnings);
+  const auto normals_of = [&](const std::vector<Eigen::Vector3d>& skin) {
+    return geometry::shading_normals(skin, body.mesh.mesh.triangles);
+  };
+  auto after = std::async(std::launch::async, normals_of, std::cref(fit.deformed));
+  scene.normals_before = normals_of(body.mesh.mesh.vertices);
+  scene.normals_after = after.get();
   const auto beside_measured = [&](MeasuredPicture picture, const cv::Mat& pictures) {
     if (!wishes.measured) return pictures;
     return inspect::side_by_side(
-        inspect::with_caption(measured(picture, body, kPanel, wishes.overlay), "measured"), pictures);
+        inspect::with_caption(measured(picture, body, kPanel, wishes.overlay, scene.normals_before),
+                              "measured"),
+        pictures);
   };
   std::vector<std::function<PictureFile()>> pictures{
       [&] {
@@ -88,9 +99,14 @@ std::vector<PictureFile> pictures_of(const Body& body, const Fitting& fitting, c
 }
 
 std::vector<PictureFile> pictures_of(const Body& body, const PictureWishes& wishes) {
+  const Normals normals = geometry::shading_normals(body.mesh.mesh.vertices, body.mesh.mesh.triangles);
   return made_at_once(
-      {[&] { return file("front.png", measured(inspect::front_picture, body, kWhole, wishes.overlay)); },
-       [&] { return file("side.png", measured(inspect::side_picture, body, kWhole, wishes.overlay)); }});
+      {[&] {
+         return file("front.png", measured(inspect::front_picture, body, kWhole, wishes.overlay, normals));
+       },
+       [&] {
+         return file("side.png", measured(inspect::side_picture, body, kWhole, wishes.overlay, normals));
+       }});
 }
 
 }  // namespace tensegric_fit::fit

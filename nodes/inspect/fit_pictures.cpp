@@ -7,7 +7,7 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr int kPanel = 750;  // pixels
+constexpr int kPanel = 600;  // pixels
 constexpr Colour kGarmentColour{176, 44, 84}, kBorderInk{52, 50, 48};
 
 View framed(MakeView make, const FitScene& scene) {
@@ -65,10 +65,11 @@ std::vector<Polyline> warned_borders(const FitScene& scene) {
 
 cv::Mat before_and_after(const FitScene& scene, MakeView make) {
   const View view = framed(make, scene);
-  const cv::Mat left =
-      draw(scene.before, {}, garment_lines(scene.lines_before, kGarmentColour), view, kPanel, kPanel);
-  const cv::Mat right = draw({scene.after, scene.before.triangles}, warned_colours(scene),
-                             garment_lines(scene.lines_after, kGarmentColour), view, kPanel, kPanel);
+  const cv::Mat left = draw(scene.before, {}, garment_lines(scene.lines_before, kGarmentColour), view, kPanel,
+                            kPanel, scene.normals_before);
+  const cv::Mat right =
+      draw({scene.after, scene.before.triangles}, warned_colours(scene),
+           garment_lines(scene.lines_after, kGarmentColour), view, kPanel, kPanel, scene.normals_after);
   const char* after = scene.warned.empty() ? "after" : "after; orange: the skin folds";
   return side_by_side(with_caption(left, "before"), with_caption(right, after));
 }
@@ -115,7 +116,7 @@ cv::Mat distortion_picture(const FitScene& scene) {
   for (const Part& row : rows) {
     const auto from = [&](MakeView make) {
       return draw(after, colours, lines, framed(make, scene.measures.body_from_scan, row.nodes, 1.45), kPanel,
-                  kPanel);
+                  kPanel, scene.normals_after);
     };
     pictures.push_back(row.behind ? side_by_side(from(back_view), from(oblique_back_view))
                                   : side_by_side(from(front_view), from(oblique_view)));

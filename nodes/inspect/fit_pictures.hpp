@@ -34,14 +34,16 @@ struct FitScene {
   std::vector<Part> parts;                                              ///< empty: the whole body
   std::vector<std::vector<Eigen::Vector3d>> lines_before, lines_after;  ///< constraining lines
   std::vector<int> warned = {};  ///< vertices of skin that there is a warning of: marked where it is worn
+  /// shading_normals of both, where they are known: all pictures share them.
+  std::vector<Eigen::Vector3d> normals_before = {}, normals_after = {};
 };
 
-/// Before on the left, after on the right (P1 Fig. 6, Fig. 7, Fig. 5): BGR, 1512 x 796. All \throw as draw()
+/// Before on the left, after on the right (P1 Fig. 6, Fig. 7, Fig. 5): BGR, 1212 x 637. All \throw as draw()
 cv::Mat front_picture(const FitScene& scene);
 cv::Mat side_picture(const FitScene& scene);
 cv::Mat back_picture(const FitScene& scene);
 
-/// After, coloured by distortion, with the scale (P1 Fig. 8): BGR, 1512 wide. A row a part, of 750: from the
+/// After, coloured by distortion, with the scale (P1 Fig. 8): BGR, 1212 wide. A row a part, of 600: from the
 /// front and from an angle, or from behind.
 cv::Mat distortion_picture(const FitScene& scene);
 

@@ -55,7 +55,8 @@ std::vector<Polyline> facing_quads(const ModelSkin& skin, const Eigen::Vector3d&
 }
 
 cv::Mat measured_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,
-                         MakeView make, int height, const ModelOverlay* model) {
+                         MakeView make, int height, const ModelOverlay* model,
+                         const std::vector<Eigen::Vector3d>& normals) {
   View view = framed(make, measures.body_from_scan, body.vertices, kAround);
   const Eigen::Vector3d right = view.forward.cross(view.up);
   double half_width = 0, half_height = 0;
@@ -90,18 +91,18 @@ cv::Mat measured_picture(const geometry::TriangleMesh& body, const geometry::Bod
     if (seen[i].behind < kCloseBehind)
       labels.push_back({words(measures.landmarks[i].name), seen[i].pixel, kLandmark,
                         seen[i].behind < kOnTheSkin ? Label::Mark::dot : Label::Mark::ring});
-  return with_labels(draw(body, colours, tapes, view, width, height), labels);
+  return with_labels(draw(body, colours, tapes, view, width, height, normals), labels);
 }
 
 }  // namespace
 
 cv::Mat front_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures, int height,
-                      const ModelOverlay* model) {
-  return measured_picture(body, measures, front_view, height, model);
+                      const ModelOverlay* model, const std::vector<Eigen::Vector3d>& normals) {
+  return measured_picture(body, measures, front_view, height, model, normals);
 }
 cv::Mat side_picture(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures, int height,
-                     const ModelOverlay* model) {
-  return measured_picture(body, measures, side_view, height, model);
+                     const ModelOverlay* model, const std::vector<Eigen::Vector3d>& normals) {
+  return measured_picture(body, measures, side_view, height, model, normals);
 }
 
 }  // namespace tensegric_fit::inspect

@@ -62,11 +62,10 @@ float light_on(Eigen::Vector3f n) {
 
 // Single numbers: a picture has 256 steps. \pre kOversampling 2
 cv::Mat3b shade(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours,
-                const std::vector<Eigen::Vector3d>& points, const Raster& raster,
-                const Eigen::Matrix3d& axes) {
-  std::vector<Eigen::Vector3f> normals;
-  for (const Eigen::Vector3d& n : geometry::shading_normals(mesh.vertices, mesh.triangles))
-    normals.push_back((axes * n).cast<float>());
+                const std::vector<Eigen::Vector3d>& smooth, const std::vector<Eigen::Vector3d>& points,
+                const Raster& raster, const Eigen::Matrix3d& axes) {
+  std::vector<Eigen::Vector3f> normals(smooth.size());
+  for (std::size_t v = 0; v < smooth.size(); ++v) normals[v] = (axes * smooth[v]).cast<float>();
   const auto rgb_of = [&](int vertex) {
     const Colour& colour = colours[vertex];
     return Eigen::Vector3f(colour[0], colour[1], colour[2]);
@@ -173,16 +172,20 @@ View framed(MakeView make, const Eigen::Isometry3d& body_from_scan,
 }
 
 cv::Mat draw(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours,
-             const std::vector<Polyline>& lines, const View& view, int width, int height) {
+             const std::vector<Polyline>& lines, const View& view, int width, int height,
+             const std::vector<Eigen::Vector3d>& normals) {
   check(mesh, view, width, height);
-  if (!colours.empty() && colours.size() != mesh.vertices.size())
-    throw geometry::Refusal(geometry::refusal::kBadMesh, "picture: not one colour a vertex");
+  for (const std::size_t count : {colours.size(), normals.size()})
+    if (count != 0 && count != mesh.vertices.size())
+      throw geometry::Refusal(geometry::refusal::kBadMesh, "picture: not one colour or normal a vertex");
 
   const Camera camera(view, kOversampling * width, kOversampling * height);
   std::vector<Eigen::Vector3d> points(mesh.vertices.size());
   std::transform(mesh.vertices.begin(), mesh.vertices.end(), points.begin(), camera);
   const Raster raster = rasterise(points, mesh.triangles, kOversampling * width, kOversampling * height);
-  cv::Mat3b picture = shade(mesh, colours, points, raster, camera.axes);
+  cv::Mat3b picture = shade(
+      mesh, colours, normals.empty() ? geometry::shading_normals(mesh.vertices, mesh.triangles) : normals,
+      points, raster, camera.axes);
   for (const Polyline& line : lines)
     if (!line.points.empty()) draw_line(line, camera, raster, picture);
   cv::Mat result;

@@ -47,9 +47,11 @@ struct Polyline {
 
 /// BGR picture on white: z-buffered, smoothly shaded by a light above the camera. Lines lie over the skin;
 /// what is hidden behind more than a few millimetres of body is not drawn. `colours` has one per vertex, or
-/// is empty: all neutral. \throw Refusal bad_mesh: colours do not fit; bad_option: a picture without size
+/// is empty: all neutral. `normals`: shading_normals of the mesh where they are known, else empty. \throw
+/// Refusal bad_mesh: colours or normals do not fit; bad_option: a picture without size
 cv::Mat draw(const geometry::TriangleMesh& mesh, const std::vector<Colour>& colours,
-             const std::vector<Polyline>& lines, const View& view, int width, int height);
+             const std::vector<Polyline>& lines, const View& view, int width, int height,
+             const std::vector<Eigen::Vector3d>& normals = {});
 
 /// What the mesh covers of such a picture: 255, else 0. \throw Refusal as draw()
 cv::Mat1b silhouette(const geometry::TriangleMesh& mesh, const View& view, int width, int height);

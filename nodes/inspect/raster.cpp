@@ -83,15 +83,16 @@ void draw_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
   const Weight of_a(b, c, 1 / area), of_b(c, a, 1 / area), of_c(a, b, 1 / area);
   const double step = a.z() * of_a.step + b.z() * of_b.step + c.z() * of_c.step,
                down = a.z() * of_a.down + b.z() * of_b.down + c.z() * of_c.down;
+  const auto single_step = static_cast<float>(step);
   for (int y = std::max(covered.first_row, top); y <= std::min(covered.last_row, bottom - 1); ++y) {
     int first = covered.first_column, last = covered.last_column;
     for (const Weight* weight : {&of_a, &of_b, &of_c}) weight->narrow(y + 0.5, first, last);
     float* depth = raster.depth[y];
     int* triangle = raster.triangle[y];
-    double z = a.z() + step * (first + 0.5 - a.x()) + down * (y + 0.5 - a.y());
-    for (int x = first; x <= last; ++x, z += step) {
-      if (!(static_cast<float>(z) < depth[x])) continue;
-      depth[x] = static_cast<float>(z);
+    auto z = static_cast<float>(a.z() + step * (first + 0.5 - a.x()) + down * (y + 0.5 - a.y()));
+    for (int x = first; x <= last; ++x, z += single_step) {
+      if (!(z < depth[x])) continue;
+      depth[x] = z;
       triangle[x] = covered.index;
     }
   }

@@ -8,6 +8,7 @@
 
 #include "files/whole_folder.hpp"
 #include "geometry/ply.hpp"
+#include "geometry/shading_normals.hpp"
 #include "inspect/fit_model.hpp"
 #include "inspect/fit_pictures.hpp"
 #include "mesh_files/maker_files.hpp"
@@ -50,6 +51,8 @@ std::vector<inspect::Part> worn_parts(const FitFigures& figures) {
 inspect::FitScene scene_of(const FitFigures& figures) {
   inspect::FitScene scene{
       figures.body, figures.deformed, figures.distortion, figures.measures, worn_parts(figures), {}, {}};
+  scene.normals_before = geometry::shading_normals(figures.body.vertices, figures.body.triangles);
+  scene.normals_after = geometry::shading_normals(figures.deformed, figures.body.triangles);
   for (const LineResult& line : figures.scan.fit->lines) {
     scene.lines_before.push_back(points_in(line.course_at_rest));
     scene.lines_after.push_back(points_in(line.course));

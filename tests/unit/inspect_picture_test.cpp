@@ -161,10 +161,10 @@ TEST(FitPictures, AnUndeformedBodyLooksTheSameBeforeAndAfter) {
   const geometry::BodyMeasures measures;
   const FitScene scene{body, body.vertices, ones, measures, {}, {}, {}};
   for (const cv::Mat& picture : {front_picture(scene), side_picture(scene), back_picture(scene)}) {
-    ASSERT_EQ(picture.size(), cv::Size(1512, 796));
-    const cv::Rect left(0, 46, 750, 750), right(762, 46, 750, 750);  // under the captions
+    ASSERT_EQ(picture.size(), cv::Size(1212, 637));
+    const cv::Rect left(0, 37, 600, 600), right(612, 37, 600, 600);  // under the captions
     EXPECT_TRUE(same_bytes(picture(left), picture(right)));
-    EXPECT_FALSE(is_white(picture.at<cv::Vec3b>(400, 375)));
+    EXPECT_FALSE(is_white(picture.at<cv::Vec3b>(320, 300)));
   }
 }
 
@@ -177,7 +177,7 @@ TEST(FitPictures, SkinThatFoldsIsMarked) {
   for (std::size_t v = 0; v < body.vertices.size(); ++v)
     if (body.vertices[v].z() > 1.1) scene.warned.push_back(static_cast<int>(v));
   const cv::Mat marked = front_picture(scene);
-  const cv::Rect left(0, 46, 750, 750), lower_right(762, 46 + 500, 750, 250);
+  const cv::Rect left(0, 37, 600, 600), lower_right(612, 37 + 400, 600, 200);
   EXPECT_TRUE(same_bytes(plain(left), marked(left)));                // before there is nothing to mark
   EXPECT_TRUE(same_bytes(plain(lower_right), marked(lower_right)));  // nor where it does not fold
   EXPECT_FALSE(same_bytes(plain, marked));
@@ -190,8 +190,8 @@ TEST(FitPictures, DistortionIsShownInColour) {
   const auto middle_at = [&](double value) {
     const std::vector<double> distortion(body.vertices.size(), value);
     const cv::Mat picture = distortion_picture({body, body.vertices, distortion, measures, {}, {}, {}});
-    EXPECT_EQ(picture.size(), cv::Size(1512, 894));
-    return picture.at<cv::Vec3b>(420, 375);
+    EXPECT_EQ(picture.size(), cv::Size(1212, 715));
+    return picture.at<cv::Vec3b>(336, 300);
   };
   EXPECT_GT(middle_at(0.7)[2], middle_at(0.7)[0] + 50);  // tighter: red
   EXPECT_GT(middle_at(1.3)[0], middle_at(1.3)[2] + 50);  // looser: blue
