@@ -422,8 +422,10 @@ void FitPanel::show_state() {
   show_words(pipeline_, state.words + (!old_since_ ? "" : old_gone_ ? words::kOldBodyGone : words::kOldBody));
   pipeline_->setStyleSheet(state.trouble ? "color: #b2182b" : "");
   const QString garment = text(session_.now().garment);
-  if (!(typing_ && garment_->hasFocus()) && !client_->is_asking() && garment_->currentText() != garment) {
-    garment_->setCurrentIndex(garment_->findData(garment));  // its picture; none of others'
+  const int listed = garment_->findData(garment);
+  if (!(typing_ && garment_->hasFocus()) && !client_->is_asking() &&
+      (garment_->currentText() != garment || garment_->currentIndex() != listed)) {
+    garment_->setCurrentIndex(listed);  // its picture; none of others'
     garment_->setEditText(garment);
   }
   const QSignalBlocker quiet(marks_);

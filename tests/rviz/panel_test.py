@@ -96,23 +96,20 @@ def sliders_at_their_ends_and_nonsense_typed(shop):
 
 
 def the_wheel_turns_what_was_chosen_only(shop):
-    def turn(times):
-        for _ in range(times):
-            subprocess.check_call(["xdotool", "click", "5"])
+    def wheel(x, y, button, times=1):
+        subprocess.check_call(["xdotool", "mousemove", str(x), str(y), "click", "--repeat", str(times), button])
         time.sleep(1)
 
     shop.comes_to(0.95)
-    shop.press("alt+1")
-    for x, y in ((1100, 414), (1005, 391), (1040, 192)):  # slider, per cent, garment
-        shop.press("alt+f")  # the folder is chosen
-        subprocess.check_call(["xdotool", "mousemove", str(x), str(y)])
-        turn(1)
+    for chosen, x, y in (("alt+g", 1100, 414), ("alt+g", 1005, 391), ("alt+1", 1040, 192)):  # slider, per cent, garment
+        shop.press(chosen)
+        wheel(x, y, "5")
         assert shop.ratio() == 0.95, "the wheel over the panel changed a line"
         assert shop.message["body/deformed"].garment == "B1", "the wheel over the panel changed the garment"
+        wheel(950, 110, "4", 10)  # the panel scrolled: up again
     shop.press("alt+1")  # the slider is chosen
-    subprocess.check_call(["xdotool", "mousemove", "1100", "414"])
-    turn(1)
-    wait_for("line that the wheel changed", lambda: shop.ratio() not in (None, 0.95))
+    wheel(1100, 414, "5")
+    wait_for("line that the wheel changed", lambda: shop.ratio() not in (None, 0.95), 20)
 
 
 def a_garment_file_spoilt_while_it_is_worn(shop):
