@@ -42,14 +42,15 @@ std::vector<CalibrationBody> moved_by(const fit::Settings& truth) {
   for (const fit::Body& woman : women) {
     fit::StageTimes times;
     const auto worn = fit::wear(woman, fit::prepare(woman, patterns(), truth, times), garment, truth, times);
-    CalibrationCase one{"B1", garment, {}, {}};
+    ReferenceField moved;
     for (std::size_t v = 0; v < worn.deformed.size(); ++v) {
       const Eigen::Vector3d way = worn.deformed[v] - woman.mesh.mesh.vertices[v];
       if (way.norm() < 1e-6) continue;
-      one.reference.vertices.push_back(static_cast<int>(v));
-      one.reference.displacements.push_back(way);
+      moved.vertices.push_back(static_cast<int>(v));
+      moved.displacements.push_back(way);
     }
-    bodies.push_back({"woman " + std::to_string(bodies.size()), woman, {one}});
+    bodies.push_back(
+        {"woman " + std::to_string(bodies.size()), woman, {displaced_case("B1", garment, moved, {})}});
   }
   return bodies;
 }
@@ -73,8 +74,8 @@ TEST(Calibration, FindsTheParametersThatMadeTheDisplacement) {
   truth.control_mesh.thickness = 0.85;
   const Calibration found = calibrated(moved_by(truth), {"strut_stiffness", "thickness"});
   // The differences' step is 2 %, so that the last step may be off by some per cent of itself.
-  EXPECT_NEAR(found.settings.model.strut_stiffness / truth.model.strut_stiffness, 1, 0.05);
-  EXPECT_NEAR(found.settings.control_mesh.thickness / truth.control_mesh.thickness, 1, 0.02);
+  EXPECT_NEAR(found.adjusted.settings.model.strut_stiffness / truth.model.strut_stiffness, 1, 0.05);
+  EXPECT_NEAR(found.adjusted.settings.control_mesh.thickness / truth.control_mesh.thickness, 1, 0.02);
   for (const CalibrationError& e : found.errors) {
     EXPECT_LT(e.in_sample, 0.05 * e.before);
     EXPECT_LT(e.out_of_sample, 0.1 * e.before);
