@@ -19,8 +19,8 @@ from matplotlib import image
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 GARMENTS = ROOT / "launch/garments"
 SEED, RATIO = "7", "0.95"
-PANEL = 750  # pixels: a body's part in front.png and back.png, the worn one last
-STEP = 5  # pixels that become one
+PANEL = 600  # pixels: a body's part in front.png and back.png, the worn one last
+STEP = 4  # pixels that become one
 
 
 def made(path, *command):
