@@ -69,7 +69,8 @@ TEST_F(ExportFitTest, TheMeasuresForMakersAreThoseOfTheDocumentWithOrWithoutAHea
     ASSERT_EQ(measures.size(), body["heights"].size() + body["girths"].size());
     for (std::size_t i = 0; i < measures.size(); ++i) {
       const std::size_t heights = body["heights"].size();
-      const json &measure = measures[i], &said = i < heights ? body["heights"][i] : body["girths"][i - heights];
+      const json &measure = measures[i],
+                 &said = i < heights ? body["heights"][i] : body["girths"][i - heights];
       EXPECT_EQ(measure["name"], said["name"]);
       EXPECT_NEAR(1e3 * measure["before"]["value"].get<double>(), said["before_mm"], 1e-3);
       ASSERT_EQ(measure["under_garment"].is_null(), said["after_mm"].is_null()) << measure["name"];
@@ -87,7 +88,8 @@ TEST_F(ExportFitTest, TheMeasuresForMakersAreThoseOfTheDocumentWithOrWithoutAHea
     EXPECT_NEAR(bust["under_garment"]["tape"], 0.9 * tape, 1e-5);
     EXPECT_EQ(bust["before"]["polyline"].size(), 60u);
     EXPECT_NEAR(bust["before"]["polyline"][0][1], 1.21, 1e-9) << "y up";
-    EXPECT_NE(text_of(folder / "measures.vit").find("<m name=\"bust_circ\" value=\"94.2\""), std::string::npos);
+    EXPECT_NE(text_of(folder / "measures.vit").find("<m name=\"bust_circ\" value=\"94.2\""),
+              std::string::npos);
     EXPECT_NE(text_of(folder / "measures_worn.vit").find("<m name=\"bust_circ\" value=\"84.8\""),
               std::string::npos);
   }
