@@ -33,18 +33,20 @@ constexpr double kLeastWay = 1e-4;   // m, root mean square: the references repe
 // Fitted by its logarithm. The bounds are where a parameter stops to matter, or the model to stand.
 struct Parameter {
   const char* name;
-  double& (*of)(Settings&);
+  double& (*of)(Adjusted&);
   double low, high;
 };
-constexpr std::array<Parameter, 8> kParameters = {{
-    {"strut_stiffness", [](Settings& s) -> double& { return s.model.strut_stiffness; }, 0.02, 200},
-    {"lateral_stiffness", [](Settings& s) -> double& { return s.model.lateral_stiffness; }, 0.005, 50},
-    {"skin", [](Settings& s) -> double& { return s.model.skin; }, 1e-3, 1},
-    {"volume_stiffness", [](Settings& s) -> double& { return s.model.volume_stiffness; }, 0.02, 200},
-    {"stiffening", [](Settings& s) -> double& { return s.model.stiffening; }, 0.1, 1e3},
-    {"modulus", [](Settings& s) -> double& { return s.model.modulus; }, 10, 1e6},
-    {"prestress", [](Settings& s) -> double& { return s.model.prestress; }, 1e-3, 0.5},
-    {"thickness", [](Settings& s) -> double& { return s.control_mesh.thickness; }, 0.2, 3},
+constexpr std::array<Parameter, 9> kParameters = {{
+    {"strut_stiffness", [](Adjusted& a) -> double& { return a.settings.model.strut_stiffness; }, 0.02, 200},
+    {"lateral_stiffness", [](Adjusted& a) -> double& { return a.settings.model.lateral_stiffness; }, 0.005,
+     50},
+    {"skin", [](Adjusted& a) -> double& { return a.settings.model.skin; }, 1e-3, 1},
+    {"volume_stiffness", [](Adjusted& a) -> double& { return a.settings.model.volume_stiffness; }, 0.02, 200},
+    {"stiffening", [](Adjusted& a) -> double& { return a.settings.model.stiffening; }, 0.1, 1e3},
+    {"modulus", [](Adjusted& a) -> double& { return a.settings.model.modulus; }, 10, 1e6},
+    {"prestress", [](Adjusted& a) -> double& { return a.settings.model.prestress; }, 1e-3, 0.5},
+    {"thickness", [](Adjusted& a) -> double& { return a.settings.control_mesh.thickness; }, 0.2, 3},
+    {"pull", [](Adjusted& a) -> double& { return a.pull; }, 0.1, 5},
 }};
 
 std::vector<Parameter> parameters_named(const std::vector<std::string>& names) {
@@ -70,6 +72,18 @@ std::vector<control_mesh::Template> patterns_of(const tensegric::Garment& garmen
     worn.push_back(*at);
   }
   return worn;
+}
+
+tensegric::Garment pulled(tensegric::Garment garment, double pull) {
+  for (tensegric::GarmentLine& line : garment.lines)
+    line.ratio = std::max(1 - pull * (1 - line.ratio), tensegric::kLowestRatio);
+  return garment;
+}
+
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
 Settings settings_for(const CalibrationBody& body, Settings settings) {
@@ -102,7 +116,8 @@ class Prepared {
 
   double thickness() const { return thickness_; }
 
-  std::vector<CaseOutcome> outcomes(const Settings& settings, bool warm) const {
+  std::vector<CaseOutcome> outcomes(const Adjusted& adjusted, bool warm) const {
+    const Settings& settings = adjusted.settings;
     std::map<const Fitting*, tensegric::Model> models;
     for (const auto& [regions, fitting] : fittings_)
       models.emplace(&fitting, tensegric::build_model(fitting.control, settings_for(body_, settings).model));
@@ -113,11 +128,12 @@ class Prepared {
       const bool follows = warm && i > 0 && body_.cases[i - 1].garment.name == c.garment.name &&
                            fitting_[i - 1] == fitting_[i];
       const auto start = std::chrono::steady_clock::now();
-      last = tensegric::solve(models.at(fitting_[i]), c.garment, settings.solver, follows ? &last : nullptr,
-                              {}, fitting_[i]->body_volumes, laid_[i]);
+      last = tensegric::solve(models.at(fitting_[i]), pulled(c.garment, adjusted.pull), settings.solver,
+                              follows ? &last : nullptr, {}, fitting_[i]->body_volumes, laid_[i]);
       CaseOutcome outcome{0, last.status, last.iterations, milliseconds_since(start), {}, {}};
       outcome.deformed = fitting_[i]->binding.deform(last.outer, last.inner);
-      outcome.error = tissue_error(c.reference, body_.body.mesh.mesh, outcome.deformed);
+      outcome.error = c.worn ? root_mean_square(c.worn->distances(body_.body, outcome.deformed))
+                             : tissue_error(c.reference, body_.body.mesh.mesh, outcome.deformed);
       for (const tensegric::LineResult& line : last.lines) outcome.tensions.push_back(line.newtons);
       outcomes.push_back(std::move(outcome));
     }
@@ -143,9 +159,9 @@ class Wardrobe {
       : bodies_(bodies), patterns_(patterns), kept_(bodies.size()) {}
 
   // Of one body; nothing where a case did not settle.
-  std::vector<CaseOutcome> settled(const CalibrationBody& body, const Settings& settings) {
+  std::vector<CaseOutcome> settled(const CalibrationBody& body, const Adjusted& adjusted) {
     try {
-      std::vector<CaseOutcome> outcomes = prepared(body, settings).outcomes(settings, true);
+      std::vector<CaseOutcome> outcomes = prepared(body, adjusted.settings).outcomes(adjusted, true);
       for (const CaseOutcome& outcome : outcomes)
         if (outcome.status != tensegric::Status::converged) return {};
       return outcomes;
@@ -175,9 +191,15 @@ class Wardrobe {
 Eigen::VectorXd residuals_of(const CalibrationBody& body, const std::vector<CaseOutcome>& outcomes) {
   std::vector<double> residuals;
   for (std::size_t c = 0; c < outcomes.size(); ++c) {
-    const ReferenceField& reference = body.cases[c].reference;
-    const double scale =
-        1 / (not_moving(reference) * std::sqrt(static_cast<double>(reference.vertices.size())));
+    const CalibrationCase& one = body.cases[c];
+    if (one.worn) {
+      const std::vector<double> distances = one.worn->distances(body.body, outcomes[c].deformed);
+      for (const double distance : distances)
+        residuals.push_back(distance / (one.still * std::sqrt(static_cast<double>(distances.size()))));
+      continue;
+    }
+    const ReferenceField& reference = one.reference;
+    const double scale = 1 / (one.still * std::sqrt(static_cast<double>(reference.vertices.size())));
     for (std::size_t i = 0; i < reference.vertices.size(); ++i) {
       const int v = reference.vertices[i];
       const Eigen::Vector3d off =
@@ -195,13 +217,14 @@ Eigen::VectorXd residuals_of(const CalibrationBody& body, const std::vector<Case
 // Residuals of all bodies at some parameters, and their derivatives by these.
 class TissueCost : public ceres::CostFunction {
  public:
-  TissueCost(const std::vector<CalibrationBody>& bodies, Wardrobe& wardrobe, const Settings& start,
+  TissueCost(const std::vector<CalibrationBody>& bodies, Wardrobe& wardrobe, const Adjusted& start,
              const std::vector<Parameter>& parameters)
       : bodies_(bodies), wardrobe_(wardrobe), start_(start), parameters_(parameters) {
     int count = 0;
     for (const CalibrationBody& body : bodies_)
       for (const CalibrationCase& c : body.cases)
-        count += 3 * static_cast<int>(c.reference.vertices.size()) + static_cast<int>(c.newtons.size());
+        count += static_cast<int>((c.worn ? c.worn->vertices() : 3 * c.reference.vertices.size()) +
+                                  c.newtons.size());
     set_num_residuals(count);
     mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters.size()));
   }
@@ -224,11 +247,11 @@ class TissueCost : public ceres::CostFunction {
 
   // One vector a body; none where a case did not settle.
   std::vector<Eigen::VectorXd> evaluate(const Eigen::VectorXd& at) const {
-    const Settings settings = settings_at(at);
+    const Adjusted adjusted = adjusted_at(at);
     std::vector<Eigen::VectorXd> residuals(bodies_.size());
     geometry::parallel_for(bodies_.size(), [&](std::size_t from, std::size_t to, int) {
       for (std::size_t b = from; b < to; ++b) {
-        const std::vector<CaseOutcome> outcomes = wardrobe_.settled(bodies_[b], settings);
+        const std::vector<CaseOutcome> outcomes = wardrobe_.settled(bodies_[b], adjusted);
         if (!outcomes.empty()) residuals[b] = residuals_of(bodies_[b], outcomes);
       }
     });
@@ -257,17 +280,17 @@ class TissueCost : public ceres::CostFunction {
     return slopes;
   }
 
-  Settings settings_at(const Eigen::VectorXd& logarithms) const {
-    Settings settings = start_;
+  Adjusted adjusted_at(const Eigen::VectorXd& logarithms) const {
+    Adjusted adjusted = start_;
     for (std::size_t p = 0; p < parameters_.size(); ++p)
-      parameters_[p].of(settings) = std::exp(logarithms[static_cast<Eigen::Index>(p)]);
-    return settings;
+      parameters_[p].of(adjusted) = std::exp(logarithms[static_cast<Eigen::Index>(p)]);
+    return adjusted;
   }
 
  private:
   const std::vector<CalibrationBody>& bodies_;
   Wardrobe& wardrobe_;
-  Settings start_;
+  Adjusted start_;
   std::vector<Parameter> parameters_;
 };
 
@@ -293,7 +316,7 @@ class Progress : public ceres::IterationCallback {
 };
 
 // The logarithms of the parameters that fit all bodies.
-Eigen::VectorXd fitted(TissueCost& cost, const std::vector<Parameter>& parameters, Settings start,
+Eigen::VectorXd fitted(TissueCost& cost, const std::vector<Parameter>& parameters, Adjusted start,
                        const CalibrationOptions& options,
                        const std::function<void(const std::string&)>& say) {
   Eigen::VectorXd at(parameters.size());
@@ -332,11 +355,11 @@ Eigen::VectorXd fitted(TissueCost& cost, const std::vector<Parameter>& parameter
 
 // What one step of Gauss and Newton makes of the fit on all when a body is taken away: exact where the
 // displacements are linear in the parameters' logarithms.
-std::vector<Settings> left_out(const std::vector<CalibrationBody>& bodies, const TissueCost& cost,
+std::vector<Adjusted> left_out(const std::vector<CalibrationBody>& bodies, const TissueCost& cost,
                                const Eigen::VectorXd& at) {
   const std::vector<Eigen::VectorXd> here = cost.evaluate(at);
   const std::vector<Eigen::MatrixXd> slopes = cost.derivatives(at, here);
-  std::vector<Settings> settings;
+  std::vector<Adjusted> adjusted;
   for (const CalibrationBody& away : bodies) {
     Eigen::MatrixXd others = Eigen::MatrixXd::Zero(at.size(), at.size());
     Eigen::VectorXd slope = Eigen::VectorXd::Zero(at.size());
@@ -345,27 +368,35 @@ std::vector<Settings> left_out(const std::vector<CalibrationBody>& bodies, const
       others += slopes[b].transpose() * slopes[b];
       slope += slopes[b].transpose() * here[b];
     }
-    settings.push_back(cost.settings_at(at - others.ldlt().solve(slope)));
+    adjusted.push_back(cost.adjusted_at(at - others.ldlt().solve(slope)));
   }
-  return settings;
+  return adjusted;
 }
 
 }  // namespace
 
-double not_moving(const ReferenceField& reference) {
+CalibrationCase displaced_case(std::string name, tensegric::Garment garment, ReferenceField reference,
+                               std::vector<double> newtons) {
   double sum = 0;
   for (const Eigen::Vector3d& d : reference.displacements) sum += d.squaredNorm();
-  return std::sqrt(sum / static_cast<double>(reference.displacements.size()));
+  const double still = std::sqrt(sum / static_cast<double>(reference.displacements.size()));
+  return {std::move(name), std::move(garment), std::move(reference), std::move(newtons), {}, still};
+}
+
+CalibrationCase worn_case(std::string name, tensegric::Garment garment, WornReference worn,
+                          const fit::Body& bare) {
+  const double still = root_mean_square(worn.distances(bare, bare.mesh.mesh.vertices));
+  return {std::move(name), std::move(garment), {}, {}, std::move(worn), still};
 }
 
 std::vector<CaseOutcome> wear_cases(const CalibrationBody& body,
                                     const std::vector<control_mesh::Template>& patterns,
-                                    const Settings& settings, bool warm) {
-  return Prepared(body, patterns, settings).outcomes(settings, warm);
+                                    const Adjusted& adjusted, bool warm) {
+  return Prepared(body, patterns, adjusted.settings).outcomes(adjusted, warm);
 }
 
 Calibration calibrate(const std::vector<CalibrationBody>& bodies,
-                      const std::vector<control_mesh::Template>& patterns, const Settings& start,
+                      const std::vector<control_mesh::Template>& patterns, const Adjusted& start,
                       const CalibrationOptions& options, const std::function<void(const std::string&)>& say) {
   if (bodies.size() < kFewestBodies)
     throw Refusal(refusal::kTooFewData,
@@ -373,12 +404,12 @@ Calibration calibrate(const std::vector<CalibrationBody>& bodies,
                               kFewestBodies));
   for (const CalibrationBody& body : bodies)
     for (const CalibrationCase& c : body.cases)
-      if (!(not_moving(c.reference) >= kLeastWay))
+      if (!(c.still >= kLeastWay))
         throw Refusal(refusal::kTooFewData, body.name + ", " + c.name + ": the reference does not move");
   Wardrobe wardrobe(bodies, patterns);
-  const auto errors_of = [&wardrobe](const CalibrationBody& body, const Settings& settings) {
+  const auto errors_of = [&wardrobe](const CalibrationBody& body, const Adjusted& adjusted) {
     std::vector<double> errors(body.cases.size(), std::numeric_limits<double>::quiet_NaN());
-    const std::vector<CaseOutcome> outcomes = wardrobe.settled(body, settings);
+    const std::vector<CaseOutcome> outcomes = wardrobe.settled(body, adjusted);
     for (std::size_t c = 0; c < outcomes.size(); ++c) errors[c] = outcomes[c].error;
     return errors;
   };
@@ -387,15 +418,14 @@ Calibration calibrate(const std::vector<CalibrationBody>& bodies,
   say("fitting on all bodies");
   const Eigen::VectorXd at = fitted(cost, parameters, start, options, say);
   Calibration result;
-  result.settings = cost.settings_at(at);
+  result.adjusted = cost.adjusted_at(at);
   say("leaving out each body");
   result.left_out = left_out(bodies, cost, at);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const auto before = errors_of(bodies[b], start), in = errors_of(bodies[b], result.settings),
+    const auto before = errors_of(bodies[b], start), in = errors_of(bodies[b], result.adjusted),
                out = errors_of(bodies[b], result.left_out[b]);
     for (std::size_t c = 0; c < bodies[b].cases.size(); ++c)
-      result.errors.push_back(
-          {bodies[b].cases[c].name, not_moving(bodies[b].cases[c].reference), before[c], in[c], out[c]});
+      result.errors.push_back({bodies[b].cases[c].name, bodies[b].cases[c].still, before[c], in[c], out[c]});
   }
   return result;
 }

@@ -1,5 +1,5 @@
-/// Fits the tissue's parameters to reference displacements (P2 §6: the model's parameters can be adjusted
-/// where it is correlated with a real object).
+/// Fits the tissue's parameters to reference displacements, or to second scans with the garment on (P2 §6:
+/// the model's parameters can be adjusted where it is correlated with a real object).
 #pragma once
 
 #include <functional>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibration/reference_field.hpp"
+#include "calibration/worn_reference.hpp"
 #include "fit/chain.hpp"
 
 namespace tensegric_fit::calibration {
@@ -16,8 +17,16 @@ namespace tensegric_fit::calibration {
 struct CalibrationCase {
   std::string name;
   tensegric::Garment garment;
-  ReferenceField reference;
+  ReferenceField reference;     ///< empty where `worn` is the reference
   std::vector<double> newtons;  ///< the reference's tension in each line; empty: not known
+  std::optional<WornReference> worn{};
+  double still = 0;  ///< the error of not moving, m
+};
+
+/// What can be fitted.
+struct Adjusted {
+  fit::Settings settings;
+  double pull = 1;  ///< by how much more than it says a garment shortens its lines: 1 - ratio times this
 };
 
 /// How fine a model is: what the tissue's constants must not depend on.
@@ -35,7 +44,7 @@ struct CalibrationBody {
 
 /// How a case went.
 struct CaseOutcome {
-  double error;  ///< root mean square distance to the reference, m
+  double error;  ///< root mean square distance to the reference, m: of points, or of a worn scan's skin
   tensegric::Status status;
   int iterations;
   double milliseconds;           ///< of the solution
@@ -43,16 +52,19 @@ struct CaseOutcome {
   std::vector<Eigen::Vector3d> deformed;
 };
 
-/// Root mean square way of the reference, m: the error of not moving.
-double not_moving(const ReferenceField& reference);
+/// A case by each kind of reference, with its `still`.
+CalibrationCase displaced_case(std::string name, tensegric::Garment garment, ReferenceField reference,
+                               std::vector<double> newtons);
+CalibrationCase worn_case(std::string name, tensegric::Garment garment, WornReference worn,
+                          const fit::Body& bare);
 
 /// All cases of a body, each from rest or, where `warm`, from the one before under the same garment. Of
 /// `patterns` those count that bear the names of a garment's regions. \throw Refusal as prepare and wear
 std::vector<CaseOutcome> wear_cases(const CalibrationBody& body,
                                     const std::vector<control_mesh::Template>& patterns,
-                                    const fit::Settings& settings, bool warm);
+                                    const Adjusted& adjusted, bool warm);
 
-/// What is fitted, of those in tissue_yaml that are numbers.
+/// What is fitted: of those in tissue_yaml that are numbers, and `pull`.
 struct CalibrationOptions {
   std::vector<std::string> fitted = {"strut_stiffness", "lateral_stiffness", "skin", "volume_stiffness"};
   int most_iterations = 20;
@@ -65,16 +77,16 @@ struct CalibrationError {
 };
 
 struct Calibration {
-  fit::Settings settings;  ///< those of the start, with what was fitted on all bodies
+  Adjusted adjusted;  ///< the start, with what was fitted on all bodies
   std::vector<CalibrationError> errors;
-  std::vector<fit::Settings> left_out;  ///< one per body: fitted on the others
+  std::vector<Adjusted> left_out;  ///< one per body: fitted on the others
 };
 
 /// Relative errors of all cases count alike. Each body is left out once. `patterns` as for wear_cases. \throw
 /// Refusal bad_option: a name that cannot be fitted; too_few_data: fewer than three bodies; at_bound naming
 /// what ran into its bounds; not_settled: no fit of a body
 Calibration calibrate(const std::vector<CalibrationBody>& bodies,
-                      const std::vector<control_mesh::Template>& patterns, const fit::Settings& start,
+                      const std::vector<control_mesh::Template>& patterns, const Adjusted& start,
                       const CalibrationOptions& options, const std::function<void(const std::string&)>& say);
 
 }  // namespace tensegric_fit::calibration

@@ -203,8 +203,9 @@ class Page:
             roles.setdefault(node["role"], []).append(node)
             if node["focusable"] and node["role"] != "RootWebArea":
                 self.expect(node["name"].strip(), f"a control without a name: {node['role']}")
-        counts = {role: len(roles.get(role, [])) for role in ("main", "heading", "table", "columnheader", "rowheader", "cell", "image",
-                                                                "application", "slider", "checkbox", "button")}
+        shown = ("main", "heading", "table", "columnheader", "rowheader", "cell", "image", "application", "slider", "checkbox",
+                 "button")
+        counts = {role: len(roles.get(role, [])) for role in shown}
         print(f"{self.where}: {counts}", flush=True)
         for table in roles.get("table", []):
             self.expect(table["name"].strip(), "a table without a name")
