@@ -221,6 +221,7 @@
     });
     element("close").addEventListener("input", function () { close = element("close").checked; look(); });
     document.querySelectorAll("[data-loop]").forEach(function (row) {
+      row.disabled = false;
       row.addEventListener("click", function () { pick(row); });
     });
     canvas.addEventListener("pointermove", read);

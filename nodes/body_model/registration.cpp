@@ -121,11 +121,10 @@ std::vector<double> support_of(const std::vector<Vector3d>& skin, const std::vec
 Registrar::Registrar(Model model, const Standing& standing)
     : model_(std::make_shared<const Model>(std::move(model))), field_(*model_), standing_(standing) {}
 
-RegisteredBody Registrar::operator()(const Samples& surface) const {
+RegisteredBody Registrar::operator()(const Samples& samples) const {
   const Model& model = *model_;
-  if (surface.points.size() < kFewest)
+  if (samples.points.size() < kFewest)
     throw geometry::Refusal(geometry::refusal::kNotABody, "too little surface to be a body");
-  const Samples samples = shuffled(surface);
   const Matcher matcher(samples);
   // 1. What of her there is and which way she faces; 2. where her arms are, of the two likeliest; 3. pose and
   // shape; 4. what they leave over.
@@ -165,7 +164,7 @@ RegisteredBody Registrar::operator()(const Samples& surface) const {
 }
 
 RegisteredBody register_mesh(const Registrar& registrar, const geometry::TriangleMesh& mesh) {
-  RegisteredBody body = registrar(sample_surface(mesh, {}, kSamplesOfMesh));
+  RegisteredBody body = registrar(shuffled(sample_surface(mesh, {}, kSamplesOfMesh)));
   body.scanned = false;
   body.vertical = upright(body, registrar.standing());
   body.ground = body.vertical.dot(mesh.vertices.front());

@@ -12,9 +12,9 @@ namespace tensegric_fit::body_model {
 class Registrar {
  public:
   Registrar(Model model, const Standing& standing);
-  /// \param surface of one person, or of parts of her, within 15 degrees of upright (z up) \throw Refusal
-  /// not_a_body
-  RegisteredBody operator()(const Samples& surface) const;
+  /// \param samples of one person, or of parts of her, within 15 degrees of upright (z up), any first n of
+  /// them spread over the whole \throw Refusal not_a_body
+  RegisteredBody operator()(const Samples& samples) const;
   const Model& model() const { return *model_; }
   const std::shared_ptr<const Model>& shared_model() const { return model_; }
   const Standing& standing() const { return standing_; }

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "geometry/parallel_for.hpp"
 
@@ -46,6 +48,15 @@ void add_samples(const geometry::TriangleMesh& mesh, const std::vector<Vector3d>
   }
 }
 
+/// Neighbouring numbers to numbers that have nothing to do with each other (SplitMix64; Steele, Lea and Flood
+/// 2014).
+std::uint64_t mixed(std::uint64_t number) {
+  number += 0x9e3779b97f4a7c15;
+  number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9;
+  number = (number ^ (number >> 27)) * 0x94d049bb133111eb;
+  return number ^ (number >> 31);
+}
+
 }  // namespace
 
 Samples shuffled(const Samples& samples) {
@@ -56,6 +67,33 @@ Samples shuffled(const Samples& samples) {
     std::swap(order[i - 1], order[random() % i]);  // std::shuffle differs between libraries
   Samples result;
   for (const std::size_t i : order) {
+    result.points.push_back(samples.points[i]);
+    result.normals.push_back(samples.normals[i]);
+  }
+  return result;
+}
+
+Samples shuffled_by_place(const Samples& samples) {
+  constexpr double kCube = 0.007;  // m: as far as samples are apart; the fewer change cubes, the better
+  using Place = std::array<std::int64_t, 4>;  // a sample's cube, and its number
+  std::vector<Place> places;
+  for (const Vector3d& p : samples.points)
+    places.push_back({std::llround(p.x() / kCube), std::llround(p.y() / kCube), std::llround(p.z() / kCube),
+                      static_cast<std::int64_t>(places.size())});
+  std::sort(places.begin(), places.end());
+  std::vector<std::pair<std::uint64_t, std::int64_t>> order;
+  std::uint64_t in_cube = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    in_cube = i > 0 && std::equal(places[i].begin(), places[i].begin() + 3, places[i - 1].begin())
+                  ? in_cube + 1
+                  : 0;
+    std::uint64_t key = in_cube;
+    for (int axis = 0; axis < 3; ++axis) key = mixed(key ^ static_cast<std::uint64_t>(places[i][axis]));
+    order.emplace_back(key, places[i][3]);
+  }
+  std::sort(order.begin(), order.end());
+  Samples result;
+  for (const auto& [key, i] : order) {
     result.points.push_back(samples.points[i]);
     result.normals.push_back(samples.normals[i]);
   }

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "fit/measures_file.hpp"
 #include "fit/result_folder.hpp"
+#include "geometry/moved_skin.hpp"
 #include "inspect/fit_model.hpp"
 #include "mesh_files/maker_files.hpp"
+#include "mesh_files/measures_file.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -30,6 +31,15 @@ std::string glb_of(const Body& body, const Fit* fit) {
   return inspect::fit_glb(model);
 }
 
+std::vector<mesh_files::MeasureEntry> measures_of(const Body& body, const Fit* fit) {
+  if (fit == nullptr) return mesh_files::measure_entries(body.mesh.mesh, body.measures, nullptr);
+  const geometry::MovedSkin skin{body.mesh.mesh, fit->deformed};
+  const std::vector<geometry::ChangedMeasure> heights = geometry::heights_after(body.measures, skin),
+                                              girths = geometry::girths_after(body.measures, skin);
+  const mesh_files::WornBody worn{fit->deformed, heights, girths};
+  return mesh_files::measure_entries(body.mesh.mesh, body.measures, &worn);
+}
+
 }  // namespace
 
 void export_for_makers(const std::string& folder, const std::vector<std::string>& formats, const Body& body,
@@ -50,10 +60,10 @@ void export_for_makers(const std::string& folder, const std::vector<std::string>
   if (fit != nullptr && wanted("stl")) write("deformed.stl", mesh_files::stl_bytes(worn));
   if (wanted("glb")) write("fit.glb", glb_of(body, fit));
   if (formats.empty() || (body.measures.girths.empty() && body.measures.heights.empty())) return;
-  const std::vector<MeasureEntry> measures = measure_entries(body, fit);
-  write_json(std::filesystem::path(folder) / "measures.json", measures_json(measures));
-  write("measures.vit", measures_vit(measures, false));
-  if (fit != nullptr) write("measures_worn.vit", measures_vit(measures, true));
+  const std::vector<mesh_files::MeasureEntry> measures = measures_of(body, fit);
+  write("measures.json", mesh_files::measures_text(measures));
+  write("measures.vit", mesh_files::measures_vit(measures, false));
+  if (fit != nullptr) write("measures_worn.vit", mesh_files::measures_vit(measures, true));
 }
 
 }  // namespace tensegric_fit::fit

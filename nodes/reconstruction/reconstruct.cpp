@@ -177,7 +177,7 @@ body_model::Samples samples_of(const PointCloud& cloud) {
     samples.points.push_back(means.points[i]);
     samples.normals.push_back(means.normals[i]);
   }
-  return samples;
+  return body_model::shuffled_by_place(samples);
 }
 
 constexpr std::size_t kFewestOfLimb = 20;  // points; fewer show no limb

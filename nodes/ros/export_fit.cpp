@@ -12,6 +12,7 @@
 #include "inspect/fit_model.hpp"
 #include "inspect/fit_pictures.hpp"
 #include "mesh_files/maker_files.hpp"
+#include "mesh_files/measures_file.hpp"
 #include "ros/export_folders.hpp"
 #include "ros/fit_document.hpp"
 #include "ros/fit_sheet.hpp"
@@ -75,6 +76,8 @@ std::vector<FileContent> contents_of(const FitFigures& figures) {
   constexpr auto kExact = geometry::Coordinates::float64;
   const geometry::TriangleMesh rest = in_body_frame(figures.body, figures),
                                worn = in_body_frame(deformed, figures);
+  const mesh_files::WornBody worn_body{figures.deformed, figures.heights, figures.girths};
+  const auto measures = mesh_files::measure_entries(figures.body, figures.measures, &worn_body);
   const inspect::FitScene scene = scene_of(figures);
   const FileContent front = png("front.png", inspect::front_picture(scene)),
                     side = png("side.png", inspect::side_picture(scene)),
@@ -100,7 +103,10 @@ std::vector<FileContent> contents_of(const FitFigures& figures) {
           {"body.obj", mesh_files::obj_text(rest, "body")},
           {"deformed.obj", mesh_files::obj_text(worn, "deformed")},
           {"body.stl", mesh_files::stl_bytes(rest)},
-          {"deformed.stl", mesh_files::stl_bytes(worn)}};
+          {"deformed.stl", mesh_files::stl_bytes(worn)},
+          {"measures.json", mesh_files::measures_text(measures)},
+          {"measures.vit", mesh_files::measures_vit(measures, false)},
+          {"measures_worn.vit", mesh_files::measures_vit(measures, true)}};
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ std::string fit_model(const FitFigures& figures);
 
 /// Writes fit.json, measurements.csv, body.ply, deformed.ply (coloured by distortion), control.ply,
 /// control_deformed.ply, front.png, side.png, distortion.png, fit.glb, fit.html, body and deformed as .obj
-/// and .stl, as a whole folder: none is ever overwritten. Returns the files' paths. \throw Refusal as
-/// write_whole_folder, figures_of, headless and sealed
+/// and .stl, measures.json, measures.vit and measures_worn.vit, as a whole folder: none is ever overwritten.
+/// Returns the files' paths. \throw Refusal as write_whole_folder, figures_of, headless and sealed
 std::vector<std::string> export_fit(const FittedScan& scan, const std::string& directory,
                                     const ExportOptions& options);
 

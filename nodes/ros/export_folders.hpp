@@ -10,12 +10,13 @@
 namespace tensegric_fit::node {
 
 /// Of an export that is not encrypted.
-inline constexpr std::array<const char*, 15> kExportFiles = {
-    kFitDocument,   "measurements.csv", "body.ply",
-    "deformed.ply", "control.ply",      "control_deformed.ply",
-    "front.png",    "side.png",         "distortion.png",
-    "fit.glb",      "fit.html",         "body.obj",
-    "deformed.obj", "body.stl",         "deformed.stl"};
+inline constexpr std::array<const char*, 18> kExportFiles = {
+    kFitDocument,    "measurements.csv", "body.ply",
+    "deformed.ply",  "control.ply",      "control_deformed.ply",
+    "front.png",     "side.png",         "distortion.png",
+    "fit.glb",       "fit.html",         "body.obj",
+    "deformed.obj",  "body.stl",         "deformed.stl",
+    "measures.json", "measures.vit",     "measures_worn.vit"};
 
 /// Deletes the exports of that scan: `directory` itself, or the folders in it. What is no export, or holds
 /// anything else, is left alone; links are not followed. Returns the folders that are gone. \throw Refusal

@@ -32,20 +32,21 @@ std::string centimetres(double metres) {
   return fmt::format("{:.1f}", 100 * metres);
 }
 
+/// The first cell names the row.
 std::string row(const std::vector<std::string>& cells) {
-  std::string html = "<tr>";
-  for (const std::string& cell : cells) html += "<td>" + cell + "</td>";
+  std::string html = "<tr><th scope=\"row\">" + cells.front() + "</th>";
+  for (std::size_t i = 1; i < cells.size(); ++i) html += "<td>" + cells[i] + "</td>";
   return html + "</tr>\n";
 }
 
-/// `name` is a button that shows where a girth's tape runs, where its tape is known.
+/// `name` is a button that shows where a girth's tape runs, where its tape is known; view.js enables it.
 std::string row_of(const FitFigures& figures, const std::string& kind, const ChangedMeasure& measure) {
   std::string name = html_escaped(inspect::words::measure(measure.before.name, kind));
   const auto& loops = figures.measures.loops;
   if (kind == "girth" && std::any_of(loops.begin(), loops.end(), [&](const geometry::GirthLoop& loop) {
         return loop.name == measure.before.name;
       }))
-    name = fmt::format("<button data-loop=\"{}\" aria-pressed=\"false\">{}</button>",
+    name = fmt::format("<button data-loop=\"{}\" aria-pressed=\"false\" disabled>{}</button>",
                        html_escaped(measure.before.name), name);
   return row({name + (measure.before.confidence < kUnsure ? "*" : ""), centimetres(measure.before.metres),
               measure.after ? centimetres(*measure.after) : "",

@@ -146,7 +146,7 @@ TEST_F(PipelineTest, AnExportIsWholeNeverOverwrittenAndDeletedByScan) {
   listen(0.5);
   ASSERT_TRUE(ros::service::call("export_fit", request));
   EXPECT_TRUE(request.response.exported) << request.response.message;
-  EXPECT_EQ(request.response.files.size(), 15u);
+  EXPECT_EQ(request.response.files.size(), 18u);
   for (const std::string& file : request.response.files) EXPECT_GT(fs::file_size(file), 0u) << file;
   const std::string validate = "/usr/bin/python3 -m jsonschema -i '" + (folder / "fit.json").string() +
                                "' '" TENSEGRIC_FIT_SOURCE_DIR "/launch/schemas/fit.schema.json'";

@@ -204,7 +204,7 @@ def exports_are_of_the_scan_that_is_shown(shop):
     shop.press("alt+x")
     shop.hears("Wrote # files")  # logs hold no figures
     export = os.path.join(shop.exports, shop.exported()[0])
-    assert len(os.listdir(export)) == 15, os.listdir(export)
+    assert len(os.listdir(export)) == 18, os.listdir(export)
     with open(os.path.join(export, "fit.json")) as file:
         assert json.load(file)["scan"]["scan_id"] == shop.message["body/mesh"].scan_id
 

@@ -280,7 +280,8 @@ TEST(LandmarksOfBodies, WhatNoPointBacksIsLessSure) {
   const body_model::Registrar& registrar = body_model::shipped_registrar();
   const BodyMeasures& known = woman(3).measures;
   const auto scanned = [&](const std::vector<char>& filled) {
-    body_model::RegisteredBody model = registrar(body_model::sample_surface(mesh, filled, 40000));
+    body_model::RegisteredBody model =
+        registrar(body_model::shuffled(body_model::sample_surface(mesh, filled, 40000)));
     model.ground = 0;
     return landmarks::find_landmarks(mesh, filled, model, landmarks::shipped_precision());
   };

@@ -11,9 +11,12 @@ namespace {
 TEST_F(ExportFitTest, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
   export_fit(scan_, root_ / "one", kWhole);
   const std::string page = text_of(root_ / "one" / "fit.html");
-  EXPECT_NE(page.find("<td>bust girth, cm</td><td>94.2</td><td>84.8</td><td>-9.4</td>"), std::string::npos);
-  EXPECT_NE(page.find("<td>lift of the bust, mm</td><td></td><td></td><td>+0</td>"), std::string::npos);
-  EXPECT_NE(page.find("<td>chest</td><td>40.0</td><td>36.0</td><td>10.0 %</td>"), std::string::npos);
+  EXPECT_NE(page.find("<th scope=\"row\">bust girth, cm</th><td>94.2</td><td>84.8</td><td>-9.4</td>"),
+            std::string::npos);
+  EXPECT_NE(page.find("<th scope=\"row\">lift of the bust, mm</th><td></td><td></td><td>+0</td>"),
+            std::string::npos);
+  EXPECT_NE(page.find("<th scope=\"row\">chest</th><td>40.0</td><td>36.0</td><td>10.0 %</td>"),
+            std::string::npos);
   EXPECT_NE(page.find("<button data-loop=\"bust\""), std::string::npos);
   EXPECT_EQ(page.find("data-loop=\"underbust\""), std::string::npos) << "its tape is not known";
   EXPECT_NE(page.find("<b>75D</b>"), std::string::npos);
@@ -73,6 +76,21 @@ TEST_F(ExportFitTest, TheBodyInThePageTurnsAndChanges) {
   EXPECT_GT(difference(worn, shown(page, "share=0")), 0.02) << "the trunk is wider, its colour another";
   EXPECT_GT(difference(worn, shown(page, "share=100&loop=bust")), 0.001) << "the tape";
   EXPECT_GT(difference(worn, shown(page, "share=100&beside=1")), 0.02);
+}
+
+TEST_F(ExportFitTest, ThePageIsUsedByKeyboardAndReadByAScreenReader) {
+  if (std::system("command -v chromium > /dev/null") != 0) GTEST_SKIP() << "chromium is not installed";
+  const auto fit = boost::make_shared<FitState>(*scan_.fit);
+  LineResult& line = fit->lines[0];
+  for (int i = -10; i <= 10; ++i)  // over the front, so that the tube looks different from each side
+    for (const auto& [course, radius] : {std::pair(&line.course_at_rest, 0.15), {&line.course, 0.135}})
+      for (const double value : {radius * std::cos(0.1 * i), radius * std::sin(0.1 * i), 1.2})
+        course->push_back(value);
+  scan_.fit = fit;
+  export_fit(scan_, root_ / "one", kWhole);
+  const std::string drive = "/usr/bin/python3 -B " TENSEGRIC_FIT_SOURCE_DIR "/tests/page/drive_page.py '" +
+                            (root_ / "one" / "fit.html").string() + "'";
+  EXPECT_EQ(std::system(drive.c_str()), 0) << drive;
 }
 
 }  // namespace

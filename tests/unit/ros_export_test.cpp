@@ -35,7 +35,7 @@ TEST_F(ExportFitTest, CorrelateReadsItAgain) {
 
 TEST_F(ExportFitTest, WritesMeshesMeasuresPicturesAndParameters) {
   const fs::path folder = root_ / "one";
-  EXPECT_EQ(export_fit(scan_, folder, kWhole).size(), 15u);
+  EXPECT_EQ(export_fit(scan_, folder, kWhole).size(), 18u);
   const geometry::TriangleMesh deformed = geometry::read_ply_mesh(folder / "deformed.ply");
   EXPECT_EQ(deformed.triangles, geometry::read_ply_mesh(folder / "body.ply").triangles);
   EXPECT_NEAR(deformed.vertices.at(0).x(), 0.135, 1e-7);  // float32
@@ -56,8 +56,43 @@ TEST_F(ExportFitTest, WritesMeshesMeasuresPicturesAndParameters) {
   EXPECT_EQ(fit["body"]["bra_size"]["before"], "75D");
   EXPECT_TRUE(fit["body"]["bra_size"]["after"].is_null());
   EXPECT_NEAR(fit["body"]["landmarks"][0]["after_mm"][0], 135, 1e-3);
-  EXPECT_EQ(fit["files"].size(), 15u);
+  EXPECT_EQ(fit["files"].size(), 18u);
   for (const std::string name : fit["files"]) EXPECT_GT(fs::file_size(folder / name), 0u) << name;
+}
+
+TEST_F(ExportFitTest, TheMeasuresForMakersAreThoseOfTheDocumentWithOrWithoutAHead) {
+  for (const bool head : {true, false}) {
+    const fs::path folder = root_ / (head ? "whole" : "headless");
+    export_fit(scan_, folder, {head});
+    const json body = json::parse(text_of(folder / "fit.json"))["body"],
+               measures = json::parse(text_of(folder / "measures.json"))["measures"];
+    ASSERT_EQ(measures.size(), body["heights"].size() + body["girths"].size());
+    for (std::size_t i = 0; i < measures.size(); ++i) {
+      const std::size_t heights = body["heights"].size();
+      const json &measure = measures[i],
+                 &said = i < heights ? body["heights"][i] : body["girths"][i - heights];
+      EXPECT_EQ(measure["name"], said["name"]);
+      EXPECT_NEAR(1e3 * measure["before"]["value"].get<double>(), said["before_mm"], 1e-3);
+      ASSERT_EQ(measure["under_garment"].is_null(), said["after_mm"].is_null()) << measure["name"];
+      if (said["after_mm"].is_null()) continue;
+      EXPECT_NEAR(1e3 * measure["under_garment"]["value"].get<double>(), said["after_mm"], 1e-3);
+    }
+    const json& bust = measures[2];
+    ASSERT_EQ(bust["name"], "bust");
+    EXPECT_EQ(bust["iso_8559_1"]["number"], "5.3.4");
+    EXPECT_EQ(bust["half_width"], 0.004);
+    // a polygon of 60 corners and its section, before and at nine tenths of its width
+    const double tape = 0.15 * 120 * std::sin(kPi / 60);
+    EXPECT_NEAR(bust["before"]["tape"], tape, 1e-6);
+    EXPECT_NEAR(bust["before"]["skin"], tape, 1e-5);
+    EXPECT_NEAR(bust["under_garment"]["tape"], 0.9 * tape, 1e-5);
+    EXPECT_EQ(bust["before"]["polyline"].size(), 60u);
+    EXPECT_NEAR(bust["before"]["polyline"][0][1], 1.21, 1e-9) << "y up";
+    EXPECT_NE(text_of(folder / "measures.vit").find("<m name=\"bust_circ\" value=\"94.2\""),
+              std::string::npos);
+    EXPECT_NE(text_of(folder / "measures_worn.vit").find("<m name=\"bust_circ\" value=\"84.8\""),
+              std::string::npos);
+  }
 }
 
 TEST_F(ExportFitTest, TheDocumentIsWhatItsSchemaSays) {
@@ -168,7 +203,7 @@ TEST_F(ExportFitTest, WithoutANeckNothingIsExportedButOnRequest) {
     EXPECT_EQ(refusal.code(), "missing_part:neck");
   }
   EXPECT_FALSE(fs::exists(root_ / "one"));
-  EXPECT_EQ(export_fit(scan_, root_ / "one", kWhole).size(), 15u);
+  EXPECT_EQ(export_fit(scan_, root_ / "one", kWhole).size(), 18u);
 }
 
 TEST_F(ExportFitTest, WhatDoesNotFitTogetherOrIsNoNumberIsNotExported) {

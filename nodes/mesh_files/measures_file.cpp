@@ -1,15 +1,15 @@
-#include "fit/measures_file.hpp"
+#include "mesh_files/measures_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "geometry/moved_skin.hpp"
 #include "geometry/section.hpp"
 #include "mesh_files/frame.hpp"
 
-namespace tensegric_fit::fit {
+namespace tensegric_fit::mesh_files {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -106,28 +106,33 @@ Json text_or_null(const char* text) {
 
 }  // namespace
 
-std::vector<MeasureEntry> measure_entries(const Body& body, const Fit* fit) {
-  const geometry::TriangleMesh& mesh = body.mesh.mesh;
-  const Points& after = fit == nullptr ? mesh.vertices : fit->deformed;
-  const geometry::MovedSkin skin{mesh, after};
+std::vector<MeasureEntry> measure_entries(const geometry::TriangleMesh& body,
+                                          const geometry::BodyMeasures& measures, const WornBody* worn) {
   std::vector<MeasureEntry> entries;
-  for (const geometry::ChangedMeasure& height : geometry::heights_after(body.measures, skin))
-    entries.push_back({height.before, false, fit == nullptr ? std::nullopt : height.after, {}, {}});
-  const Eigen::Isometry3d& place = body.measures.body_from_scan;
-  for (const geometry::ChangedMeasure& girth : geometry::girths_after(body.measures, skin)) {
-    MeasureEntry entry{girth.before, true, fit == nullptr ? std::nullopt : girth.after, {}, {}};
-    for (const geometry::GirthLoop& loop : body.measures.loops) {
-      if (loop.name != girth.before.name) continue;
-      entry.loop = loop_of(mesh, loop.points, place);
-      if (fit != nullptr)
-        entry.loop_worn = loop_of({after, mesh.triangles}, geometry::tape_after(skin, loop.points), place);
+  if (worn == nullptr) {
+    for (const geometry::Measure& height : measures.heights) entries.push_back({height, false, {}, {}, {}});
+    for (const geometry::Measure& girth : measures.girths) entries.push_back({girth, true, {}, {}, {}});
+  } else {
+    for (const geometry::ChangedMeasure& height : worn->heights)
+      entries.push_back({height.before, false, height.after, {}, {}});
+    for (const geometry::ChangedMeasure& girth : worn->girths)
+      entries.push_back({girth.before, true, girth.after, {}, {}});
+  }
+  const Eigen::Isometry3d& place = measures.body_from_scan;
+  for (MeasureEntry& entry : entries) {
+    if (!entry.is_girth) continue;
+    for (const geometry::GirthLoop& loop : measures.loops) {
+      if (loop.name != entry.before.name) continue;
+      entry.loop = loop_of(body, loop.points, place);
+      if (worn != nullptr)
+        entry.loop_worn = loop_of({worn->skin, body.triangles},
+                                  geometry::tape_after({body, worn->skin}, loop.points), place);
     }
-    entries.push_back(std::move(entry));
   }
   return entries;
 }
 
-Json measures_json(const std::vector<MeasureEntry>& measures) {
+std::string measures_text(const std::vector<MeasureEntry>& measures) {
   Json list = Json::array();
   for (const MeasureEntry& entry : measures) {
     const Standard* standard = standard_of(entry);
@@ -141,11 +146,13 @@ Json measures_json(const std::vector<MeasureEntry>& measures) {
                     {"before", json_of(entry.before.metres, entry.loop)},
                     {"under_garment", json_of(entry.worn, entry.loop_worn)}});
   }
-  return {{"format", "tensegric_fit/measures"},
-          {"version", 1},
-          {"unit", "m"},
-          {"axes", "y up, z forward, x to her left, origin on the floor between the feet: those of fit.glb"},
-          {"measures", std::move(list)}};
+  const Json file{
+      {"format", "tensegric_fit/measures"},
+      {"version", 1},
+      {"unit", "m"},
+      {"axes", "y up, z forward, x to her left, origin on the floor between the feet: those of fit.glb"},
+      {"measures", std::move(list)}};
+  return file.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string measures_vit(const std::vector<MeasureEntry>& measures, bool worn) {
@@ -168,4 +175,4 @@ std::string measures_vit(const std::vector<MeasureEntry>& measures, bool worn) {
   return text + "  </body-measurements>\n</vit>\n";
 }
 
-}  // namespace tensegric_fit::fit
+}  // namespace tensegric_fit::mesh_files

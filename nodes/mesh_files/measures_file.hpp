@@ -2,14 +2,15 @@
 /// tools.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "fit/chain.hpp"
+#include "geometry/body_measures.hpp"
+#include "geometry/moved_skin.hpp"
+#include "geometry/triangle_mesh.hpp"
 
-namespace tensegric_fit::fit {
+namespace tensegric_fit::mesh_files {
 
 /// A girth's way round the body, metres.
 struct Loop {
@@ -26,12 +27,20 @@ struct MeasureEntry {
   std::optional<Loop> loop, loop_worn;
 };
 
-/// \param fit null: measured only
-std::vector<MeasureEntry> measure_entries(const Body& body, const Fit* fit);
+/// A body under a garment. Holds references only. Metres, scan frame.
+struct WornBody {
+  const std::vector<Eigen::Vector3d>& skin;  ///< one per vertex of the body
+  const std::vector<geometry::ChangedMeasure>&heights, &girths;
+};
 
-nlohmann::ordered_json measures_json(const std::vector<MeasureEntry>& measures);
+/// \param body scan frame \param worn null: measured only
+std::vector<MeasureEntry> measure_entries(const geometry::TriangleMesh& body,
+                                          const geometry::BodyMeasures& measures, const WornBody* worn);
+
+/// measures.json, UTF-8 whatever the names hold.
+std::string measures_text(const std::vector<MeasureEntry>& measures);
 
 /// Valentina's individual measurements, cm; what it has no name for is left out.
 std::string measures_vit(const std::vector<MeasureEntry>& measures, bool worn);
 
-}  // namespace tensegric_fit::fit
+}  // namespace tensegric_fit::mesh_files
