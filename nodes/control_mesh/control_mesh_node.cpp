@@ -5,6 +5,7 @@
 #include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
+#include "ros/watched_inputs.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -15,11 +16,12 @@ class ControlMeshNode {
       : handler_(Parameters(private_node)),
         control_(node.advertise<ControlMesh>("control/mesh", 1, true)),
         display_(private_node),
+        inputs_(node),
         stage_("control_mesh", node) {
     const ros::TransportHints prompt = ros::TransportHints().tcpNoDelay();
-    model_ = node.subscribe("body/model", 2, &ControlMeshNode::on_model, this, prompt);
-    mesh_ = node.subscribe("body/mesh", 2, &ControlMeshNode::on_mesh, this, prompt);
-    landmarks_ = node.subscribe("body/landmarks", 2, &ControlMeshNode::on_landmarks, this, prompt);
+    inputs_.subscribe("body/model", 2, &ControlMeshNode::on_model, this, prompt);
+    inputs_.subscribe("body/mesh", 2, &ControlMeshNode::on_mesh, this, prompt);
+    inputs_.subscribe("body/landmarks", 2, &ControlMeshNode::on_landmarks, this, prompt);
   }
 
  private:
@@ -68,7 +70,7 @@ class ControlMeshNode {
   ControlMeshHandler handler_;
   ros::Publisher control_;
   Display display_;
-  ros::Subscriber model_, mesh_, landmarks_;
+  WatchedInputs inputs_;
   Stage stage_;  // last: its worker uses all of the above
 };
 

@@ -7,6 +7,7 @@
 #include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
+#include "ros/watched_inputs.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -34,12 +35,13 @@ class CorrelationNode {
       : handler_(handler_of(private_node)),
         correlation_(node.advertise<Correlation>("worn/correlation", 1, true)),
         display_(private_node),
+        inputs_(node),
         stage_("correlation", node) {
-    subscribers_ = {node.subscribe("body/mesh", 2, &CorrelationNode::on_body, this),
-                    node.subscribe("body/landmarks", 2, &CorrelationNode::on<Landmarks>, this),
-                    node.subscribe("control/mesh", 2, &CorrelationNode::on<ControlMesh>, this),
-                    node.subscribe("body/deformed", 8, &CorrelationNode::on<DeformedMesh>, this),
-                    node.subscribe("worn/points", 2, &CorrelationNode::on_worn, this)};
+    inputs_.subscribe("body/mesh", 2, &CorrelationNode::on_body, this);
+    inputs_.subscribe("body/landmarks", 2, &CorrelationNode::on<Landmarks>, this);
+    inputs_.subscribe("control/mesh", 2, &CorrelationNode::on<ControlMesh>, this);
+    inputs_.subscribe("body/deformed", 8, &CorrelationNode::on<DeformedMesh>, this);
+    inputs_.subscribe("worn/points", 2, &CorrelationNode::on_worn, this);
   }
 
  private:
@@ -103,7 +105,7 @@ class CorrelationNode {
   CorrelationHandler handler_;
   ros::Publisher correlation_;
   Display display_;
-  std::vector<ros::Subscriber> subscribers_;
+  WatchedInputs inputs_;
   Stage stage_;  // last: its worker uses all of the above
 };
 

@@ -4,6 +4,7 @@
 #include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
+#include "ros/watched_inputs.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -15,14 +16,15 @@ class LandmarksNode {
         landmarks_(node.advertise<Landmarks>("body/landmarks", 1, true)),
         body_frame_(node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true)),
         display_(private_node),
+        inputs_(node),
         stage_("landmarks", node) {
     const ros::TransportHints prompt = ros::TransportHints().tcpNoDelay();
     constexpr bool kOnce = true, kStarted = false;
     patience_ = node.createWallTimer(
         ros::WallDuration(LandmarksHandler::kPatience),
         [this](const ros::WallTimerEvent&) { find(handler_.alone()); }, kOnce, kStarted);
-    model_ = node.subscribe("body/model", 2, &LandmarksNode::on_model, this, prompt);
-    mesh_ = node.subscribe("body/mesh", 2, &LandmarksNode::on_mesh, this, prompt);
+    inputs_.subscribe("body/model", 2, &LandmarksNode::on_model, this, prompt);
+    inputs_.subscribe("body/mesh", 2, &LandmarksNode::on_mesh, this, prompt);
   }
 
  private:
@@ -68,7 +70,7 @@ class LandmarksNode {
   ros::Publisher landmarks_, body_frame_;
   Display display_;
   ros::WallTimer patience_;
-  ros::Subscriber model_, mesh_;
+  WatchedInputs inputs_;
   Stage stage_;  // last: its worker uses all of the above
 };
 

@@ -6,7 +6,7 @@
 #include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
-#include "ros/watched_input.hpp"
+#include "ros/watched_inputs.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -18,11 +18,10 @@ class ReconstructionNode {
         model_(node.advertise<BodyModel>("body/model", 1, true)),
         mesh_(node.advertise<TriangleMesh>("body/mesh", 1, true)),
         display_(private_node),
-        scan_(node,
-              [this, node]() mutable {
-                return node.subscribe("scan/points", 2, &ReconstructionNode::on_scan, this);
-              }),
-        stage_("reconstruction", node) {}
+        inputs_(node),
+        stage_("reconstruction", node) {
+    inputs_.subscribe("scan/points", 2, &ReconstructionNode::on_scan, this);
+  }
 
  private:
   void on_scan(const sensor_msgs::PointCloud2::ConstPtr& scan) {
@@ -67,7 +66,7 @@ class ReconstructionNode {
   Display display_;
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_{transforms_};
-  WatchedInput scan_;
+  WatchedInputs inputs_;
   Stage stage_;  // last: its worker uses all of the above
 };
 

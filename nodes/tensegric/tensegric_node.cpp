@@ -6,6 +6,7 @@
 #include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
+#include "ros/watched_inputs.hpp"
 #include "tensegric/tensegric_handler.hpp"
 
 namespace tensegric_fit::node {
@@ -23,14 +24,14 @@ class TensegricNode {
         display_(private_node),
         members_(private_node, "members"),
         bands_(node, "control/bands"),
+        inputs_(node),
         stage_("tensegric", node) {
     announce();
-    subscribers_ = {node.subscribe("control/mesh", 2, &TensegricNode::on<ControlMesh>, this, kPrompt),
-                    node.subscribe("body/mesh", 2, &TensegricNode::on_body, this, kPrompt),
-                    node.subscribe("garment", 8, &TensegricNode::on_garment, this, kPrompt)};
+    inputs_.subscribe("control/mesh", 2, &TensegricNode::on<ControlMesh>, this, kPrompt);
+    inputs_.subscribe("body/mesh", 2, &TensegricNode::on_body, this, kPrompt);
+    inputs_.subscribe("garment", 8, &TensegricNode::on_garment, this, kPrompt);
     if (handler_.needs_landmarks())
-      subscribers_.push_back(
-          node.subscribe("body/landmarks", 2, &TensegricNode::on<Landmarks>, this, kPrompt));
+      inputs_.subscribe("body/landmarks", 2, &TensegricNode::on<Landmarks>, this, kPrompt);
     services_ = {node.advertiseService("set_garment", &TensegricNode::on_set_garment, this),
                  node.advertiseService("reset", &TensegricNode::on_reset, this)};
   }
@@ -141,7 +142,7 @@ class TensegricNode {
   Display display_;
   KeptPublisher<MemberForces> members_;
   KeptPublisher<BandShapes> bands_;
-  std::vector<ros::Subscriber> subscribers_;
+  WatchedInputs inputs_;
   std::vector<ros::ServiceServer> services_;
   Stage stage_;  // last: its worker uses all of the above
 };

@@ -5,6 +5,7 @@
 #include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
+#include "ros/watched_inputs.hpp"
 #include "tffd/tffd_handler.hpp"
 
 namespace tensegric_fit::node {
@@ -19,17 +20,14 @@ class TffdNode {
         warnings_(node.advertise<FitWarnings>("body/warnings", 1, true)),
         display_(private_node),
         exports_(node, handler_.exports()),
+        inputs_(node),
         stage_("tffd", node) {
-    subscribers_ = {node.subscribe("body/mesh", 2, &TffdNode::on_body, this, kPrompt),
-                    node.subscribe("body/landmarks", 2, &TffdNode::on<Landmarks>, this, kPrompt),
-                    node.subscribe("control/mesh", 2, &TffdNode::on<ControlMesh>, this, kPrompt),
-                    node.subscribe("control/deformed", 8, &TffdNode::on<FitState>, this, kPrompt),
-                    node.subscribe<LineForces>(
-                        "control/forces", 4,
-                        [this](const LineForces::ConstPtr& forces) { exports_.keep(forces); }, {}, kPrompt),
-                    node.subscribe<ScanLabel>("scan/label", 16, [this](const ScanLabel::ConstPtr& label) {
-                      exports_.keep(*label);
-                    })};
+    inputs_.subscribe("body/mesh", 2, &TffdNode::on_body, this, kPrompt);
+    inputs_.subscribe("body/landmarks", 2, &TffdNode::on<Landmarks>, this, kPrompt);
+    inputs_.subscribe("control/mesh", 2, &TffdNode::on<ControlMesh>, this, kPrompt);
+    inputs_.subscribe("control/deformed", 8, &TffdNode::on<FitState>, this, kPrompt);
+    inputs_.subscribe("control/forces", 4, &TffdNode::on_forces, this, kPrompt);
+    inputs_.subscribe("scan/label", 16, &TffdNode::on_label, this);
   }
 
  private:
@@ -40,6 +38,9 @@ class TffdNode {
     stage_.begin(body->scan_id);
     on(body);
   }
+
+  void on_forces(const LineForces::ConstPtr& forces) { exports_.keep(forces); }
+  void on_label(const ScanLabel::ConstPtr& label) { exports_.keep(*label); }
 
   template <typename Message>
   void on(const boost::shared_ptr<const Message>& message) {
@@ -97,7 +98,7 @@ class TffdNode {
   ros::Publisher warnings_;
   Display display_;
   ExportDesk exports_;
-  std::vector<ros::Subscriber> subscribers_;
+  WatchedInputs inputs_;
   Stage stage_;  // last: its worker uses all of the above
 };
 
