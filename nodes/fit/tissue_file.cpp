@@ -8,26 +8,31 @@ namespace tensegric_fit::fit {
 
 std::string tissue_yaml(const Settings& settings) {
   const tensegric::ModelOptions& model = settings.model;
+  std::string parts;
+  for (const tensegric::StiffPart& part : model.stiff_parts)
+    parts += fmt::format("  - {}\n", to_string(part));
   return fmt::format(
-      "inner_nodes: {}\nlayers: {}\nuniform_stiffness: {}\nstrut_stiffness: {:.4g}\nlateral_stiffness: "
-      "{:.4g}\nskin: "
-      "{:.4g}\nvolume_stiffness: "
-      "{:.4g}\nstiffening: {:.4g}\nmodulus: {:.4g}\n"
-      "prestress: {:.4g}\nthickness: {:.4g}\nbeta: {:.4g}\n",
-      to_string(model.inner), model.layers, model.uniform, model.strut_stiffness, model.lateral_stiffness,
-      model.skin, model.volume_stiffness, model.stiffening, model.modulus, model.prestress,
-      settings.control_mesh.thickness, settings.tffd.beta);
+             "inner_nodes: {}\nlayers: {}\nuniform_stiffness: {}\nstrut_stiffness: "
+             "{:.4g}\nlateral_stiffness: "
+             "{:.4g}\nskin: "
+             "{:.4g}\nvolume_stiffness: "
+             "{:.4g}\nstiffening: {:.4g}\nmodulus: {:.4g}\n"
+             "prestress: {:.4g}\nthickness: {:.4g}\nbeta: {:.4g}\n",
+             to_string(model.inner), model.layers, model.uniform, model.strut_stiffness,
+             model.lateral_stiffness, model.skin, model.volume_stiffness, model.stiffening, model.modulus,
+             model.prestress, settings.control_mesh.thickness, settings.tffd.beta) +
+         (parts.empty() ? "" : "stiff_parts:\n" + parts);
 }
 
 void take_tissue(const std::string& path, Settings& settings) {
   namespace refusal = geometry::refusal;
   const char* const code = refusal::kBadOption;
   const YAML::Node file = geometry::load_yaml_map(path, code);
-  geometry::check_keys(
-      file,
-      {"inner_nodes", "layers", "uniform_stiffness", "strut_stiffness", "lateral_stiffness", "skin",
-       "volume_stiffness", "stiffening", "modulus", "prestress", "thickness", "beta", "evidence"},
-      path, code);
+  geometry::check_keys(file,
+                       {"inner_nodes", "layers", "uniform_stiffness", "strut_stiffness", "lateral_stiffness",
+                        "skin", "volume_stiffness", "stiffening", "modulus", "prestress", "thickness", "beta",
+                        "stiff_parts", "evidence"},
+                       path, code);
   tensegric::ModelOptions& model = settings.model;
   const auto take = [&](const char* key, double& value, const geometry::Range& range) {
     if (file[key]) value = geometry::number_in(file, key, range.low, range.high, path, code);
@@ -45,6 +50,12 @@ void take_tissue(const std::string& path, Settings& settings) {
   take("stiffening", model.stiffening, tensegric::kStiffening);
   take("modulus", model.modulus, tensegric::kModulus);
   take("prestress", model.prestress, tensegric::kPrestress);
+  if (file["stiff_parts"]) {
+    model.stiff_parts.clear();
+    for (const std::string& part :
+         geometry::optional<std::vector<std::string>>(file, "stiff_parts", {}, path, code))
+      model.stiff_parts.push_back(tensegric::stiff_part_from(part));
+  }
   take("thickness", settings.control_mesh.thickness, control_mesh::kThickness);
   take("beta", settings.tffd.beta, {0, geometry::kBeta.high});
 }

@@ -1,8 +1,12 @@
 #include "tensegric/model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <locale>
 #include <map>
+#include <sstream>
 #include <string>
 
 #include "geometry/status.hpp"
@@ -57,6 +61,28 @@ double tissue_of(const Positions& x, const std::array<int, 6>& unit) {
   return depth * (area_of(x, unit, 0) + area_of(x, unit, 3)) / 2;
 }
 
+// Per triangle of the control mesh.
+std::vector<double> times_of(const geometry::ControlMesh& control, const ModelOptions& options) {
+  std::vector<double> times(control.triangles.size(), 1);
+  if (options.uniform && !options.stiff_parts.empty())
+    throw Refusal(refusal::kBadOption,
+                  "stiff_parts: where uniform_stiffness is true all parts of a kind are alike");
+  for (const StiffPart& part : options.stiff_parts) {
+    geometry::check_option("radius of stiff_parts", part.radius, kStiffRadius);
+    geometry::check_option("times of stiff_parts", part.times, kStiffTimes);
+    const int node = control.node(part.around);
+    if (node < 0)
+      throw Refusal(refusal::kBadOption, "stiff_parts: the control mesh has no node '" + part.around + "'");
+    for (std::size_t t = 0; t < times.size(); ++t) {
+      const Eigen::Vector3i& corners = control.triangles[t];
+      const Eigen::Vector3d middle =
+          (control.outer[corners[0]] + control.outer[corners[1]] + control.outer[corners[2]]) / 3;
+      if ((middle - control.outer[node]).norm() < part.radius) times[t] *= part.times;
+    }
+  }
+  return times;
+}
+
 // Adds members at their rest lengths, each as stiff as the tissue that it stands for: a third of each unit
 // that it belongs to.
 class MemberPlacer {
@@ -64,8 +90,10 @@ class MemberPlacer {
   MemberPlacer(Model& model, const Positions& rest) : model_(model), rest_(rest) {
     const auto box = geometry::bounding_box(rest);
     shortest_ = kShortestMember * (box[1] - box[0]).norm();
+    std::size_t index = 0;
     for (const std::array<int, 6>& unit : model.units()) {
-      const double tissue = tissue_of(rest, unit), area = area_of(rest, unit, 0);
+      const double tissue = model.times[index++ % model.times.size()] * tissue_of(rest, unit),
+                   area = area_of(rest, unit, 0);
       for (int k = 0; k < 3; ++k) {
         const int next = (k + 1) % 3;
         for (Share* share :
@@ -144,6 +172,20 @@ class MemberPlacer {
 
 std::string to_string(InnerNodes inner) {
   return inner == InnerNodes::free ? "free" : "bound";
+}
+
+StiffPart stiff_part_from(const std::string& text) {
+  std::istringstream words(text);
+  words.imbue(std::locale::classic());
+  StiffPart part;
+  std::string rest;
+  if (!(words >> part.around >> part.radius >> part.times) || words >> rest)
+    throw Refusal(refusal::kBadOption, "stiff_parts: '" + text + "' is not 'NODE RADIUS TIMES'");
+  return part;
+}
+
+std::string to_string(const StiffPart& part) {
+  return fmt::format("{} {:.4g} {:.4g}", part.around, part.radius, part.times);
 }
 
 ModelOptions papers_model() {
@@ -240,6 +282,7 @@ Model build_model(const geometry::ControlMesh& control, const ModelOptions& opti
   Model model;
   model.control = control;
   model.options = options;
+  model.times = times_of(control, options);
   if (options.inner == InnerNodes::bound)
     std::fill(model.control.inner_fixed.begin(), model.control.inner_fixed.end(), 1);
   const Positions rest = model.rest_positions();

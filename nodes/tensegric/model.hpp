@@ -28,6 +28,18 @@ InnerNodes inner_nodes_from(const std::string& word);
 
 /// Field defaults are the parameters' defaults. A part's stiffness k (force per strain) is its kind's share
 /// here times the tissue that it stands for / its length, so that a finer mesh is as stiff as a coarse one.
+/// Tissue unlike the rest, from a scar or a prosthesis: units whose skin lies around a named node.
+struct StiffPart {
+  std::string around;  ///< node of the control mesh
+  double radius;       ///< m, at rest
+  double times;        ///< as stiff as tissue elsewhere; where parts overlap, the product
+};
+inline constexpr geometry::Range kStiffRadius{0.005, 0.3}, kStiffTimes{0.1, 100};
+
+/// From "NODE RADIUS TIMES", as in tissue files and parameters. \throw Refusal bad_option quoting it
+StiffPart stiff_part_from(const std::string& text);
+std::string to_string(const StiffPart& part);
+
 struct ModelOptions {
   InnerNodes inner = InnerNodes::bound;
   int layers = 1;        ///< of units, one below the other, between the skin and the inner nodes
@@ -40,6 +52,7 @@ struct ModelOptions {
   double modulus = 1205;    ///< Pa, of tissue for which a kind's share is 1: what forces are in newtons
   double stiffening = 320;  ///< of struts and tensile parts: k (1 + stiffening e^2) at strain e
   double prestress = 0.1;   ///< mean tension of the tensile parts at rest / their mean k, at most
+  std::vector<StiffPart> stiff_parts;
 };
 
 /// As the papers have it, but for the struts' stiffness: inner nodes settle, no skin, units that may change
@@ -61,7 +74,8 @@ struct Model {
   geometry::ControlMesh control;  ///< at rest
   std::vector<Member> members;    ///< 3F struts a layer, then tensile parts: E a level, V a layer
   ModelOptions options;
-  double tissue = 1;  ///< stiffness of tissue, pseudo force / m^2: what 1 means in ModelOptions
+  std::vector<double> times;  ///< per triangle: as stiff as tissue elsewhere (ModelOptions::stiff_parts)
+  double tissue = 1;          ///< stiffness of tissue, pseudo force / m^2: what 1 means in ModelOptions
   double newtons() const { return options.modulus / tissue; }  ///< per pseudo force
   int struts() const;
   int tensile_parts() const;

@@ -37,6 +37,8 @@ TensegricHandler::Setup TensegricHandler::setup_from(Parameters& parameters) {
   model.strut_stiffness =
       parameters.number("strut_stiffness", model.strut_stiffness, tensegric::kStrutStiffness);
   model.prestress = parameters.number("prestress", model.prestress, tensegric::kPrestress);
+  for (const std::string& part : parameters.texts("stiff_parts"))
+    model.stiff_parts.push_back(tensegric::stiff_part_from(part));
   tensegric::FitterOptions& fitter = setup.fitter;
   fitter.beta = parameters.number("beta", fitter.beta, {0, geometry::kBeta.high});
   if (fitter.beta != 0) geometry::check_option("beta", fitter.beta, geometry::kBeta);

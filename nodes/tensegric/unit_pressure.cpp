@@ -64,8 +64,10 @@ std::vector<UnitPressure> unit_pressures(const Model& model, const std::vector<i
   std::vector<UnitPressure> units;
   if (model.options.volume_stiffness == 0) return units;
   const Positions rest = model.rest_positions();
+  std::size_t index = 0;
   for (const std::array<int, 6>& nodes : model.units()) {
-    UnitPressure unit{nodes, Vector3d::Zero(), 0, model.options.volume_stiffness * model.tissue};
+    const double times = model.times[index++ % model.times.size()];
+    UnitPressure unit{nodes, Vector3d::Zero(), 0, times * model.options.volume_stiffness * model.tissue};
     bool moves = false;
     for (int node : unit.nodes) {
       unit.origin += rest[node] / 6;
