@@ -9,8 +9,8 @@ namespace tensegric_fit::fit {
 
 /// The parameters of `settings` that say what tissue is like, as YAML: inner_nodes, layers, strut_stiffness,
 /// lateral_stiffness, uniform_stiffness, skin, volume_stiffness, stiffening, modulus, prestress, thickness,
-/// beta, stiff_parts (see ModelOptions, control_mesh::Options and tffd::Options): constants hold for the reach that they
-/// were fitted with.
+/// beta, stiff_parts (see ModelOptions, control_mesh::Options and tffd::Options): constants hold for the
+/// reach that they were fitted with.
 std::string tissue_yaml(const Settings& settings);
 
 /// Puts the file's values in place of those of `settings`; what it does not name stays. A key `evidence` may
