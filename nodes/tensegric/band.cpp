@@ -16,7 +16,28 @@ namespace refusal = geometry::refusal;
 constexpr double kSmooth = 1e-3;       // m
 constexpr double kSmoothShare = 0.03;  // of the mean segment at rest, where that is less
 
+/// 'L' or 'R' of a name with such an ending, else 0.
+char side_of(const std::string& name) {
+  const bool sided = name.size() > 2 && name[name.size() - 2] == '_';
+  return sided && (name.back() == 'L' || name.back() == 'R') ? name.back() : '\0';
+}
+
+// A strap may cross her back; a cup whose every sided node is of the other side was mistaken for its mirror
+// image.
+void check_side(const GarmentLine& line) {
+  const char side = side_of(line.name);
+  bool own = false, other = false;
+  for (const std::string& name : line.through) {
+    own |= side_of(name) == side;
+    other |= side_of(name) != '\0' && side_of(name) != side;
+  }
+  if (side != '\0' && other && !own)
+    throw Refusal(refusal::kBadGarment,
+                  "line '" + line.name + "' runs over the " + (side == 'L' ? "right" : "left") + " side only");
+}
+
 std::vector<int> stops_of(const geometry::ControlMesh& control, const GarmentLine& line) {
+  check_side(line);
   std::vector<int> stops;
   for (const std::string& name : line.through) {
     const int node = control.node(name);

@@ -48,7 +48,7 @@ Course course_of(const geometry::ControlMesh& control, const GarmentLine& line);
 /// Bands of the garment's lines. A string runs over the mesh's edges from stop to stop, a taut one
 /// straight; a line on the body is found in `laid` by its name. \throw Refusal unknown_line: a
 /// name that the control mesh does not have; bad_garment: region or ratio, a line on the body that is not in
-/// `laid`
+/// `laid`, a line "..._L" whose nodes are all "..._R", or the other way round
 std::vector<Band> lay_bands(const Model& model, const Garment& garment,
                             const std::vector<geometry::LaidLine>& laid = {});
 

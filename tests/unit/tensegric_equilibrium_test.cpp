@@ -297,6 +297,12 @@ TEST_F(Equilibrium, RefusesBadInput) {
   unknown.lines[0].through.clear();
   unknown.lines[0].name = "sash";
   EXPECT_EQ(code(unknown, {}), "unknown_line");
+  Garment mirrored = chest(0.95);
+  mirrored.lines[0].through = {"axilla_L", "bust_point_L", "sternum"};
+  mirrored.lines[0].name = "cup_L";
+  EXPECT_EQ(code(mirrored, {}), "solved");
+  mirrored.lines[0].name = "cup_R";
+  EXPECT_EQ(code(mirrored, {}), "bad_garment");
   Garment hips = chest(0.95);
   hips.regions = {"hips"};
   EXPECT_EQ(code(hips, {}), "bad_garment");
