@@ -32,8 +32,8 @@ void check_side(const GarmentLine& line) {
     other |= side_of(name) != '\0' && side_of(name) != side;
   }
   if (side != '\0' && other && !own)
-    throw Refusal(refusal::kBadGarment,
-                  "line '" + line.name + "' runs over the " + (side == 'L' ? "right" : "left") + " side only");
+    throw Refusal(refusal::kBadGarment, "line '" + line.name + "' runs over the " +
+                                            (side == 'L' ? "right" : "left") + " side only");
 }
 
 std::vector<int> stops_of(const geometry::ControlMesh& control, const GarmentLine& line) {
