@@ -58,10 +58,15 @@ struct Covering {
   int index, first_row, last_row, first_column, last_column;
 };
 
-std::vector<Covering> covering(const std::vector<Eigen::Vector3d>& points,
-                               const std::vector<Eigen::Vector3i>& triangles, int width, int height) {
-  std::vector<Covering> all;
-  all.reserve(triangles.size());
+// Those that face the camera, if the mesh's normals point outward, and the others, in order.
+struct Coverings {
+  std::vector<Covering> front, back;
+};
+
+Coverings covering(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3i>& triangles,
+                   int width, int height) {
+  Coverings all;
+  all.front.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Eigen::Vector3d &a = points[triangles[t][0]], &b = points[triangles[t][1]],
                           &c = points[triangles[t][2]];
@@ -70,7 +75,9 @@ std::vector<Covering> covering(const std::vector<Eigen::Vector3d>& points,
     if (top > bottom) continue;
     const auto [left, right] =
         pixels(std::min({a.x(), b.x(), c.x()}), std::max({a.x(), b.x(), c.x()}), width);
-    if (left <= right) all.push_back({static_cast<int>(t), top, bottom, left, right});
+    if (left <= right)
+      (twice_area(a, b, c) < 0 ? all.front : all.back)
+          .push_back({static_cast<int>(t), top, bottom, left, right});
   }
   return all;
 }
@@ -98,12 +105,41 @@ void draw_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
   }
 }
 
+// The greatest depth of each tile of a strip of rows. Where all is nearer than a triangle, nothing of it is
+// seen: most of what faces away is passed over at this price.
+class Tiles {
+ public:
+  Tiles(const Raster& raster, int top, int bottom)
+      : top_(top),
+        depth_((bottom - top + kTile - 1) / kTile, (raster.depth.cols + kTile - 1) / kTile,
+               -std::numeric_limits<float>::infinity()) {
+    for (int y = top; y < bottom; ++y)
+      for (int x = 0; x < raster.depth.cols; ++x) {
+        float& tile = depth_((y - top) / kTile, x / kTile);
+        tile = std::max(tile, raster.depth(y, x));
+      }
+  }
+
+  bool hide(const Covering& covered, double nearest) const {
+    const int last_row = std::min((covered.last_row - top_) / kTile, depth_.rows - 1);
+    for (int row = std::max(covered.first_row - top_, 0) / kTile; row <= last_row; ++row)
+      for (int column = covered.first_column / kTile; column <= covered.last_column / kTile; ++column)
+        if (!(depth_(row, column) < nearest)) return false;
+    return true;
+  }
+
+ private:
+  static constexpr int kTile = 8;  // pixels
+  int top_;
+  cv::Mat1f depth_;
+};
+
 }  // namespace
 
 Raster rasterise(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3i>& triangles,
                  int width, int height) {
   Raster raster{cv::Mat1f(height, width), cv::Mat1i(height, width)};
-  const std::vector<Covering> seen = covering(points, triangles, width, height);
+  const Coverings seen = covering(points, triangles, width, height);
   // Each strip of rows takes the triangles in order, so the number of threads changes nothing.
   constexpr int kStrips = 4;
   cv::parallel_for_(cv::Range(0, kStrips), [&](const cv::Range& strips) {
@@ -112,10 +148,21 @@ Raster rasterise(const std::vector<Eigen::Vector3d>& points, const std::vector<E
       std::fill_n(raster.depth[y], width, std::numeric_limits<float>::infinity());
       std::fill_n(raster.triangle[y], width, -1);
     }
-    for (const Covering& covered : seen) {
-      if (covered.last_row < top || covered.first_row >= bottom) continue;
+    const auto draw = [&](const Covering& covered) {
       const Eigen::Vector3i& t = triangles[covered.index];
       draw_triangle(points[t[0]], points[t[1]], points[t[2]], covered, top, bottom, raster);
+    };
+    const auto in_strip = [&](const Covering& covered) {
+      return covered.last_row >= top && covered.first_row < bottom;
+    };
+    for (const Covering& covered : seen.front)
+      if (in_strip(covered)) draw(covered);
+    const Tiles tiles(raster, top, bottom);
+    for (const Covering& covered : seen.back) {
+      if (!in_strip(covered)) continue;
+      const Eigen::Vector3i& t = triangles[covered.index];
+      if (!tiles.hide(covered, std::min({points[t[0]].z(), points[t[1]].z(), points[t[2]].z()})))
+        draw(covered);
     }
   });
   return raster;

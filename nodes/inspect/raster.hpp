@@ -14,7 +14,7 @@ struct Raster {
 };
 
 /// `points` are in pixels (x to the right, y down; pixel (i, j) covers [i, i+1) x [j, j+1)), z is depth.
-/// Of two triangles at one depth the first one stays.
+/// Of two triangles at one depth one that faces the camera stays (normals outward), of two alike the first.
 Raster rasterise(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3i>& triangles,
                  int width, int height);
 
