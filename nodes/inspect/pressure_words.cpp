@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "geometry/checked_yaml.hpp"
+#include "geometry/shipped_files.hpp"
+
 namespace tensegric_fit::inspect::words {
 namespace {
 
@@ -11,7 +14,21 @@ std::string figure(double value, double of) {
   return fmt::format("{:.{}f}", value, of < kOneDigit ? 1 : 0);
 }
 
+double load_pull_uncertainty() {
+  const std::string path = geometry::shipped_folder("tissue") + "/newtons.yaml";
+  const std::string code = geometry::refusal::kBadOption;
+  const YAML::Node root = geometry::load_yaml_map(path, code);
+  geometry::check_keys(root, {"made", "control_triangles", "cases", "within", "half_width", "ratios"}, path,
+                       code);
+  return geometry::number_in(root, "half_width", 0.01, 0.99, path, code);
+}
+
 }  // namespace
+
+double pull_uncertainty() {
+  static const double half_width = load_pull_uncertainty();
+  return half_width;
+}
 
 std::string pull(double newtons) {
   return figure(newtons, newtons) + " N";
@@ -22,7 +39,7 @@ std::string pressure(double kilopascals) {
 }
 
 std::string with_uncertainty(double value) {
-  return figure(value, value) + " \u00b1 " + figure(kPullUncertainty * value, value);
+  return figure(value, value) + " \u00b1 " + figure(pull_uncertainty() * value, value);
 }
 
 std::string pressure_meaning(double kilopascals) {

@@ -11,9 +11,9 @@ namespace tensegric_fit::inspect::words {
 
 /// kPa: what a waistband shortened by 5 % presses with; above which wearers complain.
 inline constexpr double kUsualPressure = 2.3, kComplaints = 4.7;
-/// Half-width of a pull's 95 % interval over the pull, on bodies: two deviations of the newtons against
-/// finite elements at 120 control triangles (tests/calibration/README.md).
-inline constexpr double kPullUncertainty = 0.36;
+/// Half-width of a pull's 95 % interval over the pull: launch/tissue/newtons.yaml, which `calibrate` wrote
+/// from finite elements. Read once; geometry::Refusal where the file is not as it was shipped.
+double pull_uncertainty();
 
 /// "23 N", "4.7 N".
 std::string pull(double newtons);

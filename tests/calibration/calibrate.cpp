@@ -107,12 +107,22 @@ calibration::CalibrationBody read_body(const YAML::Node& node, const std::string
   return body;
 }
 
-std::string evidence_of(const calibration::Calibration& found,
-                        const std::vector<calibration::CalibrationBody>& bodies, int control_triangles) {
+std::string today() {
   char date[16];
   const std::time_t now = std::time(nullptr);
   std::strftime(date, sizeof date, "%Y-%m-%d", std::gmtime(&now));
-  std::string text = fmt::format("evidence:\n  date: {}\n  version: {}\n  control_triangles: {}\n", date,
+  return date;
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
+}
+
+std::string evidence_of(const calibration::Calibration& found,
+                        const std::vector<calibration::CalibrationBody>& bodies, int control_triangles) {
+  std::string text = fmt::format("evidence:\n  date: {}\n  version: {}\n  control_triangles: {}\n", today(),
                                  TENSEGRIC_FIT_VERSION, control_triangles);
   text += fmt::format("  pull: {:.4g}\n", found.adjusted.pull);
   text +=
@@ -173,15 +183,42 @@ void write_fields(const std::string& folder, const calibration::CalibrationCase&
                   const calibration::CaseOutcome& out) {
   std::string name = one.name;
   std::replace(name.begin(), name.end(), ' ', '_');
-  std::ofstream file(fs::path(folder) / (name + ".csv"));
-  file << "vertex,x,y,z\n";
+  std::string text = "vertex,x,y,z\n";
   for (const int v : one.reference.vertices)
-    file << fmt::format("{},{:.7f},{:.7f},{:.7f}\n", v, out.deformed[v].x(), out.deformed[v].y(),
+    text += fmt::format("{},{:.7f},{:.7f},{:.7f}\n", v, out.deformed[v].x(), out.deformed[v].y(),
                         out.deformed[v].z());
-  if (!file.flush()) throw std::runtime_error(folder + ": cannot be written");
+  write_text(fs::path(folder) / (name + ".csv"), text);
 }
 
-void print_errors(const Cases& cases, const fit::Settings& settings, const std::string& fields) {
+// By case the pull over the reference's, geometric mean of its lines.
+using PullRatios = std::vector<std::pair<std::string, double>>;
+
+double pull_ratio(const std::vector<double>& ours, const std::vector<double>& reference) {
+  double sum = 0;
+  for (std::size_t l = 0; l < reference.size(); ++l) sum += std::log(ours[l] / reference[l]);
+  return std::exp(sum / static_cast<double>(reference.size()));
+}
+
+// What pages and panel show as a pull's uncertainty: a normal distribution of the logarithm round 0, as no
+// pull is corrected by what is seen here.
+std::string newtons_yaml(const PullRatios& ratios, int control_triangles) {
+  constexpr double kTwoSided95 = 1.96;  // deviations
+  double squares = 0;
+  for (const auto& [name, ratio] : ratios) squares += std::pow(std::log(ratio), 2);
+  const double half_width = kTwoSided95 * std::sqrt(squares / static_cast<double>(ratios.size()));
+  const auto within = std::count_if(ratios.begin(), ratios.end(),
+                                    [&](const auto& r) { return std::abs(std::log(r.second)) <= half_width; });
+  std::string text = fmt::format(
+      "# How near pulls are to the newtons of finite elements: `calibrate CASES --errors --newtons FILE` wrote "
+      "this\n# (tests/calibration/README.md).\nmade: {}\ncontrol_triangles: {}\ncases: {}\nwithin: {}\n"
+      "half_width: {:.2f}    # of a pull, 95 %\nratios:    # pull over the reference's\n",
+      today(), control_triangles, ratios.size(), within, half_width);
+  for (const auto& [name, ratio] : ratios) text += fmt::format("  \"{}\": {:.2f}\n", name, ratio);
+  return text;
+}
+
+PullRatios print_errors(const Cases& cases, const fit::Settings& settings, const std::string& fields) {
+  PullRatios ratios;
   fmt::print("{:20s} {:>7s} {:>6s} {:>11s} {:>10s} {:>7s}  tension (reference, N)\n", "case", "still", "rms",
              "status", "iterations", "ms");
   for (const calibration::CalibrationBody& body : cases.bodies) {
@@ -194,9 +231,11 @@ void print_errors(const Cases& cases, const fit::Settings& settings, const std::
                  1e3 * out.error, to_string(out.status), out.iterations, out.milliseconds,
                  fmt::join(out.tensions, " "));
       fmt::print(" ({:.4g})\n", fmt::join(one.newtons, " "));
+      if (!one.newtons.empty()) ratios.emplace_back(one.name, pull_ratio(out.tensions, one.newtons));
     }
     std::fflush(stdout);
   }
+  return ratios;
 }
 
 calibration::Calibration fitted(const Cases& cases, const fit::Settings& settings) {
@@ -209,9 +248,7 @@ void write(const calibration::Calibration& found, const Cases& cases, int contro
   const std::string text =
       fit::tissue_yaml(found.adjusted.settings) + evidence_of(found, cases.bodies, control_triangles);
   fmt::print("{}", text);
-  std::ofstream written(out);
-  written << text;
-  if (!written.flush()) throw std::runtime_error(out + ": cannot be written");
+  write_text(out, text);
 }
 
 // Mean over the cases of the error left out, relative to not moving.
@@ -278,6 +315,10 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingDirectory);
   bool errors = false, worn = false;
   app.add_flag("--errors", errors, "Fits nothing: errors, iterations and tensions by case, as things are");
+  std::string newtons;
+  app.add_option("--newtons", newtons,
+                 "With --errors: a file for how near pulls are to the references', as in launch/tissue")
+      ->needs("--errors");
   app.add_flag("--worn", worn,
                "From pairs of scans, bare and worn: force, thickness and density of the control mesh")
       ->excludes("--errors")
@@ -293,9 +334,13 @@ int main(int argc, char** argv) {
     if (!tissue.empty()) fit::take_tissue(tissue, settings);
     if (beta != 0) settings.tffd.beta = beta;
     const Cases all = read_cases(cases, settings);
-    if (errors)
-      print_errors(all, settings, fields);
-    else if (worn)
+    if (errors) {
+      const PullRatios ratios = print_errors(all, settings, fields);
+      if (!newtons.empty() && ratios.empty())
+        throw geometry::Refusal(geometry::refusal::kTooFewData, cases + ": no case has tensions");
+      if (!newtons.empty())
+        write_text(newtons, newtons_yaml(ratios, settings.control_mesh.control_triangles));
+    } else if (worn)
       run_worn(all, out);
     else
       write(fitted(all, settings), all, settings.control_mesh.control_triangles, out);
