@@ -1,17 +1,11 @@
-// The 3D view of a page: turns a body before and with a garment. Needs THREE, THREE.GLTFLoader and THREE.OrbitControls (Debian's libjs-three) and,
-// in the page, the elements that it looks up by id. Asks no server for anything. Where there is no WebGL the page keeps its pictures.
+// The 3D view of a page: turns a body before and with a garment. Needs THREE and THREE.OrbitControls (Debian's libjs-three) and, in the page, the elements that it looks up by id. Asks no server for anything. Where there is no WebGL the page keeps its pictures.
 (function () {
   "use strict";
   var element = function (id) { return document.getElementById(id); };
   var canvas = element("canvas"), facts = JSON.parse(element("facts").textContent);
 
-  var renderer;
-  try {
-    renderer = new THREE.WebGLRenderer({canvas: canvas, antialias: true, alpha: true});
-  } catch (error) {
-    return;  // the pictures stay
-  }
-  document.body.classList.add("turns");
+  if (!canvas.drawn_by) return;  // the pictures stay
+  var renderer = new THREE.WebGLRenderer({canvas: canvas, context: canvas.drawn_by, antialias: true, alpha: true});
   renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
 
   var camera = new THREE.PerspectiveCamera(28, 1, 0.05, 20);
@@ -32,37 +26,65 @@
   var has_beside = false;  // something else than the body before
   var loop = null, picked = null, share = 1, from = "front", close = true;
 
-  // Linear light as the screen wants it (glTF's colours are linear).
+  // The meshes of a GLB as this package writes it: one primitive each, tight accessors, no transforms. At once, where a general loader
+  // would wait until the rest of the page is drawn.
+  function meshes_of(buffer) {
+    var head = new DataView(buffer), length = head.getUint32(12, true), data = 20 + length + 8;
+    var gltf = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 20, length)));
+    var types = {5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array}, widths = {SCALAR: 1, VEC3: 3, VEC4: 4};
+    function numbers(index) {
+      var accessor = gltf.accessors[index], view = gltf.bufferViews[accessor.bufferView];
+      return new types[accessor.componentType](buffer, data + view.byteOffset, accessor.count * widths[accessor.type]);
+    }
+    return gltf.meshes.map(function (mesh) {
+      var part = mesh.primitives[0], has = part.attributes, values = has[facts.reading.attribute];
+      return {name: mesh.name, triangles: numbers(part.indices), from: numbers(has.POSITION),
+              offset: part.targets ? numbers(part.targets[0].POSITION) : null,
+              colours: has.COLOR_0 === undefined ? null : displayed(numbers(has.COLOR_0)),
+              values: values === undefined ? null : numbers(values)};
+    });
+  }
+
+  // RGBA of 16 bits of linear light as RGB that the screen wants.
   function displayed(colours) {
-    if (!colours) return null;
-    var full = colours.normalized ? Math.pow(2, 8 * colours.array.BYTES_PER_ELEMENT) - 1 : 1;
-    var shown = new THREE.BufferAttribute(new Float32Array(3 * colours.count), 3);
-    for (var i = 0; i < colours.count; ++i)
-      shown.setXYZ(i, Math.pow(colours.getX(i) / full, 1 / 2.2), Math.pow(colours.getY(i) / full, 1 / 2.2),
-                   Math.pow(colours.getZ(i) / full, 1 / 2.2));
+    var shown = new Float32Array(colours.length / 4 * 3);
+    for (var i = 0; i < shown.length; ++i) shown[i] = Math.pow(colours[4 * Math.floor(i / 3) + i % 3] / 65535, 1 / 2.2);
     return shown;
+  }
+
+  // Area-weighted normals per vertex, not of length 1: the shader makes them so.
+  function find_normals(points, triangles, normals) {
+    normals.fill(0);
+    for (var t = 0; t < triangles.length; t += 3) {
+      var a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
+      var ux = points[b] - points[a], uy = points[b + 1] - points[a + 1], uz = points[b + 2] - points[a + 2];
+      var vx = points[c] - points[a], vy = points[c + 1] - points[a + 1], vz = points[c + 2] - points[a + 2];
+      var x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+      normals[a] += x; normals[a + 1] += y; normals[a + 2] += z;
+      normals[b] += x; normals[b + 1] += y; normals[b + 2] += z;
+      normals[c] += x; normals[c + 1] += y; normals[c + 2] += z;
+    }
   }
 
   // Where each vertex is at a share of the way from before to under the garment.
   function blended(mesh) {
-    var from = mesh.geometry.attributes.position.array, to = from;
-    var morph = mesh.geometry.morphAttributes.position;
-    if (morph && morph.length) {
-      to = morph[0].array;
-      if (mesh.geometry.morphTargetsRelative) to = to.map(function (value, i) { return value + from[i]; });
-    }
+    var from = mesh.from, offset = mesh.offset, count = from.length;
     var shape = new THREE.BufferGeometry();
-    shape.setIndex(mesh.geometry.index);
+    shape.setIndex(new THREE.BufferAttribute(mesh.triangles, 1));
     shape.setAttribute("position", new THREE.BufferAttribute(new Float32Array(from), 3));
+    shape.setAttribute("normal", new THREE.BufferAttribute(new Float32Array(count), 3));
     return {
       shape: shape,
-      colours: displayed(mesh.geometry.attributes.color),
-      values: mesh.geometry.attributes[facts.reading.attribute],
+      colours: mesh.colours,
+      values: mesh.values,
+      shown: null,
       show: function (t) {
-        var now = shape.attributes.position;
-        for (var i = 0; i < now.array.length; ++i) now.array[i] = from[i] + t * (to[i] - from[i]);
-        now.needsUpdate = true;
-        shape.computeVertexNormals();
+        if (this.shown === t) return;
+        this.shown = t;
+        var now = shape.attributes.position, normals = shape.attributes.normal;
+        for (var i = 0; offset && i < count; ++i) now.array[i] = from[i] + t * offset[i];
+        find_normals(now.array, mesh.triangles, normals.array);
+        now.needsUpdate = normals.needsUpdate = true;
         shape.computeBoundingSphere();
       }
     };
@@ -70,16 +92,15 @@
 
   function paint(body, t) {
     var coloured = element("colours").checked, shown = coloured ? t : 0, source = body.colours;
-    var plain = coloured ? neutral : kSkin;
-    if (!source) return;
-    var to = body.shape.attributes.color;
+    var plain = coloured ? neutral : kSkin, painted = coloured + " " + t;
+    if (!source || body.painted === painted) return;
+    body.painted = painted;
+    var to = body.shape.attributes.color, base = plain.toArray();
     if (!to) {
-      to = new THREE.BufferAttribute(new Float32Array(3 * source.count), 3);
+      to = new THREE.BufferAttribute(new Float32Array(source.length), 3);
       body.shape.setAttribute("color", to);
     }
-    for (var i = 0; i < source.count; ++i)
-      to.setXYZ(i, plain.r + shown * (source.getX(i) - plain.r), plain.g + shown * (source.getY(i) - plain.g),
-                plain.b + shown * (source.getZ(i) - plain.b));
+    for (var i = 0; i < source.length; ++i) to.array[i] = base[i % 3] + shown * (source[i] - base[i % 3]);
     to.needsUpdate = true;
   }
 
@@ -94,9 +115,7 @@
       made.which = which;
       scene.add(made.mesh);
       (is_body ? bodies : lines).push(made);
-      made.show(which);
       if (!made.colours && is_body) made.mesh.material = new THREE.MeshLambertMaterial({color: kSkin, side: THREE.DoubleSide});
-      if (is_body) paint(made, which);
     });
   }
 
@@ -115,16 +134,26 @@
     scene.add(loop);
   }
 
-  function render() {
+  function fit_canvas() {
     var width = canvas.clientWidth, height = canvas.clientHeight, halves = element("beside").checked ? 2 : 1;
     renderer.setSize(width, height, false);
     camera.aspect = width / halves / height;
     camera.updateProjectionMatrix();
+    return {width: width, height: height, halves: halves};
+  }
+
+  function render() {
+    var size = fit_canvas(), width = size.width, height = size.height, halves = size.halves;
     renderer.setScissorTest(true);
     for (var half = 0; half < halves; ++half) {
       var only = halves === 2 ? half : 1;
       bodies.forEach(function (b) { b.mesh.visible = b.which === only; });
       lines.forEach(function (l) { l.mesh.visible = l.which === only && element("lines").checked; });
+      bodies.concat(lines).forEach(function (made) {
+        if (!made.mesh.visible) return;
+        made.show(made.which === 1 ? share : 0);
+        if (bodies.indexOf(made) >= 0) paint(made, made.which === 1 ? share : 0);
+      });
       if (loop) draw_loop(halves === 2 && half === 0 ? 0 : share);
       renderer.setViewport(half * width / halves, 0, width / halves, height);
       renderer.setScissor(half * width / halves, 0, width / halves, height);
@@ -133,24 +162,27 @@
     if (!canvas.dataset.drawn) canvas.dataset.drawn = Math.round(performance.now());
   }
 
-  function change() {
+  function take_share() {
     share = element("share").valueAsNumber / 100;
-    bodies.concat(lines).forEach(function (made) { if (made.which === 1) made.show(share); });
-    bodies.forEach(function (body) { paint(body, body.which === 1 ? share : 0); });
     draw_loop(share);
     element("share").setAttribute("aria-valuetext", Math.round(100 * share) + " % of the way to the garment");
+  }
+
+  function change() {
+    take_share();
     render();
   }
 
   // Her whole body, or the part of it that the garment's lines are on.
   function frame() {
     var box = new THREE.Box3();
-    if (close) lines.forEach(function (line) { box.expandByObject(line.mesh); });
+    if (close) lines.forEach(function (line) { line.show(line.which === 1 ? share : 0); box.expandByObject(line.mesh); });
     if (!box.isEmpty()) return box.expandByScalar(0.12);
     return box.setFromObject(bodies[0].mesh);
   }
 
   function look() {
+    fit_canvas();
     var box = frame(), centre = box.getCenter(new THREE.Vector3()), size = box.getSize(new THREE.Vector3());
     var wide = (from === "front" || from === "back" ? size.x : size.z) / Math.max(camera.aspect, 0.01);
     var deep = from === "front" || from === "back" ? size.z : size.x;
@@ -169,13 +201,11 @@
     about.phi = Math.min(Math.max(about.phi - up, 0.2), Math.PI - 0.2);
     camera.position.setFromSpherical(about).add(controls.target);
     controls.update();
-    render();
   }
 
   function nearer(by) {
     camera.position.sub(controls.target).multiplyScalar(by).add(controls.target);
     controls.update();
-    render();
   }
 
   // What is under the finger: how much the skin is pressed together or stretched there.
@@ -187,7 +217,7 @@
     var t = halves === 2 && half === 0 ? 0 : share, body = bodies.find(function (b) { return b.which === (halves === 2 ? half : 1); });
     body.mesh.visible = true;
     var hit = ray.intersectObject(body.mesh)[0];
-    element("reading").textContent = !hit || !body.values ? "" : words_of(t, body.values.getX(hit.face.a));
+    element("reading").textContent = !hit || !body.values ? "" : words_of(t, body.values[hit.face.a]);
   }
 
   function words_of(t, value) {
@@ -207,13 +237,9 @@
     render();
   }
 
-  function begin(model) {
-    var meshes = [];
-    model.scene.updateMatrixWorld(true);
-    model.scene.traverse(function (node) { if (node.isMesh) meshes.push(node); });
+  function begin(meshes) {
     has_beside = meshes.some(function (mesh) { return mesh.name === "beside"; });
     meshes.forEach(add);
-    controls.addEventListener("change", render);
     ["share", "colours"].forEach(function (id) { element(id).addEventListener("input", change); });
     ["lines", "beside"].forEach(function (id) { element(id).addEventListener("input", render); });
     document.querySelectorAll("[data-look]").forEach(function (button) {
@@ -238,8 +264,9 @@
     if (!lines.length)
       ["lines", "close"].forEach(function (id) { element(id).parentElement.hidden = true; });
     take_from_address();
-    change();
+    take_share();
     look();
+    controls.addEventListener("change", render);  // not before: the first picture is drawn once
   }
 
   // fit.html#share=50&look=left&beside=1&colours=0&lines=0&close=0&loop=bust opens that view.
@@ -255,5 +282,5 @@
 
   var packed = atob(element("glb").textContent.trim()), bytes = new Uint8Array(packed.length);
   for (var i = 0; i < packed.length; ++i) bytes[i] = packed.charCodeAt(i);
-  new THREE.GLTFLoader().parse(bytes.buffer, "", begin, function () { document.body.classList.remove("turns"); });
+  begin(meshes_of(bytes.buffer));
 }());

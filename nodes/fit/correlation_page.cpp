@@ -49,13 +49,13 @@ figcaption, footer, .note {{ font-size: 8pt; color: #666 }}
 <tr><th></th><th>mean</th><th>median</th><th>mean size</th><th>rms</th><th>95 % below</th><th>compared</th></tr>
 {distances}</table></div>
 <p class="note">Mean and median carry a sign: positive where the worn surface lies outside. Still skin is what the garment leaves alone: it says how well the two scans lie on each other.</p>
-{section}{pictures}
+{section}{view}{pictures}
 <h2>What the garment did, cm</h2>
 <div class="wide"><table>
 <tr><th></th><th>before</th><th>simulated</th><th>worn</th><th>change simulated</th><th>change worn</th><th>worn less simulated</th></tr>
 {rows}</table></div>
 {notes}<footer>Worn scan {worn}; simulated on {scan}. Heights are above the soles of the scan before. Measured alike on all three bodies.</footer>
-{view}</body>
+</body>
 </html>
 )";
 
@@ -124,7 +124,7 @@ std::string correlation_page(const Correlated& correlated, const std::vector<Pag
       "worn surface",
       end + " outside",
       "<p class=\"note\">Colours and distances are those of the simulated body.</p>\n",
-      {{"attribute", "_distance"},
+      {{"attribute", "_DISTANCE"},
        {"per_cent", false},
        {"here", "the worn surface lies here: "},
        {"low", "inside"},

@@ -62,7 +62,6 @@ std::string view_scripts(const PageView& view) {
   return "<script type=\"application/json\" id=\"facts\">" + facts_of(view) +
          "</script>\n<script type=\"model/gltf-binary\" id=\"glb\">" + files::base64(view.model) +
          "</script>\n" + script(files::bytes_of(three + "/three.min.js")) +
-         script(files::bytes_of(three + "/examples/js/loaders/GLTFLoader.js")) +
          script(files::bytes_of(three + "/examples/js/controls/OrbitControls.js")) +
          script(page_file("view.js"));
 }

@@ -17,7 +17,7 @@ struct PageView {
   std::string beside;             ///< what may stand left of it
   std::string low, middle, high;  ///< of the scale of colours
   std::string notes;
-  /// What is read off under the finger: {"attribute": "_distortion", "per_cent": true, "here": "skin here: ",
+  /// What is read off under the finger: {"attribute": "_DISTORTION", "per_cent": true, "here": "skin here: ",
   /// "low": "pressed together", "same": "unchanged", "high": "stretched"}: per cent of what is above 1, or
   /// millimetres of metres, "none" for values from "none_from" on.
   nlohmann::json reading;

@@ -86,7 +86,7 @@ class Writer {
       attributes[scalar.name] =
           accessor(view(scalar.values, kVertexBuffer), kFloat, "SCALAR", vertices.size());
     Json primitive{{"attributes", std::move(attributes)},
-                   {"indices", add_indices(triangles)},
+                   {"indices", add_indices(triangles, vertices.size())},
                    {"material", add_material(mesh)}};
     Json names = Json::array(), weights = Json::array();
     for (const GlbMorph& morph : mesh.morphs) {
@@ -174,11 +174,20 @@ class Writer {
     return at;
   }
 
-  std::size_t add_indices(const std::vector<Eigen::Vector3i>& triangles) {
-    std::vector<std::uint32_t> indices;
+  // Short where they fit, as pages hold the file. 65535 is no index: it restarts a strip.
+  std::size_t add_indices(const std::vector<Eigen::Vector3i>& triangles, std::size_t vertices) {
+    return vertices < std::numeric_limits<std::uint16_t>::max()
+               ? add_indices<std::uint16_t>(triangles, kUnsignedShort)
+               : add_indices<std::uint32_t>(triangles, kUnsignedInt);
+  }
+
+  template <typename Index>
+  std::size_t add_indices(const std::vector<Eigen::Vector3i>& triangles, int component) {
+    std::vector<Index> indices;
+    indices.reserve(3 * triangles.size());
     for (const Eigen::Vector3i& t : triangles)
-      for (int c = 0; c < 3; ++c) indices.push_back(static_cast<std::uint32_t>(t[c]));
-    return accessor(view(indices, kIndexBuffer), kUnsignedInt, "SCALAR", indices.size());
+      for (int c = 0; c < 3; ++c) indices.push_back(static_cast<Index>(t[c]));
+    return accessor(view(indices, kIndexBuffer), component, "SCALAR", indices.size());
   }
 
   std::size_t add_material(const GlbMesh& mesh) {

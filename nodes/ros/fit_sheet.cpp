@@ -186,7 +186,7 @@ inspect::PageView view_of(const FitFigures& figures, const files::FileContent& m
           "unchanged",
           "stretched",
           "<p class=\"notes\">Choose an underlined measure to see where it is taken.</p>\n",
-          {{"attribute", "_distortion"},
+          {{"attribute", "_DISTORTION"},
            {"per_cent", true},
            {"here", "skin here: "},
            {"low", "pressed together"},

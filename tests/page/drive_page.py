@@ -227,6 +227,7 @@ def drive(page, options, width, turns, pictures):
     browser = Browser(options)
     try:
         at = Page(browser, f"{width} px{'' if turns else ', no WebGL'}")
+        browser.run("!!document.createElement('canvas').getContext('webgl')")  # hers runs when she opens the page
         browser.open(page, width, 900)
         at.expect(browser.run("document.body.classList.contains('turns')") == turns, "3D where there is none, or none where there is")
         if turns:

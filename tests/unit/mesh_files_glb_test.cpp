@@ -68,7 +68,8 @@ TEST(Glb, HasTheMeshInItsAxes) {
   const auto points = glb.values<Vector3f>(primitive["attributes"]["POSITION"]);
   ASSERT_EQ(points.size(), 4U);
   for (std::size_t v = 0; v < 4; ++v) EXPECT_EQ(points[v], y_up(body.shape.vertices[v]).cast<float>());
-  const auto indices = glb.values<std::uint32_t>(primitive["indices"]);
+  EXPECT_EQ(glb.json["accessors"][primitive["indices"].get<std::size_t>()]["componentType"], 5123);
+  const auto indices = glb.values<std::uint16_t>(primitive["indices"]);
   ASSERT_EQ(indices.size(), 12U);
   for (std::size_t i = 0; i < 12; ++i)
     EXPECT_EQ(static_cast<int>(indices[i]), body.shape.triangles[i / 3][static_cast<int>(i % 3)]);
@@ -76,6 +77,19 @@ TEST(Glb, HasTheMeshInItsAxes) {
   for (std::size_t i = 0; i < 12; i += 3)
     volume += points[indices[i]].dot(points[indices[i + 1]].cross(points[indices[i + 2]])) / 6;
   EXPECT_NEAR(volume, 1, 1e-6);
+}
+
+TEST(Glb, HasLongIndicesWhereShortOnesDoNotReach) {
+  GlbMesh body{"body", tetrahedron()};
+  body.shape.vertices.resize(65534, Vector3d::Zero());
+  const auto component = [&body] {
+    const Glb glb(glb_bytes({body}));
+    return glb.json["accessors"][glb.json["meshes"][0]["primitives"][0]["indices"].get<std::size_t>()]
+        .at("componentType");
+  };
+  EXPECT_EQ(component(), 5123);
+  body.shape.vertices.emplace_back(0, 0, 0);
+  EXPECT_EQ(component(), 5125);
 }
 
 TEST(Glb, AMorphTargetLeadsToTheOtherShape) {
