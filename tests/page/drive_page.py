@@ -2,7 +2,7 @@
 """The customer's page by keyboard and as a screen reader has it, in headless Chromium by its DevTools protocol.
 
 usage: drive_page.py PAGE.html [--pictures DIR]
-At 390 and 1280 pixels: every control is reached by Tab in the order of the page, with a focus that can be seen; slider, boxes,
+At 390 and 1280 pixels: the mouse reads off, turns and zooms; every control is reached by Tab in the order of the page, with a focus that can be seen; slider, boxes,
 buttons and the body answer to keys; roles, names and tables of the accessibility tree; nothing is requested but the page. Once
 more without WebGL. Prints what it met and the time of the first picture; ends with 1 where something is wrong."""
 import argparse
@@ -194,6 +194,24 @@ class Page:
         self.expect(self.browser.run("document.querySelector('[data-loop]').getAttribute('aria-pressed')") == "true",
                     "a measure chosen by Enter is not said to be pressed")
 
+    def points(self):
+        """What the mouse does: the value under it, turning by dragging, zoom by the wheel."""
+        self.browser.run("document.querySelector('#canvas').scrollIntoView({block: 'center'})")
+        x, y = self.browser.run("(b => [b.x + b.width / 2, b.y + b.height / 2])(document.getElementById('canvas').getBoundingClientRect())")
+        mouse = lambda kind, right=0, **more: self.browser.ask("Input.dispatchMouseEvent", type=kind, x=x + right, y=y, **more)
+        mouse("mouseMoved")
+        said = self.browser.run("document.getElementById('reading').textContent")
+        self.expect(said, "nothing is read off under the mouse")
+        before = self.browser.picture("#canvas")
+        mouse("mousePressed", button="left", clickCount=1)
+        mouse("mouseMoved", 60, button="left", buttons=1)
+        mouse("mouseReleased", 60, button="left", clickCount=1)
+        turned = self.browser.picture("#canvas")
+        self.expect(turned != before, "dragging does not turn the body")
+        mouse("mouseWheel", deltaX=0, deltaY=-200)
+        self.expect(self.browser.picture("#canvas") != turned, "the wheel does not zoom")
+        print(f"{self.where}: under the mouse: {said}", flush=True)
+
     def reads(self, turns):
         """What a screen reader has."""
         nodes = self.browser.tree()
@@ -240,6 +258,7 @@ def drive(page, options, width, turns, pictures):
             browser.run("scrollTo(0, 0)")
             (pictures / f"{name}.png").write_bytes(browser.picture("body"))
         if turns:
+            at.points()
             at.keys()
             if pictures:
                 browser.run("document.querySelector('.only3d').scrollIntoView()")
