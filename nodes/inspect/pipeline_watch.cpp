@@ -26,7 +26,12 @@ void PipelineWatch::hear(const StageReport& report, double now) {
     dropped_ = report;
     dropped_at_ = now;
   }
-  stages_[report.stage] = {report, now};
+  const bool new_words = before == stages_.end() || before->second.report.state != report.state ||
+                         before->second.report.message != report.message;
+  const bool new_scan = before != stages_.end() && before->second.report.scan_id != report.scan_id;
+  const double said_at = new_words ? now : before->second.said_at;
+  if (report.stage == kStages.front() && new_scan) scan_at_ = now;
+  stages_[report.stage] = {report, now, said_at};
 }
 
 PipelineWatch::State PipelineWatch::state(double now) const {
@@ -68,7 +73,7 @@ void PipelineWatch::look_at_booth(double now, State& state) const {
     if (found == stages_.end() || !words.empty()) continue;
     if (now - found->second.at > kSilence)
       words = words::silent(stage);
-    else if (said_no(found->second.report))
+    else if (said_no(found->second.report) && found->second.said_at >= scan_at_)
       words = words::stage_refused(stage, found->second.report.message);
   }
   if (words.empty() && now - dropped_at_ < kNews)

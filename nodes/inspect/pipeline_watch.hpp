@@ -39,7 +39,8 @@ class PipelineWatch {
  private:
   struct Heard {
     StageReport report;
-    double at;
+    double at;       // heard last
+    double said_at;  // since when state and message are these
   };
   void look_at_booth(double now, State& state) const;
   void add_warnings(State& state) const;
@@ -47,6 +48,7 @@ class PipelineWatch {
   std::map<std::string, Heard> stages_;
   StageReport dropped_;  // the last that a stage named without a change of state
   double dropped_at_ = -kNews;
+  double scan_at_ = 0;  // when the newest scan came: what the booth refused before is no news any more
 };
 
 }  // namespace tensegric_fit::inspect

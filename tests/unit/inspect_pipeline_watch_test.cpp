@@ -78,6 +78,24 @@ TEST(PipelineWatch, WhatIsDroppedIsNewsForAWhile) {
   EXPECT_EQ(watch.state(1.1 + PipelineWatch::kNews).words, words::kReady);
 }
 
+TEST(PipelineWatch, WhatTheBoothRefusedIsShownUntilTheNextScan) {
+  PipelineWatch watch;
+  const StageReport refused{"scan_player", "refused", "b.ply: broken", "b.ply"};
+  all_say(watch, "done", 0);
+  for (const double now : {1.0, 2.0, 3.0}) {
+    all_say(watch, "done", now);
+    watch.hear(refused, now);
+    EXPECT_NE(watch.state(now).words.find("b.ply"), std::string::npos);
+  }
+  for (const char* stage : {"reconstruction", "landmarks", "control_mesh", "tensegric", "tffd"})
+    watch.hear({stage, "done", "done", "next"}, 4);
+  watch.hear(refused, 4);  // it says so once a second, and has played nothing since
+  EXPECT_EQ(watch.state(4).words, words::kReady);
+  EXPECT_FALSE(watch.state(4).trouble);
+  watch.hear({"scan_player", "refused", "c.ply: broken", "c.ply"}, 4.5);
+  EXPECT_NE(watch.state(4.5).words.find("c.ply"), std::string::npos);
+}
+
 TEST(PipelineWatch, WarningsOfTheScanThatIsShownAreSaidAndOfNoOther) {
   PipelineWatch watch;
   all_say(watch, "done", 0);

@@ -30,10 +30,11 @@ TEST(Words, SayPullsInNewtons) {
   const double half_width = pull_uncertainty();
   EXPECT_EQ(with_uncertainty(23.4), fmt::format("23 ± {:.0f}", 23.4 * half_width));
   EXPECT_EQ(with_uncertainty(4.0), fmt::format("4.0 ± {:.1f}", 4 * half_width));
-  EXPECT_NE(pull_help(23.4, 1.66).find(fmt::format(
-                "23 ± {:.0f} N and presses with up to 1.7 ± {:.1f} kPa: less than a waistband",
-                23.4 * half_width, 1.66 * half_width)),
-            std::string::npos);
+  EXPECT_NE(
+      pull_help(23.4, 1.66)
+          .find(fmt::format("23 ± {:.0f} N and presses with up to 1.7 ± {:.1f} kPa: less than a waistband",
+                            23.4 * half_width, 1.66 * half_width)),
+      std::string::npos);
   EXPECT_EQ(pull_help(23.4, 0).find("kPa"), std::string::npos);
 }
 

@@ -84,8 +84,8 @@ TEST(Glb, HasLongIndicesWhereShortOnesDoNotReach) {
   body.shape.vertices.resize(65534, Vector3d::Zero());
   const auto component = [&body] {
     const Glb glb(glb_bytes({body}));
-    return glb.json["accessors"][glb.json["meshes"][0]["primitives"][0]["indices"].get<std::size_t>()]
-        .at("componentType");
+    return glb.json["accessors"][glb.json["meshes"][0]["primitives"][0]["indices"].get<std::size_t>()].at(
+        "componentType");
   };
   EXPECT_EQ(component(), 5123);
   body.shape.vertices.emplace_back(0, 0, 0);
