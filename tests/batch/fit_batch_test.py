@@ -107,6 +107,25 @@ class FitBatch(unittest.TestCase):
         self.assertEqual(fit_batch(self.manifest, "--out", self.whole).returncode, 0)
         self.assertEqual(lines_of(self.whole), before)
 
+    def test_gnu_parallel_starts_shards_that_failed_again(self):
+        if shutil.which("parallel") is None:
+            self.skipTest("GNU parallel is not installed: shards were not run by it")
+        out = self.folder / "parallel"
+        out.mkdir()
+        (out / "shard-2").write_text("a file where the folder should be")
+        command = ["parallel", "--will-cite", "--joblog", out / "log.txt", "--resume-failed", PROGRAMS / "fit_batch", self.manifest,
+                   "--out", out / "shard-{}", "--shard", "{}/2", "--jobs", "1", "--quiet"]
+        run = lambda: subprocess.run(command, input="1\n2\n", text=True, capture_output=True, check=False,
+                                     env={**os.environ, "HOME": str(out)}).returncode
+        self.assertEqual(run(), 1)  # so many shards failed
+        self.assertEqual(self.merged(out / "shard-1")[0], 4)
+        (out / "shard-2").unlink()
+        self.assertEqual(run(), 0)
+        with open(out / "log.txt", encoding="utf-8", newline="") as file:
+            shards = [row["Command"].split("--shard ")[1].split("/")[0] for row in csv.DictReader(file, delimiter="\t")]
+        self.assertEqual(sorted(shards), ["1", "2", "2"])
+        self.assertEqual(self.merged(out / "shard-1", out / "shard-2"), (0, self.table))
+
     def test_killed_at_any_time_it_goes_on(self):
         folder = self.folder / "killed"
         for seconds in (0.3, 1.6):
