@@ -1,5 +1,7 @@
 #include "geometry/shipped_files.hpp"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <vector>
@@ -25,10 +27,15 @@ std::string names_in(const fs::path& folder) {
 }  // namespace
 
 std::string shipped_folder(const std::string& name) {
-  // lib/tensegric_fit/<program> -> share/tensegric_fit/launch/<name>
-  return (fs::read_symlink("/proc/self/exe").parent_path() / "../../share/tensegric_fit/launch" / name)
-      .lexically_normal()
-      .string();
+  const fs::path launch = fs::path("share/tensegric_fit/launch");
+  Dl_info library{};
+  fs::path folder;
+  if (dladdr(reinterpret_cast<const void*>(&shipped_folder), &library) != 0)
+    folder = fs::absolute(library.dli_fname).lexically_normal().parent_path();
+  std::error_code unreadable;
+  while (folder.has_relative_path() && !fs::is_directory(folder / launch, unreadable))
+    folder = folder.parent_path();
+  return (folder / launch / name).string();
 }
 
 std::string yaml_file(const std::string& folder, const std::string& word, const std::string& code) {

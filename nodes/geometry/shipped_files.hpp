@@ -1,5 +1,5 @@
-/// Paths of the shipped garments and templates: share/tensegric_fit relative to the program, installed or
-/// not, so that no environment variable is needed.
+/// Paths of the shipped garments and templates: share/tensegric_fit beside the folder of this library,
+/// installed or not and also in rviz, so that no environment variable is needed.
 #pragma once
 
 #include <string>
