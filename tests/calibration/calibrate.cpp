@@ -206,10 +206,12 @@ std::string newtons_yaml(const PullRatios& ratios, int control_triangles) {
   double squares = 0;
   for (const auto& [name, ratio] : ratios) squares += std::pow(std::log(ratio), 2);
   const double half_width = kTwoSided95 * std::sqrt(squares / static_cast<double>(ratios.size()));
-  const auto within = std::count_if(ratios.begin(), ratios.end(),
-                                    [&](const auto& r) { return std::abs(std::log(r.second)) <= half_width; });
+  const auto within = std::count_if(ratios.begin(), ratios.end(), [&](const auto& r) {
+    return std::abs(std::log(r.second)) <= half_width;
+  });
   std::string text = fmt::format(
-      "# How near pulls are to the newtons of finite elements: `calibrate CASES --errors --newtons FILE` wrote "
+      "# How near pulls are to the newtons of finite elements: `calibrate CASES --errors --newtons FILE` "
+      "wrote "
       "this\n# (tests/calibration/README.md).\nmade: {}\ncontrol_triangles: {}\ncases: {}\nwithin: {}\n"
       "half_width: {:.2f}    # of a pull, 95 %\nratios:    # pull over the reference's\n",
       today(), control_triangles, ratios.size(), within, half_width);
