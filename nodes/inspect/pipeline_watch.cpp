@@ -71,10 +71,12 @@ void PipelineWatch::look_at_booth(double now, State& state) const {
   for (const char* stage : kBooth) {
     const auto found = stages_.find(stage);
     if (found == stages_.end() || !words.empty()) continue;
-    if (now - found->second.at > kSilence)
+    if (now - found->second.at > kSilence) {
       words = words::silent(stage);
-    else if (said_no(found->second.report) && found->second.said_at >= scan_at_)
+    } else if (said_no(found->second.report) && found->second.said_at >= scan_at_) {
       words = words::stage_refused(stage, found->second.report.message);
+      state.newest_scan = found->second.report.scan_id;
+    }
   }
   if (words.empty() && now - dropped_at_ < kNews)
     words = words::stage_refused(dropped_.stage, dropped_.last_error);

@@ -2,7 +2,8 @@
 """A batch over two nodes of a real Slurm (munged, slurmctld, two slurmd on loopback), one of them killed in the middle: the merged
 table has the same bytes as one made without any engine. Left out with a word where Slurm is not installed.
 
-Usage: slurm_test.py FOLDER_OF_THE_PROGRAMS [--rows N] [--keep]"""
+Usage: slurm_test.py FOLDER_OF_THE_PROGRAMS [--rows N] [--scaling] [--keep]
+--scaling: instead, how long one node takes and how long two, none killed."""
 import argparse
 import csv
 import getpass
@@ -46,7 +47,7 @@ KillWait=2
 ReturnToService=2
 MpiDefault=none
 {nodes}
-PartitionName=all Nodes=node1,node2 Default=YES MaxTime=INFINITE State=UP
+PartitionName=all Nodes={names} Default=YES MaxTime=INFINITE State=UP
 """
 
 
@@ -76,20 +77,21 @@ def content(path):
 
 
 class Cluster:
-    """Two nodes of one core each; daemons in the foreground, ended with it."""
+    """Nodes of one core each; daemons in the foreground, ended with it."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, count=2):
         self.folder = folder
+        self.nodes = [f"node{i}" for i in range(1, count + 1)]
         self.daemons = {}
-        ports = free_ports(3)
+        control_port, *ports = free_ports(1 + count)
         host = socket.gethostname()
-        nodes = "\n".join(f"NodeName=node{i} NodeHostname={host} NodeAddr=127.0.0.1 Port={ports[i]} CPUs=1 State=UNKNOWN"
-                          for i in (1, 2))
+        nodes = "\n".join(f"NodeName={node} NodeHostname={host} NodeAddr=127.0.0.1 Port={port} CPUs=1 State=UNKNOWN"
+                          for node, port in zip(self.nodes, ports))
         (folder / "state").mkdir(parents=True)
-        for i in (1, 2):
-            (folder / f"spool-node{i}").mkdir()
-        (folder / "slurm.conf").write_text(CONFIG.format(host=host, user=getpass.getuser(), folder=folder,
-                                                         control_port=ports[0], nodes=nodes))
+        for node in self.nodes:
+            (folder / f"spool-{node}").mkdir()
+        (folder / "slurm.conf").write_text(CONFIG.format(host=host, user=getpass.getuser(), folder=folder, control_port=control_port,
+                                                         nodes=nodes, names=",".join(self.nodes)))
         (folder / "cgroup.conf").write_text("CgroupPlugin=cgroup/v1\nCgroupAutomount=no\n")
         self.environment = dict(os.environ, SLURM_CONF=str(folder / "slurm.conf"))
         key = folder / "munge.key"
@@ -99,9 +101,9 @@ class Cluster:
                    f"--pid-file={folder}/munged.pid", f"--log-file={folder}/munged.log", f"--seed-file={folder}/munged.seed")
         wait_until((folder / "munge.socket").exists, "munged", 20)
         self.start("slurmctld", "-D", "-i")
-        for i in (1, 2):
-            self.start("slurmd", "-D", "-N", f"node{i}", name=f"node{i}")
-        wait_until(lambda: self.ask("sinfo", "-h", "-o", "%T %D").strip() == "idle 2", "two idle nodes", 60)
+        for node in self.nodes:
+            self.start("slurmd", "-D", "-N", node, name=node)
+        wait_until(lambda: self.ask("sinfo", "-h", "-o", "%T %D").strip() == f"idle {count}", "idle nodes", 60)
 
     def start(self, program, *arguments, name=None):
         name = name or program
@@ -135,7 +137,7 @@ class Cluster:
         self.daemons[node].wait()
 
     def stop(self):
-        for name in ("node1", "node2", "slurmctld", "munged"):
+        for name in (*self.nodes, "slurmctld", "munged"):
             if name in self.daemons and self.daemons[name].poll() is None:
                 self.daemons[name].terminate()
         for daemon in self.daemons.values():
@@ -197,10 +199,31 @@ def run(folder, programs, rows):
     return 0 if same and requeued else 1
 
 
+def scaling(folder, programs, rows):
+    manifest = manifest_of(folder, programs, rows)
+    seconds = {}
+    for count in (1, 2):
+        cluster = Cluster(folder / f"cluster{count}", count)
+        out = folder / f"slurm{count}"
+        try:
+            begin = time.monotonic()
+            subprocess.run([LAUNCH / "submit.sh", manifest, out, "4"],
+                           env=dict(cluster.environment, FIT_BATCH=str(programs / "fit_batch")), check=True, capture_output=True)
+            wait_until(lambda: rows_in(out / "table/table.csv") == rows, "the table", 120 + 10 * rows)
+            seconds[count] = time.monotonic() - begin
+        finally:
+            cluster.stop()
+    same = (folder / "slurm1/table/table.csv").read_bytes() == (folder / "slurm2/table/table.csv").read_bytes()
+    print(f"{rows} rows in 4 shards: one node {seconds[1]:.0f} s, two {seconds[2]:.0f} s, {seconds[1] / seconds[2]:.2f} times as fast; "
+          f"tables {'equal' if same else 'DIFFER'}")
+    return 0 if same else 1
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("programs", type=pathlib.Path)
     parser.add_argument("--rows", type=int, default=8)
+    parser.add_argument("--scaling", action="store_true", help="one node against two, none killed")
     parser.add_argument("--keep", action="store_true", help="the folder with logs is kept")
     arguments = parser.parse_args()
     os.environ["PATH"] += ":/usr/sbin:/sbin"
@@ -214,7 +237,7 @@ def main():
     folder = pathlib.Path(tempfile.mkdtemp(prefix="slurm_test_"))
     folder.chmod(0o755)  # munged looks at the way to its socket
     try:
-        return run(folder, arguments.programs.resolve(), arguments.rows)
+        return (scaling if arguments.scaling else run)(folder, arguments.programs.resolve(), arguments.rows)
     finally:
         if arguments.keep:
             print(folder)

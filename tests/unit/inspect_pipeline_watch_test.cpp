@@ -86,11 +86,13 @@ TEST(PipelineWatch, WhatTheBoothRefusedIsShownUntilTheNextScan) {
     all_say(watch, "done", now);
     watch.hear(refused, now);
     EXPECT_NE(watch.state(now).words.find("b.ply"), std::string::npos);
+    EXPECT_EQ(watch.state(now).newest_scan, "b.ply") << "the body that is shown is not hers";
   }
   for (const char* stage : {"reconstruction", "landmarks", "control_mesh", "tensegric", "tffd"})
     watch.hear({stage, "done", "done", "next"}, 4);
   watch.hear(refused, 4);  // it says so once a second, and has played nothing since
   EXPECT_EQ(watch.state(4).words, words::kReady);
+  EXPECT_EQ(watch.state(4).newest_scan, "next");
   EXPECT_FALSE(watch.state(4).trouble);
   watch.hear({"scan_player", "refused", "c.ply: broken", "c.ply"}, 4.5);
   EXPECT_NE(watch.state(4.5).words.find("c.ply"), std::string::npos);
