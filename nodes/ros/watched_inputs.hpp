@@ -3,7 +3,9 @@
 
 #include <ros/ros.h>
 
+#include <atomic>
 #include <functional>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -11,10 +13,12 @@
 
 namespace tensegric_fit::node {
 
-/// In two test runs the scan player had published its latched scan, and for two minutes the reconstruction
-/// waited for input. Why is not known. One way to it: roscpp 1.15.15 asks a publisher for a connection once,
-/// and waits for ever where no answer comes (tests/faults/silent_publisher.py). So where a publisher is
-/// announced and none is connected, at two looks in a row, the subscription is made anew.
+/// In some test runs on a busy machine the scan player had published its latched scan, and for two minutes
+/// the reconstruction waited for input, once with a connection. Why is not known. One way to it:
+/// roscpp 1.15.15 asks a publisher for a connection once, and waits for ever where no answer comes
+/// (tests/faults/silent_publisher.py). So where a publisher is announced and none is connected, at two looks
+/// in a row, the subscription is made anew; and once where one is connected and nothing has come: what is
+/// latched comes with a connection.
 class WatchedInputs {
  public:
   using Subscribe = std::function<ros::Subscriber()>;
@@ -27,11 +31,19 @@ class WatchedInputs {
   WatchedInputs& operator=(const WatchedInputs&) = delete;
 
   /// As NodeHandle::subscribe for a method of a node.
-  template <typename... Arguments>
-  void subscribe(const std::string& topic, const Arguments&... arguments) {
-    add([=]() mutable { return node_.subscribe(topic, arguments...); });
+  template <typename Argument, typename Node>
+  void subscribe(const std::string& topic, std::uint32_t queue, void (Node::*method)(Argument), Node* node,
+                 const ros::TransportHints& hints = {}) {
+    const auto heard = std::make_shared<std::atomic<bool>>(false);
+    const boost::function<void(Argument)> hear = [heard, method, node](Argument message) {
+      *heard = true;
+      (node->*method)(message);
+    };
+    const Subscribe subscribe = [this, topic, queue, hear, hints] {
+      return node_.subscribe<Argument>(topic, queue, hear, ros::VoidConstPtr(), hints);
+    };
+    inputs_.push_back({subscribe, subscribe(), heard});
   }
-  void add(const Subscribe& subscribe) { inputs_.push_back({subscribe, subscribe(), false}); }
 
  private:
   static constexpr double kSeconds = 3;  // a negotiation takes milliseconds
@@ -39,24 +51,35 @@ class WatchedInputs {
   struct Input {
     Subscribe subscribe;
     ros::Subscriber subscriber;
-    bool lacked;
+    std::shared_ptr<std::atomic<bool>> heard;
+    bool lacked = false;          // at the last look
+    bool connected_anew = false;  // though one was connected
   };
 
   void look() {
     bool any = false;
-    for (const Input& input : inputs_) any |= input.subscriber.getNumPublishers() == 0;
+    for (Input& input : inputs_) {
+      if (input.subscriber.getNumPublishers() == 0) input.connected_anew = false;
+      any |= lacks(input);
+    }
     if (!any) return;
     const std::set<std::string> announced = announced_topics();
     for (Input& input : inputs_) {
       const std::string topic = input.subscriber.getTopic();
-      const bool lacks = input.subscriber.getNumPublishers() == 0 && announced.count(topic) > 0;
-      const bool again = lacks && input.lacked;
-      input.lacked = lacks && !again;
+      const bool lacks_it = lacks(input) && announced.count(topic) > 0;
+      const bool again = lacks_it && input.lacked;
+      input.lacked = lacks_it && !again;
       if (!again) continue;
-      ROS_WARN("%s: a publisher is announced and not connected; subscribed anew", topic.c_str());
+      input.connected_anew = input.subscriber.getNumPublishers() > 0;
+      if (!input.connected_anew)
+        ROS_WARN("%s: a publisher is announced and not connected; subscribed anew", topic.c_str());
       input.subscriber.shutdown();
       input.subscriber = input.subscribe();
     }
+  }
+
+  static bool lacks(const Input& input) {
+    return input.subscriber.getNumPublishers() == 0 || (!*input.heard && !input.connected_anew);
   }
 
   /// What the master knows publishers of; nothing where it does not answer.
