@@ -17,7 +17,6 @@ constexpr Tolerance kAtSaddle{1e-5, 1e-6, 1e-6};
 constexpr int kMostHoldChanges = 20, kMostHalvings = 14;
 constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();  // of the coordinates
 constexpr double kContradicted = 1e-6;  // of a neutral length: far above rounding
-constexpr double kSlow = 0.1;           // of the residual before: less is Newton's own pace near a balance
 constexpr int kMostMends = 8;
 constexpr double kMended = 1e-12;     // relative, of volumes and lengths
 constexpr int kStepsBeyondLimit = 3;  // a tension may overshoot for a step or two
@@ -136,7 +135,8 @@ bool Newton::advance(Balance& at, const Load& load, KktResidual& defect, const S
   double longest = 0;
   for (int i = 0; i < problem_.free_nodes; ++i)
     longest = std::max(longest, step.move.segment<3>(3 * i).norm());
-  const auto tried = [&](double length) {
+  double length = longest > longest_move_ ? longest_move_ / longest : 1;
+  for (int halving = 0; halving < kMostHalvings; ++halving, length /= 2) {
     Balance trial = at;
     move(trial.x, length * step.move);
     trial.pressures += length * step.multipliers.head(regions);
@@ -146,30 +146,14 @@ bool Newton::advance(Balance& at, const Load& load, KktResidual& defect, const S
       trial.pushes[step.lines[k].unit] =
           std::max(0.0, step.lines[k].push + length * step.push_change[static_cast<Eigen::Index>(k)]);
     KktResidual there = kkt_.defect(trial, load);
-    if (length >= 1) {
+    if (length == 1) {
       Eigen::VectorXd broken = there.conditions;
       for (Eigen::Index i = 0; i < broken.size(); ++i)
         if (!kept(i)) broken[i] = 0;
       move(trial.x, kkt_.correction(broken));
       there = kkt_.defect(trial, load);
     }
-    return std::pair(std::move(trial), std::move(there));
-  };
-  double length = longest > longest_move_ ? longest_move_ / longest : 1;
-  for (int halving = 0; halving < kMostHalvings; ++halving, length /= 2) {
-    auto [trial, there] = tried(length);
-    double reached = merit(trial, there);
-    // A part far out on its stiffening law (force as the cube of its strain) comes nearer by a third per
-    // step.
-    if (length == 1 && there.residual > kSlow * defect.residual && 2 * longest < longest_move_) {
-      auto [further, beyond] = tried(2);
-      const double merit_there = merit(further, beyond);
-      if (merit_there < reached && beyond.residual < there.residual) {
-        trial = std::move(further);
-        there = std::move(beyond);
-        reached = merit_there;
-      }
-    }
+    const double reached = merit(trial, there);
     if (reached <= start + 1e-4 * length * std::min(slope, 0.0) + 1e-12 * std::abs(start)) {
       merit_change_ = (reached - start) / std::max(std::abs(start), std::numeric_limits<double>::min());
       at = trial;
