@@ -1,11 +1,12 @@
-// The 3D view of a page: turns a body before and with a garment. Needs THREE and THREE.OrbitControls (Debian's libjs-three) and, in the page, the elements that it looks up by id. Asks no server for anything. Where there is no WebGL the page keeps its pictures.
+// The 3D view of a page: turns a body before and with a garment. Needs THREE and THREE.OrbitControls (Debian's libjs-three) and, in the page,
+// the elements that it looks up by id. Asks no server for anything. Where there is no WebGL the page keeps its pictures.
 (function () {
   "use strict";
   var element = function (id) { return document.getElementById(id); };
   var canvas = element("canvas"), facts = JSON.parse(element("facts").textContent);
 
   if (!canvas.drawn_by) return;  // the pictures stay
-  var renderer = new THREE.WebGLRenderer({canvas: canvas, context: canvas.drawn_by, antialias: true, alpha: true});
+  var renderer = new THREE.WebGLRenderer({canvas: canvas, context: canvas.drawn_by});
   renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
 
   var camera = new THREE.PerspectiveCamera(28, 1, 0.05, 20);
@@ -90,6 +91,9 @@
     };
   }
 
+  // 0 of the body before, else the slider's.
+  function share_of(made) { return made.which === 1 ? share : 0; }
+
   function paint(body, t) {
     var coloured = element("colours").checked, shown = coloured ? t : 0, source = body.colours;
     var plain = coloured ? neutral : kSkin, painted = coloured + " " + t;
@@ -151,8 +155,8 @@
       lines.forEach(function (l) { l.mesh.visible = l.which === only && element("lines").checked; });
       bodies.concat(lines).forEach(function (made) {
         if (!made.mesh.visible) return;
-        made.show(made.which === 1 ? share : 0);
-        if (bodies.indexOf(made) >= 0) paint(made, made.which === 1 ? share : 0);
+        made.show(share_of(made));
+        paint(made, share_of(made));
       });
       if (loop) draw_loop(halves === 2 && half === 0 ? 0 : share);
       renderer.setViewport(half * width / halves, 0, width / halves, height);
@@ -164,7 +168,6 @@
 
   function take_share() {
     share = element("share").valueAsNumber / 100;
-    draw_loop(share);
     element("share").setAttribute("aria-valuetext", Math.round(100 * share) + " % of the way to the garment");
   }
 
@@ -176,7 +179,7 @@
   // Her whole body, or the part of it that the garment's lines are on.
   function frame() {
     var box = new THREE.Box3();
-    if (close) lines.forEach(function (line) { line.show(line.which === 1 ? share : 0); box.expandByObject(line.mesh); });
+    if (close) lines.forEach(function (line) { line.show(share_of(line)); box.expandByObject(line.mesh); });
     if (!box.isEmpty()) return box.expandByScalar(0.12);
     return box.setFromObject(bodies[0].mesh);
   }

@@ -8,7 +8,6 @@
 #include <memory>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace tensegric_fit::node {
@@ -18,11 +17,9 @@ namespace tensegric_fit::node {
 /// roscpp 1.15.15 asks a publisher for a connection once, and waits for ever where no answer comes
 /// (tests/faults/silent_publisher.py). So where a publisher is announced and none is connected, at two looks
 /// in a row, the subscription is made anew; and once where one is connected and nothing has come: what is
-/// latched comes with a connection.
+/// latched comes with a connection. So in an idle shop each input connects again once after its start.
 class WatchedInputs {
  public:
-  using Subscribe = std::function<ros::Subscriber()>;
-
   explicit WatchedInputs(const ros::NodeHandle& node)
       : node_(node),
         watch_(node.createWallTimer(ros::WallDuration(kSeconds),
@@ -39,7 +36,7 @@ class WatchedInputs {
       *heard = true;
       (node->*method)(message);
     };
-    const Subscribe subscribe = [this, topic, queue, hear, hints] {
+    const auto subscribe = [this, topic, queue, hear, hints] {
       return node_.subscribe<Argument>(topic, queue, hear, ros::VoidConstPtr(), hints);
     };
     inputs_.push_back({subscribe, subscribe(), heard});
@@ -49,7 +46,7 @@ class WatchedInputs {
   static constexpr double kSeconds = 3;  // a negotiation takes milliseconds
 
   struct Input {
-    Subscribe subscribe;
+    std::function<ros::Subscriber()> subscribe;
     ros::Subscriber subscriber;
     std::shared_ptr<std::atomic<bool>> heard;
     bool lacked = false;          // at the last look

@@ -84,8 +84,8 @@ def main():
     for name in ("killed", "alone"):
         subprocess.run([fit_batch, "merge", work / name, "--out", work / f"{name}_table", "--quiet"], check=True)
     tables = [(work / f"{name}_table/table.csv").read_bytes() for name in ("killed", "alone")]
-    print(json.dumps({"rows": arguments.rows, "full_scans": arguments.full_scans, "bodies": arguments.bodies, "kind": arguments.kind, "seed": arguments.seed,
-                      "kills": kills, "seconds_with_kills": round(middle - begin), "seconds_without": round(end - middle),
+    print(json.dumps({"rows": arguments.rows, "full_scans": arguments.full_scans, "bodies": arguments.bodies, "kind": arguments.kind,
+                      "seed": arguments.seed, "kills": kills, "seconds_with_kills": round(middle - begin), "seconds_without": round(end - middle),
                       "equal": tables[0] == tables[1]}))
     return 0 if tables[0] == tables[1] else 1
 

@@ -2,7 +2,7 @@
 """silent_publisher.py
 
 Publishers that the master knows and that do not answer the first request for a connection. Every stage has to ask again: roscpp by itself does not
-(nodes/ros/watched_inputs.hpp). The second request gets a connection on which nothing comes: every stage has to connect once more, and no oftener.
+(nodes/ros/watched_inputs.hpp). The second request gets a connection on which nothing comes: every stage has to connect once more, and not a third time.
 Exit 0 where all do, else 1.
 """
 import os
@@ -97,9 +97,9 @@ def main():
             first, second = mute.connections[node][:2]
             print("%s asked again after %.1f s, connected anew after %.1f s" % (node, times[1] - times[0], second - first))
         time.sleep(9)  # three looks
-        oftener = [node for node, times in mute.connections.items() if len(times) > 2]
-        print("failed: connected oftener: " + ", ".join(oftener) if oftener else "and no oftener")
-        return 1 if oftener else 0
+        third = [node for node, times in mute.connections.items() if len(times) > 2]
+        print("failed: a third connection: " + ", ".join(third) if third else "and not a third time")
+        return 1 if third else 0
     finally:
         over.set()
         for process in (*nodes, core):

@@ -2,8 +2,8 @@
 """The customer's page by keyboard and as a screen reader has it, in headless Chromium by its DevTools protocol.
 
 usage: drive_page.py PAGE.html [--pictures DIR]
-At 390 and 1280 pixels: the mouse reads off, turns and zooms; every control is reached by Tab in the order of the page, with a focus that can be seen; slider, boxes,
-buttons and the body answer to keys; roles, names and tables of the accessibility tree; nothing is requested but the page. Once
+At 390 and 1280 pixels: the mouse reads off, turns and zooms; every control is reached by Tab in the order of the page, with a focus
+that can be seen; slider, boxes, buttons and the body answer to keys; roles, names and tables of the accessibility tree; nothing is requested but the page. Once
 more without WebGL. Prints what it met and the time of the first picture; ends with 1 where something is wrong."""
 import argparse
 import base64
@@ -194,7 +194,7 @@ class Page:
         self.expect(self.browser.run("document.querySelector('[data-loop]').getAttribute('aria-pressed')") == "true",
                     "a measure chosen by Enter is not said to be pressed")
 
-    def points(self):
+    def by_mouse(self):
         """What the mouse does: the value under it, turning by dragging, zoom by the wheel."""
         self.browser.run("document.querySelector('#canvas').scrollIntoView({block: 'center'})")
         x, y = self.browser.run("(b => [b.x + b.width / 2, b.y + b.height / 2])(document.getElementById('canvas').getBoundingClientRect())")
@@ -258,7 +258,7 @@ def drive(page, options, width, turns, pictures):
             browser.run("scrollTo(0, 0)")
             (pictures / f"{name}.png").write_bytes(browser.picture("body"))
         if turns:
-            at.points()
+            at.by_mouse()
             at.keys()
             if pictures:
                 browser.run("document.querySelector('.only3d').scrollIntoView()")
