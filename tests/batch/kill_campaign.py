@@ -1,17 +1,20 @@
 #!/usr/bin/env python3
 """A batch that is killed again and again: `fit_batch` with all its workers by SIGKILL at random times, until it is through. The merged
-table must have the same bytes as one of a batch that was left alone. Resumable: run it again with the same --work.
+table must have the same bytes as one of a batch that was left alone. Resumable: run it again with the same --work, or, where that is gone, with
+the same --results: each of --parts is a batch of its own, and has a line there.
 
 --full-scans: so many of the rows, spread evenly, are clouds of full size; the others are meshes as booths deliver them (--kind mesh) or clouds
 of 9,000 points (--kind scan).
 
-Usage: kill_campaign.py FOLDER_OF_THE_PROGRAMS --work DIR [--rows N] [--full-scans F] [--bodies M] [--kind scan|mesh] [--seed S]"""
+Usage: kill_campaign.py FOLDER_OF_THE_PROGRAMS --work DIR [--results FILE] [--rows N] [--parts P] [--full-scans F] [--bodies M] [--kind scan|mesh]
+[--seed S]"""
 import argparse
 import csv
 import json
 import os
 import pathlib
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -26,20 +29,17 @@ def make_bodies(work, programs, count, options):
                            stdout=subprocess.DEVNULL)
 
 
-def manifest_of(work, programs, arguments):
+def manifest_of(folder, work, rows, arguments):
     """Rows of M random bodies, each with ratios of its own."""
-    make_bodies(work / "small", programs, arguments.bodies, ("--points", "9000"))
-    if arguments.full_scans:
-        make_bodies(work / "full", programs, arguments.bodies, ())
-    manifest = work / "manifest.csv"
+    manifest = folder / "manifest.csv"
     with open(manifest, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(("name", "scan", "mesh", "garment", "ratio"))
-        for row in range(arguments.rows):
+        for row in rows:
             body = row % arguments.bodies + 1
             full = row * arguments.full_scans // arguments.rows != (row + 1) * arguments.full_scans // arguments.rows
-            small = {"scan": (f"small/{body}/scan.ply", ""), "mesh": ("", f"small/{body}/body.ply")}[arguments.kind]
-            writer.writerow((row, *((f"full/{body}/scan.ply", "") if full else small), "B1", f"{0.99 - 0.09 * row / arguments.rows:.6f}"))
+            small = {"scan": (f"{work}/small/{body}/scan.ply", ""), "mesh": ("", f"{work}/small/{body}/body.ply")}[arguments.kind]
+            writer.writerow((row, *((f"{work}/full/{body}/scan.ply", "") if full else small), "B1", f"{0.99 - 0.09 * row / arguments.rows:.6f}"))
     return manifest
 
 
@@ -62,11 +62,34 @@ def run_killed(command, seed, count):
             count.write_text(str(kills))
 
 
+def run_part(part, work, arguments):
+    """What came of one part, as a line of the results."""
+    folder = work / f"part{part}"
+    folder.mkdir(exist_ok=True)
+    rows = range(part * arguments.rows // arguments.parts, (part + 1) * arguments.rows // arguments.parts)
+    manifest = manifest_of(folder, work, rows, arguments)
+    fit_batch = arguments.programs / "fit_batch"
+    begin = time.monotonic()
+    kills = run_killed([fit_batch, manifest, "--out", folder / "killed", "--quiet"], f"{arguments.seed} {part}", folder / "kills.txt")
+    middle = time.monotonic()
+    subprocess.run([fit_batch, manifest, "--out", folder / "alone", "--quiet"], check=True)
+    end = time.monotonic()
+    for name in ("killed", "alone"):
+        subprocess.run([fit_batch, "merge", folder / name, "--out", folder / f"{name}_table", "--quiet"], check=True)
+    tables = [(folder / f"{name}_table/table.csv").read_bytes() for name in ("killed", "alone")]
+    return {"part": part, "parts": arguments.parts, "rows": len(rows), "full_scans": arguments.full_scans // arguments.parts,
+            "kind": arguments.kind, "bodies": arguments.bodies, "seed": arguments.seed, "date": time.strftime("%Y-%m-%d"), "kills": kills,
+            "seconds_with_kills": round(middle - begin), "seconds_without": round(end - middle),
+            "lines_in_table": tables[0].count(b"\n") - 1, "equal": tables[0] == tables[1]}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("programs", type=pathlib.Path)
     parser.add_argument("--work", type=pathlib.Path, required=True)
+    parser.add_argument("--results", type=pathlib.Path, help="JSON lines; parts that it has are left out")
     parser.add_argument("--rows", type=int, default=10000)
+    parser.add_argument("--parts", type=int, default=1)
     parser.add_argument("--full-scans", type=int, default=0)
     parser.add_argument("--bodies", type=int, default=100)
     parser.add_argument("--kind", choices=("scan", "mesh"), default="scan")
@@ -74,20 +97,22 @@ def main():
     arguments = parser.parse_args()
     work = arguments.work.resolve()
     work.mkdir(parents=True, exist_ok=True)
-    manifest = manifest_of(work, arguments.programs, arguments)
-    fit_batch = arguments.programs / "fit_batch"
-    begin = time.monotonic()
-    kills = run_killed([fit_batch, manifest, "--out", work / "killed", "--quiet"], arguments.seed, work / "kills.txt")
-    middle = time.monotonic()
-    subprocess.run([fit_batch, manifest, "--out", work / "alone", "--quiet"], check=True)
-    end = time.monotonic()
-    for name in ("killed", "alone"):
-        subprocess.run([fit_batch, "merge", work / name, "--out", work / f"{name}_table", "--quiet"], check=True)
-    tables = [(work / f"{name}_table/table.csv").read_bytes() for name in ("killed", "alone")]
-    print(json.dumps({"rows": arguments.rows, "full_scans": arguments.full_scans, "bodies": arguments.bodies, "kind": arguments.kind,
-                      "seed": arguments.seed, "kills": kills, "seconds_with_kills": round(middle - begin), "seconds_without": round(end - middle),
-                      "equal": tables[0] == tables[1]}))
-    return 0 if tables[0] == tables[1] else 1
+    results = arguments.results or work / "results.jsonl"
+    done = [json.loads(line) for line in results.read_text(encoding="utf-8").splitlines()] if results.exists() else []
+    make_bodies(work / "small", arguments.programs, arguments.bodies, ("--points", "9000"))
+    if arguments.full_scans:
+        make_bodies(work / "full", arguments.programs, arguments.bodies, ())
+    for part in range(arguments.parts):
+        if part in (line["part"] for line in done):
+            continue
+        done.append(run_part(part, work, arguments))
+        print(json.dumps(done[-1]), flush=True)
+        with open(results, "a", encoding="utf-8") as file:
+            file.write(json.dumps(done[-1]) + "\n")
+        shutil.rmtree(work / f"part{part}")
+    whole = all(line["equal"] and line["lines_in_table"] == line["rows"] for line in done)
+    print(f"{sum(line['rows'] for line in done)} rows, {sum(line['kills'] for line in done)} kills: " + ("equal" if whole else "NOT equal"))
+    return 0 if whole else 1
 
 
 if __name__ == "__main__":
