@@ -264,6 +264,7 @@
       event.preventDefault();
     });
     window.addEventListener("resize", render);
+    canvas.addEventListener("webglcontextrestored", render);  // phones take it from pages in the background
     if (!lines.length)
       ["lines", "close"].forEach(function (id) { element(id).parentElement.hidden = true; });
     take_from_address();

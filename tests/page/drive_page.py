@@ -3,7 +3,8 @@
 
 usage: drive_page.py PAGE.html [--pictures DIR]
 At 390 and 1280 pixels: the mouse reads off, turns and zooms; every control is reached by Tab in the order of the page, with a focus
-that can be seen; slider, boxes, buttons and the body answer to keys; roles, names and tables of the accessibility tree; nothing is requested but the page. Once
+that can be seen; WebGL is lost and comes back; slider, boxes, buttons and the body answer to keys; roles, names and tables of the
+accessibility tree; nothing is requested but the page. Once
 more without WebGL. Prints what it met and the time of the first picture; ends with 1 where something is wrong."""
 import argparse
 import base64
@@ -212,6 +213,20 @@ class Page:
         self.expect(self.browser.picture("#canvas") != turned, "the wheel does not zoom")
         print(f"{self.where}: under the mouse: {said}", flush=True)
 
+    def context_lost(self):
+        """A browser may take WebGL from a page, and give it back. No picture is taken meanwhile: that would have the page drawn."""
+        self.browser.run("""(() => {
+          const gl = document.getElementById('canvas').drawn_by, draw = gl.drawElements;
+          window.drawn = 0;
+          gl.drawElements = function () { ++drawn; draw.apply(gl, arguments); };
+          window.taken = gl.getExtension('WEBGL_lose_context');
+          taken.loseContext();
+        })()""")
+        time.sleep(0.5)  # the browser says so to the page when it is idle
+        self.browser.run("taken.restoreContext()")
+        time.sleep(1)
+        self.expect(self.browser.run("drawn") > 0, "the body is not drawn again after WebGL came back")
+
     def reads(self, turns):
         """What a screen reader has."""
         nodes = self.browser.tree()
@@ -258,6 +273,7 @@ def drive(page, options, width, turns, pictures):
             browser.run("scrollTo(0, 0)")
             (pictures / f"{name}.png").write_bytes(browser.picture("body"))
         if turns:
+            at.context_lost()
             at.by_mouse()
             at.keys()
             if pictures:
