@@ -11,6 +11,7 @@
 namespace tensegric_fit::reconstruction {
 namespace {
 
+using geometry::ChildFailure;
 using geometry::Refusal;
 namespace refusal = geometry::refusal;
 

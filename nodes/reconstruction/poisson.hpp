@@ -4,9 +4,9 @@
 
 #include <cstddef>
 
+#include "geometry/child_process.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/triangle_mesh.hpp"
-#include "reconstruction/child_process.hpp"
 
 namespace tensegric_fit::reconstruction {
 
@@ -29,7 +29,7 @@ class PoissonWorker {
 
  private:
   PoissonLimits limits_;
-  ChildProcess process_;
+  geometry::ChildProcess process_;
 };
 
 }  // namespace tensegric_fit::reconstruction

@@ -1,16 +1,12 @@
 #include "ros/sealed.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
-#include <array>
-#include <cerrno>
 #include <numeric>
 #include <regex>
 
-#include "geometry/spawned_process.hpp"
+#include "geometry/child_process.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::node {
@@ -18,7 +14,6 @@ namespace {
 
 using geometry::Refusal;
 
-constexpr char kAge[] = "/usr/bin/age";
 constexpr std::size_t kBlock = 512;  // bytes of a tar block (POSIX.1-1988 ustar)
 
 std::string padded(std::string bytes, std::size_t size) {
@@ -51,29 +46,6 @@ std::string tar_of(const std::vector<files::FileContent>& files) {
   return archive + std::string(2 * kBlock, '\0');
 }
 
-/// Writes and reads in turn: a filter stops reading while nobody takes what it wrote.
-std::string through(int channel, const std::string& bytes) {
-  std::string result;
-  std::array<char, 65536> part{};
-  for (std::size_t done = 0;;) {
-    const bool writing = done < bytes.size();
-    pollfd ready{channel, static_cast<short>(writing ? POLLIN | POLLOUT : POLLIN), 0};
-    if (poll(&ready, 1, -1) < 0 && errno != EINTR) return result;
-    if (writing && (ready.revents & POLLOUT) != 0) {
-      const ssize_t count =
-          send(channel, bytes.data() + done, bytes.size() - done, MSG_NOSIGNAL | MSG_DONTWAIT);
-      if (count < 0 && errno != EAGAIN && errno != EINTR) return result;
-      if (count > 0) done += static_cast<std::size_t>(count);
-      if (done == bytes.size()) shutdown(channel, SHUT_WR);
-    }
-    if ((ready.revents & (POLLIN | POLLHUP)) == 0) continue;
-    const ssize_t count = recv(channel, part.data(), part.size(), MSG_DONTWAIT);
-    if (count == 0) return result;
-    if (count < 0 && errno != EAGAIN && errno != EINTR) return result;
-    if (count > 0) result.append(part.data(), static_cast<std::size_t>(count));
-  }
-}
-
 }  // namespace
 
 void check_recipient(const std::string& recipient) {
@@ -87,22 +59,15 @@ void check_recipient(const std::string& recipient) {
         fmt::format("parameter 'age_recipient': there is no {}; Debian's package age has it", kAge));
 }
 
-std::string sealed(const std::vector<files::FileContent>& files, const std::string& recipient) {
-  const auto failed = [](const std::string& why) {
-    return Refusal(geometry::refusal::kCannotWrite,
-                   "nothing was written, as it was not encrypted: age " + why);
-  };
-  geometry::SpawnedProcess age;
+std::string sealed(const std::vector<files::FileContent>& files, const std::string& recipient,
+                   const std::string& program, double seconds) {
   try {
-    age = geometry::spawn(kAge, {"--encrypt", "--recipient", recipient});
-  } catch (const std::runtime_error& error) {
-    throw failed(error.what());
+    geometry::ChildProcess age(program, {"--encrypt", "--recipient", recipient});
+    return age.answer(tar_of(files), seconds);
+  } catch (const geometry::ChildFailure& failure) {
+    throw Refusal(geometry::refusal::kCannotWrite,
+                  std::string("nothing was written, as it was not encrypted: age ") + failure.what());
   }
-  std::string bytes = through(age.channel, tar_of(files));
-  close(age.channel);
-  const int status = geometry::wait_for(age.id);
-  if (status != 0) throw failed(geometry::ending(status));
-  return bytes;
 }
 
 }  // namespace tensegric_fit::node

@@ -39,6 +39,27 @@ TEST_F(ExportFitTest, AnEncryptedExportIsReadWithItsKeyAlone) {
   EXPECT_EQ(delete_exports(root_ / "exports", scan_.body->scan_id), std::vector<std::string>{folder});
 }
 
+TEST_F(ExportFitTest, AnAgeThatHangsOrFailsIsRefused) {
+  fs::create_directories(root_);
+  const std::string age = (root_ / "age").string();
+  const std::vector<files::FileContent> contents{{"fit.json", std::string(1 << 20, 'x')}};
+  const auto refused = [&](const char* script) -> std::string {
+    std::ofstream(age) << "#!/bin/sh\n" << script << "\n";
+    fs::permissions(age, fs::perms::owner_all);
+    try {
+      sealed(contents, "age1", age, 0.3);
+    } catch (const geometry::Refusal& refusal) {
+      EXPECT_EQ(refusal.code(), geometry::refusal::kCannotWrite);
+      return refusal.what();
+    }
+    return "";
+  };
+  const std::string unsealed = "nothing was written, as it was not encrypted: age ";
+  EXPECT_EQ(refused("exec sleep 20"), unsealed + "was not ready after 0.3 s");
+  EXPECT_EQ(refused("exec <&- >&-; exec sleep 20"), unsealed + "did not end within 0.3 s");
+  EXPECT_EQ(refused("exit 3"), unsealed + "ended with exit code 3");
+}
+
 TEST_F(ExportFitTest, OldExportsGoAndNothingElse) {
   for (const char* name : {"old", "new", "spoilt"}) export_fit(scan_, root_ / name, kWhole);
   std::ofstream(root_ / "spoilt" / "precious") << "mine";

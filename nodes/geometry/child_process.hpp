@@ -6,8 +6,9 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
-namespace tensegric_fit::reconstruction {
+namespace tensegric_fit::geometry {
 
 /// A child that gave no answer; what() says why, as the end of a sentence: "ended by signal 11 (...)".
 struct ChildFailure : std::runtime_error {
@@ -18,7 +19,7 @@ struct ChildFailure : std::runtime_error {
 class ChildProcess {
  public:
   /// Starts `program` (geometry::spawn). \throw ChildFailure: it cannot be started
-  explicit ChildProcess(const std::string& program);
+  explicit ChildProcess(const std::string& program, const std::vector<std::string>& arguments = {});
   /// Kills it where it still runs.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
@@ -33,4 +34,4 @@ class ChildProcess {
   int channel_ = -1;
 };
 
-}  // namespace tensegric_fit::reconstruction
+}  // namespace tensegric_fit::geometry

@@ -1,4 +1,4 @@
-#include "reconstruction/child_process.hpp"
+#include "geometry/child_process.hpp"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -12,11 +12,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <utility>
+#include <thread>
 
 #include "geometry/spawned_process.hpp"
 
-namespace tensegric_fit::reconstruction {
+namespace tensegric_fit::geometry {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -35,11 +35,23 @@ short ready(int channel, bool writing, Clock::time_point deadline, double second
   }
 }
 
+/// Its waitpid status once it has ended: it may close its channel and live on. \throw ChildFailure
+int end_of(pid_t process, Clock::time_point deadline, double seconds) {
+  int status = 0;
+  pid_t ended = 0;
+  while ((ended = waitpid(process, &status, WNOHANG)) == 0) {
+    if (Clock::now() >= deadline) throw ChildFailure(fmt::format("did not end within {:g} s", seconds));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  if (ended < 0) throw ChildFailure(std::string("was lost: ") + std::strerror(errno));
+  return status;
+}
+
 }  // namespace
 
-ChildProcess::ChildProcess(const std::string& program) {
+ChildProcess::ChildProcess(const std::string& program, const std::vector<std::string>& arguments) {
   try {
-    const geometry::SpawnedProcess process = geometry::spawn(program);
+    const SpawnedProcess process = spawn(program, arguments);
     process_ = process.id;
     channel_ = process.channel;
   } catch (const std::runtime_error& error) {
@@ -77,9 +89,10 @@ std::string ChildProcess::answer(const std::string& input, double seconds) {
       open = n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));
     }
   }
-  const int status = geometry::wait_for(std::exchange(process_, -1));
-  if (status != 0) throw ChildFailure(geometry::ending(status), WIFEXITED(status) ? WEXITSTATUS(status) : 0);
+  const int status = end_of(process_, deadline, seconds);
+  process_ = -1;
+  if (status != 0) throw ChildFailure(ending(status), WIFEXITED(status) ? WEXITSTATUS(status) : 0);
   return output;
 }
 
-}  // namespace tensegric_fit::reconstruction
+}  // namespace tensegric_fit::geometry
