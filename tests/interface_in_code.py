@@ -280,6 +280,9 @@ def numbers(file):
     for _, arguments in calls(source(file), r"\btake"):  # fit/tissue_file.cpp
         if len(arguments) == 3 and text_in(arguments[0]):
             found[text_in(arguments[0])] = range_of(arguments[2], file)
+    for _, arguments in calls(source(file), r"\bcheck"):  # tensegric/garment.cpp
+        if len(arguments) == 4 and text_in(arguments[0]):
+            found[text_in(arguments[0])] = range_of(arguments[2], file)
     for _, arguments in calls(source(file), r"\bnumber_in"):
         if text_in(arguments[1]):
             found[text_in(arguments[1])] = tuple(value_of(argument, file) for argument in arguments[2:4])

@@ -29,9 +29,9 @@ RatioRequest ratio_from(const std::string& text) {
       equals == std::string::npos ? "" : text.substr(0, equals),
       number_from(equals == std::string::npos ? text : text.substr(equals + 1), "--ratio")};
   if (equals == 0) throw CLI::ValidationError("--ratio", "'" + text + "' names no line");
-  if (!(request.ratio >= tensegric::kLowestRatio && request.ratio <= tensegric::kHighestRatio))
-    throw CLI::ValidationError("--ratio", fmt::format("'{}' is outside [{}, {}]", text,
-                                                      tensegric::kLowestRatio, tensegric::kHighestRatio));
+  if (!tensegric::kRatio.holds(request.ratio))
+    throw CLI::ValidationError("--ratio", fmt::format("'{}' is outside [{}, {}]", text, tensegric::kRatio.low,
+                                                      tensegric::kRatio.high));
   return request;
 }
 
@@ -40,9 +40,9 @@ tensegric::TensionLaw band_from(const std::string& text) {
   if (text == "rigid") return law;
   law.kind = tensegric::TensionLaw::Kind::stiffness;
   law.stiffness = number_from(text, "--band");
-  if (!(law.stiffness > 0 && law.stiffness <= tensegric::kHighestTension))
+  if (!(law.stiffness > 0 && tensegric::kTension.holds(law.stiffness)))
     throw CLI::ValidationError("--band", fmt::format("'{}' is neither 'rigid' nor a stiffness in (0, {}]",
-                                                     text, tensegric::kHighestTension));
+                                                     text, tensegric::kTension.high));
   return law;
 }
 

@@ -22,75 +22,41 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
   throw geometry::Refusal(geometry::refusal::kBadGarment, fmt::format("line '{}': {}", line.name, what));
 }
 
-// The rules of garment files.
-std::vector<std::pair<double, double>> table_in(const GarmentLine& line) {
-  if (line.stretch.empty() || line.stretch.size() != line.tension.size())
-    refuse(line, "a table needs a tension for each stretch");
-  std::vector<std::pair<double, double>> table;
-  for (std::size_t i = 0; i < line.stretch.size(); ++i) {
-    const double stretch = line.stretch[i], tension = line.tension[i];
-    if (!std::isfinite(stretch) || stretch < 1 || !(tension >= 0 && tension <= tensegric::kHighestTension))
-      refuse(line, "a table needs stretches of at least 1 and tensions of at least 0");
-    if (stretch == 1 && tension != 0) refuse(line, "a table must have no tension at stretch 1");
-    if (table.empty() && stretch > 1) table.emplace_back(1, 0);
-    if (!table.empty() && (stretch <= table.back().first || tension < table.back().second))
-      refuse(line, "stretch and tension must ascend");
-    table.emplace_back(stretch, tension);
-  }
-  if (table.size() < 2) refuse(line, "a table needs a row beyond stretch 1");
-  return table;
-}
-
 TensionLaw law_in(const GarmentLine& line) {
   TensionLaw law;
   if (line.law.empty() || line.law == GarmentLine::RIGID) return law;
   if (line.law == GarmentLine::STIFFNESS) {
-    if (!(line.stiffness > 0 && line.stiffness <= tensegric::kHighestTension))
-      refuse(line,
-             fmt::format("stiffness {:g} is not in (0, {:g}]", line.stiffness, tensegric::kHighestTension));
+    if (line.stiffness == 0) refuse(line, "law 'stiffness' needs a stiffness");
     law.kind = TensionLaw::Kind::stiffness;
     law.stiffness = line.stiffness;
     return law;
   }
   if (line.law != GarmentLine::TABLE)
     refuse(line, fmt::format("law '{}' is not one of: rigid, stiffness, table", line.law));
+  if (line.stretch.size() != line.tension.size()) refuse(line, "a table needs a tension for each stretch");
   law.kind = TensionLaw::Kind::table;
-  law.table = table_in(line);
+  for (std::size_t i = 0; i < line.stretch.size(); ++i)
+    law.table.emplace_back(line.stretch[i], line.tension[i]);
   return law;
 }
 
-std::vector<Eigen::Vector3d> course_in(const GarmentLine& line) {
-  for (const double value : {line.width, line.smooth})
-    if (!(value >= 0 && value <= tensegric::kWidestBand))
-      refuse(line, fmt::format("width {:g} and smooth {:g} must be in [0, {:g}] metres", line.width,
-                               line.smooth, tensegric::kWidestBand));
-  if (line.points.empty() && line.width == 0 && line.smooth > 0)
-    refuse(line, "smooth is for bands and for lines that are given by points");
-  if (line.points.empty()) return {};
-  if (line.points.size() % 3 != 0 || line.points.size() < 6)
-    refuse(line, "it needs x y z of two points or more");
-  return points_in(line.points);
-}
-
 tensegric::GarmentLine line_in(const GarmentLine& message) {
+  const std::string where = fmt::format("line '{}'", message.name);
   tensegric::GarmentLine line;
   line.name = message.name;
-  if (message.name.empty()) refuse(message, "a line needs a name");
-  if (!(message.ratio >= tensegric::kLowestRatio && message.ratio <= tensegric::kHighestRatio))
-    refuse(message, fmt::format("ratio {:g} is not in [{:g}, {:g}]", message.ratio, tensegric::kLowestRatio,
-                                tensegric::kHighestRatio));
   line.ratio = message.ratio;
   line.law = law_in(message);
-  if (!(message.tension_limit >= 0)) refuse(message, "tension_limit must not be negative");
   line.tension_limit = message.tension_limit == 0 ? kNoLimit : message.tension_limit;
   line.taut = message.taut;
-  line.points = course_in(message);
+  if (message.points.size() % 3 != 0) refuse(message, "points needs x y z of each point");
+  line.points = points_in(message.points);
   if (line.points.empty())
     line.through = message.through;
   else if (!message.through.empty())
-    line.held = tensegric::held_in(message.through, "line '" + message.name + "' by points");
+    line.held = tensegric::held_in(message.through, where + " by points");
   line.width = message.width;
   line.smooth = message.smooth;
+  tensegric::check_line(line, where);
   return line;
 }
 

@@ -1,9 +1,10 @@
 #include "tensegric/garment.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 
 #include "geometry/checked_yaml.hpp"
 #include "geometry/shipped_files.hpp"
@@ -20,24 +21,37 @@ std::vector<std::string> words(const YAML::Node& map, const char* key, const std
   return geometry::required<std::vector<std::string>>(map, key, where, kBadGarment);
 }
 
+[[noreturn]] void refuse(const std::string& where, const std::string& what) {
+  throw Refusal(kBadGarment, where + ": " + what);
+}
+
+void check(const char* key, double value, const geometry::Range& range, const std::string& where) {
+  if (!range.holds(value))
+    refuse(where, fmt::format("'{}' is {:g}, outside [{:g}, {:g}]", key, value, range.low, range.high));
+}
+
+void check_table(std::vector<std::pair<double, double>>& table, const std::string& where) {
+  if (table.empty()) refuse(where, "'table' has no rows");
+  if (table.front().first > 1) table.insert(table.begin(), {1, 0});
+  if (table.front() != std::pair<double, double>(1, 0))
+    refuse(where, "'table' must begin at stretch 1 or above, and have no tension there");
+  if (table.size() < 2) refuse(where, "'table' needs a row beyond stretch 1");
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    const auto& [stretch, tension] = table[i];
+    if (!std::isfinite(stretch) || !kTension.holds(tension))
+      refuse(where, "'table' needs finite stretches and tensions");
+    if (stretch <= table[i - 1].first || tension < table[i - 1].second)
+      refuse(where, "the rows of 'table' must ascend");
+  }
+}
+
 std::vector<std::pair<double, double>> read_table(const YAML::Node& law, const std::string& where) {
   const auto rows = geometry::required<std::vector<std::vector<double>>>(law, "table", where, kBadGarment);
   std::vector<std::pair<double, double>> table;
   for (const std::vector<double>& row : rows) {
-    if (row.size() != 2)
-      throw Refusal(kBadGarment, where + ": each row of 'table' must be [stretch, tension]");
-    if (!std::isfinite(row[0]) || row[0] < 1 || !(row[1] >= 0 && row[1] <= kHighestTension))
-      throw Refusal(kBadGarment,
-                    where + ": 'table' needs stretches of at least 1 and tensions of at least 0");
-    if (!table.empty() && (row[0] <= table.back().first || row[1] < table.back().second))
-      throw Refusal(kBadGarment, where + ": the rows of 'table' must ascend");
+    if (row.size() != 2) refuse(where, "each row of 'table' must be [stretch, tension]");
     table.emplace_back(row[0], row[1]);
   }
-  if (table.empty()) throw Refusal(kBadGarment, where + ": 'table' has no rows");
-  if (table.front().first == 1 && table.front().second != 0)
-    throw Refusal(kBadGarment, where + ": 'table' must have no tension at stretch 1");
-  if (table.front().first > 1) table.insert(table.begin(), {1, 0});
-  if (table.size() < 2) throw Refusal(kBadGarment, where + ": 'table' needs a row beyond stretch 1");
   return table;
 }
 
@@ -46,12 +60,11 @@ TensionLaw read_law(const YAML::Node& line, const std::string& where) {
   const YAML::Node node = line["law"];
   if (!node || (node.IsScalar() && node.Scalar() == "rigid")) return law;
   if (!node.IsMap() || node.size() != 1)
-    throw Refusal(kBadGarment,
-                  where + ": 'law' must be rigid, {stiffness: s} or {table: [[stretch, tension], ...]}");
+    refuse(where, "'law' must be rigid, {stiffness: s} or {table: [[stretch, tension], ...]}");
   geometry::check_keys(node, {"stiffness", "table"}, where + ": law", kBadGarment);
   if (node["stiffness"]) {
     law.kind = TensionLaw::Kind::stiffness;
-    law.stiffness = geometry::number_in(node, "stiffness", 0, kHighestTension, where, kBadGarment);
+    law.stiffness = geometry::required<double>(node, "stiffness", where, kBadGarment);
   } else {
     law.kind = TensionLaw::Kind::table;
     law.table = read_table(node, where);
@@ -61,54 +74,45 @@ TensionLaw read_law(const YAML::Node& line, const std::string& where) {
 
 std::vector<Eigen::Vector3d> read_points(const YAML::Node& line, const std::string& where) {
   const auto rows = geometry::required<std::vector<std::vector<double>>>(line, "points", where, kBadGarment);
+  if (rows.empty()) refuse(where, "'points' is empty");
   std::vector<Eigen::Vector3d> points;
   for (const std::vector<double>& row : rows) {
-    if (row.size() != 3 || !Eigen::Vector3d(row[0], row[1], row[2]).allFinite())
-      throw Refusal(kBadGarment, where + ": each of 'points' must be [x, y, z] in metres");
+    if (row.size() != 3) refuse(where, "each of 'points' must be [x, y, z] in metres");
     points.emplace_back(row[0], row[1], row[2]);
   }
-  if (points.size() < 2) throw Refusal(kBadGarment, where + ": 'points' needs two points or more");
   return points;
 }
 
 GarmentLine read_line(const YAML::Node& node, const std::string& where) {
-  if (!node.IsMap()) throw Refusal(kBadGarment, where + ": must be a map");
+  if (!node.IsMap()) refuse(where, "must be a map");
   geometry::check_keys(
       node,
       {"name", "ratio", "law", "tension_limit", "through", "follow", "points", "width", "smooth", "ends"},
       where, kBadGarment);
+  const auto number = [&](const char* key, double fallback) {
+    return geometry::optional(node, key, fallback, where, kBadGarment);
+  };
   GarmentLine line;
   line.name = geometry::required<std::string>(node, "name", where, kBadGarment);
-  if (line.name.empty()) throw Refusal(kBadGarment, where + ": 'name' is empty");
-  if (node["ratio"])
-    line.ratio = geometry::number_in(node, "ratio", kLowestRatio, kHighestRatio, where, kBadGarment);
+  line.ratio = number("ratio", line.ratio);
   line.law = read_law(node, where);
-  if (node["tension_limit"])
-    line.tension_limit = geometry::number_in(node, "tension_limit", 0, kHighestTension, where, kBadGarment);
+  line.tension_limit = number("tension_limit", line.tension_limit);
   line.through = words(node, "through", where);
-  if (line.through.size() == 1) throw Refusal(kBadGarment, where + ": 'through' needs two nodes or more");
   const auto follow = geometry::optional<std::string>(node, "follow", "skin", where, kBadGarment);
-  if (follow != "skin" && follow != "taut")
-    throw Refusal(kBadGarment, where + ": 'follow' is '" + follow + "', not skin or taut");
+  if (follow != "skin" && follow != "taut") refuse(where, "'follow' is '" + follow + "', not skin or taut");
   line.taut = follow == "taut";
-  if (node["points"]) {
-    line.points = read_points(node, where);
-    if (!line.through.empty()) throw Refusal(kBadGarment, where + ": has both 'through' and 'points'");
-  }
-  if (!line.through.empty()) line.width = kBandWidth;
-  if (node["width"]) line.width = geometry::number_in(node, "width", 0, kWidestBand, where, kBadGarment);
-  if (!line.through.empty() && line.width > 0) line.smooth = kBandSmooth;
-  if (node["smooth"]) line.smooth = geometry::number_in(node, "smooth", 0, kWidestBand, where, kBadGarment);
-  if (line.smooth > 0 && !line.on_body())
-    throw Refusal(kBadGarment, where + ": 'smooth' is for bands and for lines that are given by 'points'");
+  if (node["points"]) line.points = read_points(node, where);
+  line.width = number("width", line.through.empty() ? 0 : kBandWidth);
+  line.smooth = number("smooth", !line.through.empty() && line.width > 0 ? kBandSmooth : 0);
   if (node["ends"]) {
     if (line.points.empty())
-      throw Refusal(kBadGarment, where +
-                                     ": 'ends' is for lines that are given by 'points'; a line by "
-                                     "'through' ends as its last node does");
+      refuse(where,
+             "'ends' is for lines that are given by 'points'; a line by 'through' ends as its last node "
+             "does");
     line.held =
         held_in(geometry::required<std::vector<std::string>>(node, "ends", where, kBadGarment), where);
   }
+  check_line(line, where);
   return line;
 }
 
@@ -120,12 +124,29 @@ bool has_line(const Garment& garment, const std::string& name) {
 }  // namespace
 
 std::array<bool, 2> held_in(const std::vector<std::string>& words, const std::string& where) {
-  if (words.size() != 2) throw Refusal(kBadGarment, where + ": 'ends' must be two words, one per end");
+  if (words.size() != 2) refuse(where, "'ends' must be two words, one per end");
   for (const std::string& word : words)
     if (word != kHeldByBone && word != kCarriedBySkin)
-      throw Refusal(kBadGarment,
-                    where + ": an end is '" + word + "', neither " + kHeldByBone + " nor " + kCarriedBySkin);
+      refuse(where, "an end is '" + word + "', neither " + kHeldByBone + " nor " + kCarriedBySkin);
   return {words[0] == kHeldByBone, words[1] == kHeldByBone};
+}
+
+void check_line(GarmentLine& line, const std::string& where) {
+  if (line.name.empty()) refuse(where, "'name' is empty");
+  check("ratio", line.ratio, kRatio, where);
+  check("stiffness", line.law.stiffness, kTension, where);
+  if (line.law.kind == TensionLaw::Kind::table) check_table(line.law.table, where);
+  if (line.tension_limit != std::numeric_limits<double>::infinity())
+    check("tension_limit", line.tension_limit, kTension, where);
+  if (line.through.size() == 1) refuse(where, "'through' needs two nodes or more");
+  if (line.points.size() == 1) refuse(where, "'points' needs two points or more");
+  if (!line.through.empty() && !line.points.empty()) refuse(where, "has both 'through' and 'points'");
+  for (const Eigen::Vector3d& point : line.points)
+    if (!point.allFinite()) refuse(where, "'points' are not all finite");
+  check("width", line.width, kLineWidth, where);
+  check("smooth", line.smooth, kLineWidth, where);
+  if (line.smooth > 0 && !line.on_body())
+    refuse(where, "'smooth' is for bands and for lines that are given by 'points'");
 }
 
 Garment load_garment(const std::string& path) {
@@ -171,11 +192,7 @@ Garment take_garment(const std::string& words, const std::string& folder) {
 }
 
 void set_ratio(Garment& garment, const std::string& line, double ratio) {
-  if (!(ratio >= kLowestRatio && ratio <= kHighestRatio)) {
-    std::ostringstream what;
-    what << "ratio " << ratio << " is outside [" << kLowestRatio << ", " << kHighestRatio << "]";
-    throw Refusal(kBadGarment, what.str());
-  }
+  check("ratio", ratio, kRatio, "garment " + garment.name);
   bool found = line.empty();
   for (GarmentLine& l : garment.lines) {
     if (!line.empty() && l.name != line) continue;

@@ -9,12 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/range.hpp"
+
 namespace tensegric_fit::tensegric {
 
 /// What files and command lines may ask for: beyond lies a slip of the pen, not a garment.
-inline constexpr double kLowestRatio = 0.05, kHighestRatio = 10;
-inline constexpr double kHighestTension = 1e9;  ///< pseudo force; of stiffnesses too
-inline constexpr double kWidestBand = 0.2;      ///< m, of `smooth` too
+/// `kTension`: pseudo force, of limits and stiffnesses; `kLineWidth`: m, of `smooth` too.
+inline constexpr geometry::Range kRatio{0.05, 10}, kTension{0, 1e9}, kLineWidth{0, 0.2};
 /// What files say of a line by `through` that does not state them, m: a band of cloth, not the papers'
 /// string.
 inline constexpr double kBandWidth = 0.030, kBandSmooth = 0.020;
@@ -57,6 +58,10 @@ struct Garment {
 inline constexpr const char *kHeldByBone = "bone", *kCarriedBySkin = "skin";
 /// \throw Refusal bad_garment beginning with `where`: not two words, or others
 std::array<bool, 2> held_in(const std::vector<std::string>& words, const std::string& where);
+
+/// The rules of a line, from wherever it was read; a table that begins beyond stretch 1 gets a row there.
+/// \throw Refusal bad_garment beginning with `where`
+void check_line(GarmentLine& line, const std::string& where);
 
 /// \throw Refusal bad_garment naming file and key
 Garment load_garment(const std::string& path);

@@ -66,7 +66,7 @@ calibration::CalibrationCase read_case(const YAML::Node& node, const std::string
                                        const fit::Settings& settings) {
   geometry::check_keys(node, {"ratio", "file", "garment", "tension", "worn", "worn_scan", "cloth"}, path,
                        kCode);
-  const double ratio = geometry::number_in(node, "ratio", tensegric::kLowestRatio, 1, path, kCode);
+  const double ratio = geometry::number_in(node, "ratio", tensegric::kRatio.low, 1, path, kCode);
   const std::string garment = usual.empty() ? geometry::required<std::string>(node, "garment", path, kCode)
                                             : geometry::optional(node, "garment", usual, path, kCode);
   std::string variant = garment == usual ? "" : " " + fs::path(garment).stem().string();

@@ -76,7 +76,7 @@ std::vector<control_mesh::Template> patterns_of(const tensegric::Garment& garmen
 
 tensegric::Garment pulled(tensegric::Garment garment, double pull) {
   for (tensegric::GarmentLine& line : garment.lines)
-    line.ratio = std::max(1 - pull * (1 - line.ratio), tensegric::kLowestRatio);
+    line.ratio = std::max(1 - pull * (1 - line.ratio), tensegric::kRatio.low);
   return garment;
 }
 

@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       case 0: {
         const tensegric::Garment garment = tensegric::load_garment(file.path());
         for (const tensegric::GarmentLine& line : garment.lines)
-          fuzz::require(line.ratio >= tensegric::kLowestRatio && line.ratio <= tensegric::kHighestRatio);
+          fuzz::require(tensegric::kRatio.holds(line.ratio));
         break;
       }
       case 1:

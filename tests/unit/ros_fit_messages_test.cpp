@@ -87,7 +87,12 @@ TEST(FitMessages, ImpossibleGarmentsAreRefusedByName) {
   bad.lines.clear();
   EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment");
   bad = good;
-  bad.lines[0].tension_limit = nan;
+  for (const double limit : {nan, -1.0, 2e9}) {  // as in files, up to 1e9
+    bad.lines[0].tension_limit = limit;
+    EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment") << limit;
+  }
+  bad = good;
+  bad.lines[0].through = {"sternum"};
   EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment");
   bad = good;
   bad.solver = "magic";

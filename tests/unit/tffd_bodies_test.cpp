@@ -146,7 +146,7 @@ TEST(HardBodies, AFlatChestIsNarrowedWithoutAFold) {
 TEST(HardBodies, ABandWiderThanTheBreastsIsWornAsFarAsItGoes) {
   Worn worn(test::KnownBody{"model", "2"}.surface().surface, {"bust"});
   tensegric::Garment garment = tensegric::load_garment(kSource + "/launch/garments/B1.yaml");
-  for (auto& line : garment.lines) line.ratio = 0.95, line.width = tensegric::kWidestBand;
+  for (auto& line : garment.lines) line.ratio = 0.95, line.width = tensegric::kLineWidth.high;
   const fit::Fit fit = worn.wear(garment);
   // It pulls on the whole front of the chest and comes to a band's greatest pull first.
   EXPECT_EQ(fit.solution.status, tensegric::Status::infeasible);
