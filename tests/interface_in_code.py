@@ -212,6 +212,9 @@ def value_of(expression, file):
                 return names[0] if match[2] else names
     if re.fullmatch(r"\{.*\}", expression):
         return [text_in(word) for word in split_at_commas(expression[1:-1])]
+    end = re.fullmatch(r"((?:\w+::)*k[A-Z]\w*)\.(low|high)", expression)
+    if end:
+        return range_of(end[1], file)[end[2] == "high"]
     if re.fullmatch(r"\w+(\.\w+)+", expression) and not re.fullmatch(r"[\d.]+", expression):
         value, user = begins_as(expression, file)
         return value_of(value, user) if value else "none"
@@ -221,10 +224,6 @@ def value_of(expression, file):
         return "[0, 0, 0]"
 
     name = r"(?:\w+::)*\b(?:k[A-Z]\w*|M_PI)\b"
-
-    end = re.fullmatch(r"((?:\w+::)*k[A-Z]\w*)\.(low|high)", expression)
-    if end:
-        return range_of(end[1], file)[end[2] == "high"]
 
     def number(match):
         return f"({re.sub(name, number, constant(match[0], file))})"
@@ -256,6 +255,9 @@ def parameters():
                 continue
             for match, arguments in calls(source(file), r"\bparameters\.(?:" + "|".join(KINDS) + ")"):
                 kind, name = match[0].split(".")[1].split("(")[0].strip(), text_in(arguments[0])
+                if name is None and arguments[0] == "number.name":
+                    own.update({word: (kind, default, bounds) for word, (default, bounds) in model_numbers().items()})
+                    continue
                 if name is None:
                     raise ValueError(f"nodes/{file}: a parameter's name is no text: {arguments[0]}")
                 default = value_of(arguments[1], file) if len(arguments) > 1 else "none"
@@ -268,17 +270,39 @@ def parameters():
     return found
 
 
+@functools.lru_cache(maxsize=None)
+def model_numbers():
+    """Name: (default, range) of what tensegric/model.hpp lists for parameters and tissue files alike."""
+    file, found = "tensegric/model.hpp", {}
+    text = source(file)
+    start = re.search(r"kModelNumbers\[\] = ", text).end()
+    for entry in split_at_commas(text[start + 1:closing(text, start)]):
+        if entry:
+            name, field, bounds = split_at_commas(entry[1:-1])
+            default = member(declared("ModelOptions", file)[2], field.split("::")[1])[1]
+            found[text_in(name)] = (value_of(default, file), range_of(bounds, file))
+    return found
+
+
 def keys(file):
     """Keys that a YAML reader knows: what it hands to check_keys."""
-    return {word for _, arguments in calls(source(file), r"\bcheck_keys")
-            for word in map(text_in, split_at_commas(arguments[1].strip("{}"))) if word}
+    text, found = source(file), set()
+    for _, arguments in calls(text, r"\bcheck_keys"):
+        words = arguments[1]
+        if words == "keys":  # fit/tissue_file.cpp
+            words = re.search(r"\bkeys(\{.*?\})", text, re.S)[1]
+            found |= set(model_numbers())
+        found |= {word for word in map(text_in, split_at_commas(words.strip("{}"))) if word}
+    return found
 
 
 def numbers(file):
     """Key of a YAML reader: (low, high), and what the field begins as, of those that it reads as numbers in a range."""
     found = {}
     for _, arguments in calls(source(file), r"\btake"):  # fit/tissue_file.cpp
-        if len(arguments) == 3 and text_in(arguments[0]):
+        if arguments[0] == "number.name":
+            found.update({name: bounds for name, (_, bounds) in model_numbers().items()})
+        elif len(arguments) == 3 and text_in(arguments[0]):
             found[text_in(arguments[0])] = range_of(arguments[2], file)
     for _, arguments in calls(source(file), r"\bcheck"):  # tensegric/garment.cpp
         if len(arguments) == 4 and text_in(arguments[0]):

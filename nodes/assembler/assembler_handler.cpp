@@ -52,7 +52,7 @@ AssemblerHandler::Setup AssemblerHandler::setup_from(Parameters& parameters) {
   const geometry::Range up_to_all{1, static_cast<double>(count)};
   setup.frame_id = parameters.frame("frame_id", "booth");
   setup.min_sensors = parameters.integer("min_sensors", count, up_to_all);
-  setup.capture.slop = parameters.number("slop", setup.capture.slop, assembler::kSlop);
+  setup.capture.slop = parameters.number("slop", setup.capture.slop, geometry::kSlop);
   setup.capture.timeout = parameters.number("timeout", setup.capture.timeout, assembler::kTimeout);
   assembler::AssemblerOptions& assembler = setup.assembler;
   assembler.refine = parameters.flag("refine", assembler.refine);

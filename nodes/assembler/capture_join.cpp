@@ -25,7 +25,7 @@ std::vector<int> Capture::missing() const {
 
 CaptureJoin::CaptureJoin(int sensors, const CaptureOptions& options)
     : sensors_(sensors), timeout_(options.timeout) {
-  geometry::check_option("slop", options.slop, kSlop);
+  geometry::check_option("slop", options.slop, geometry::kSlop);
   geometry::check_option("timeout", options.timeout, kTimeout);
   slop_ = static_cast<std::uint64_t>(std::llround(1e9 * options.slop));
 }

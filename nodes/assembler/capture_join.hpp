@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geometry/point_cloud.hpp"
-#include "geometry/range.hpp"
+#include "geometry/slop.hpp"
 
 namespace tensegric_fit::assembler {
 
@@ -26,12 +26,12 @@ struct Capture {
   std::vector<int> missing() const;
 };
 
-inline constexpr geometry::Range kSlop{0, 60}, kTimeout{0.01, 600};
+inline constexpr geometry::Range kTimeout{0.01, 600};
 
 /// Field defaults are the parameters' defaults. Seconds.
 struct CaptureOptions {
-  double slop = 0.2;     ///< between the first and the last stamp of a capture
-  double timeout = 2.0;  ///< how long a capture waits after its first cloud has come
+  double slop = geometry::kUsualSlop;  ///< between the first and the last stamp of a capture
+  double timeout = 2.0;                ///< how long a capture waits after its first cloud has come
 };
 
 /// Sorts clouds into captures by their stamps. Captures leave in the order of their stamps, each once; a

@@ -19,7 +19,7 @@ constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 CaptureHandler::Setup CaptureHandler::setup_from(Parameters& parameters) {
   Setup setup;
   setup.timeout = parameters.number("timeout", setup.timeout, {0.1, 3600});
-  setup.slop = parameters.number("slop", setup.slop, {0, 60});
+  setup.slop = parameters.number("slop", setup.slop, geometry::kSlop);
   setup.trigger = parameters.text("trigger", setup.trigger);
   parameters.check_all_known();
   return setup;

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "capture/capture_watch.hpp"
+#include "geometry/slop.hpp"
 #include "ros/parameters.hpp"
 
 namespace tensegric_fit::node {
@@ -54,7 +55,7 @@ class CaptureHandler {
 
  private:
   struct Setup {
-    double timeout = 60, slop = 0.2;  ///< s
+    double timeout = 60, slop = geometry::kUsualSlop;  ///< s
     std::string trigger;
   };
   static Setup setup_from(Parameters& parameters);

@@ -28,11 +28,10 @@ void take_tissue(const std::string& path, Settings& settings) {
   namespace refusal = geometry::refusal;
   const char* const code = refusal::kBadOption;
   const YAML::Node file = geometry::load_yaml_map(path, code);
-  geometry::check_keys(file,
-                       {"inner_nodes", "layers", "uniform_stiffness", "strut_stiffness", "lateral_stiffness",
-                        "skin", "volume_stiffness", "stiffening", "modulus", "prestress", "thickness", "beta",
-                        "stiff_parts", "evidence"},
-                       path, code);
+  std::vector<const char*> keys{"inner_nodes", "layers",      "uniform_stiffness", "thickness",
+                                "beta",        "stiff_parts", "evidence"};
+  for (const tensegric::ModelNumber& number : tensegric::kModelNumbers) keys.push_back(number.name);
+  geometry::check_keys(file, keys, path, code);
   tensegric::ModelOptions& model = settings.model;
   const auto take = [&](const char* key, double& value, const geometry::Range& range) {
     if (file[key]) value = geometry::number_in(file, key, range.low, range.high, path, code);
@@ -43,13 +42,8 @@ void take_tissue(const std::string& path, Settings& settings) {
   take("layers", layers, tensegric::kLayers);
   model.layers = geometry::optional(file, "layers", model.layers, path, code);
   model.uniform = geometry::optional(file, "uniform_stiffness", model.uniform, path, code);
-  take("strut_stiffness", model.strut_stiffness, tensegric::kStrutStiffness);
-  take("lateral_stiffness", model.lateral_stiffness, tensegric::kLateralStiffness);
-  take("skin", model.skin, tensegric::kSkin);
-  take("volume_stiffness", model.volume_stiffness, tensegric::kVolumeStiffness);
-  take("stiffening", model.stiffening, tensegric::kStiffening);
-  take("modulus", model.modulus, tensegric::kModulus);
-  take("prestress", model.prestress, tensegric::kPrestress);
+  for (const tensegric::ModelNumber& number : tensegric::kModelNumbers)
+    take(number.name, model.*number.field, number.range);
   if (file["stiff_parts"]) {
     model.stiff_parts.clear();
     for (const std::string& part :
@@ -57,7 +51,7 @@ void take_tissue(const std::string& path, Settings& settings) {
       model.stiff_parts.push_back(tensegric::stiff_part_from(part));
   }
   take("thickness", settings.control_mesh.thickness, control_mesh::kThickness);
-  take("beta", settings.tffd.beta, {0, geometry::kBeta.high});
+  take("beta", settings.tffd.beta, geometry::kBetaOrNone);
 }
 
 }  // namespace tensegric_fit::fit

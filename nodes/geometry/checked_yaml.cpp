@@ -52,7 +52,7 @@ YAML::Node load_yaml_map(const std::string& path, const std::string& code) {
   return root;
 }
 
-void check_keys(const YAML::Node& map, std::initializer_list<const char*> known, const std::string& where,
+void check_keys(const YAML::Node& map, const std::vector<const char*>& known, const std::string& where,
                 const std::string& code) {
   if (!map.IsMap()) throw Refusal(code, where + ": must be a map");
   std::set<std::string> met;

@@ -3,8 +3,8 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 #include "geometry/status.hpp"
 
@@ -14,7 +14,7 @@ namespace tensegric_fit::geometry {
 YAML::Node load_yaml_map(const std::string& path, const std::string& code);
 
 /// \throw Refusal `code` naming `where` and the first key of `map` that is not in `known` or is given twice
-void check_keys(const YAML::Node& map, std::initializer_list<const char*> known, const std::string& where,
+void check_keys(const YAML::Node& map, const std::vector<const char*>& known, const std::string& where,
                 const std::string& code);
 
 /// Value of `key`. \throw Refusal `code`: missing, or of another type

@@ -271,13 +271,8 @@ double Model::mean_tension() const {
 
 Model build_model(const geometry::ControlMesh& control, const ModelOptions& options) {
   geometry::check_control_mesh(control);
-  geometry::check_option("strut_stiffness", options.strut_stiffness, kStrutStiffness);
-  geometry::check_option("lateral_stiffness", options.lateral_stiffness, kLateralStiffness);
-  geometry::check_option("skin", options.skin, kSkin);
-  geometry::check_option("volume_stiffness", options.volume_stiffness, kVolumeStiffness);
-  geometry::check_option("modulus", options.modulus, kModulus);
-  geometry::check_option("stiffening", options.stiffening, kStiffening);
-  geometry::check_option("prestress", options.prestress, kPrestress);
+  for (const ModelNumber& number : kModelNumbers)
+    geometry::check_option(number.name, options.*number.field, number.range);
   geometry::check_option("layers", options.layers, kLayers);
   Model model;
   model.control = control;

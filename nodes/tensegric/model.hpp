@@ -15,10 +15,6 @@ namespace tensegric_fit::tensegric {
 /// outside. Metres, the scan's frame.
 using Positions = std::vector<Eigen::Vector3d>;
 
-/// Of ModelOptions' fields, in their units.
-inline constexpr geometry::Range kStrutStiffness{1e-3, 1e6}, kLateralStiffness{1e-3, 1e3}, kSkin{0, 10},
-    kVolumeStiffness{0, 1e3}, kModulus{1, 1e7}, kStiffening{0, 1e4}, kPrestress{1e-6, 0.5}, kLayers{1, 8};
-
 /// Whether inner nodes settle (the papers) or are bound to the bones below them (P2 §6).
 enum class InnerNodes { free, bound };
 
@@ -26,8 +22,6 @@ std::string to_string(InnerNodes inner);
 /// \throw Refusal bad_option naming the word and the choices
 InnerNodes inner_nodes_from(const std::string& word);
 
-/// Field defaults are the parameters' defaults. A part's stiffness k (force per strain) is its kind's share
-/// here times the tissue that it stands for / its length, so that a finer mesh is as stiff as a coarse one.
 /// Tissue unlike the rest, from a scar or a prosthesis: units whose skin lies around a named node.
 struct StiffPart {
   std::string around;  ///< node of the control mesh
@@ -40,6 +34,8 @@ inline constexpr geometry::Range kStiffRadius{0.005, 0.3}, kStiffTimes{0.1, 100}
 StiffPart stiff_part_from(const std::string& text);
 std::string to_string(const StiffPart& part);
 
+/// Field defaults are the parameters' defaults. A part's stiffness k (force per strain) is its kind's share
+/// here times the tissue that it stands for / its length, so that a finer mesh is as stiff as a coarse one.
 struct ModelOptions {
   InnerNodes inner = InnerNodes::bound;
   int layers = 1;        ///< of units, one below the other, between the skin and the inner nodes
@@ -53,6 +49,23 @@ struct ModelOptions {
   double stiffening = 320;  ///< of struts and tensile parts: k (1 + stiffening e^2) at strain e
   double prestress = 0.1;   ///< mean tension of the tensile parts at rest / their mean k, at most
   std::vector<StiffPart> stiff_parts;
+};
+inline constexpr geometry::Range kLayers{1, 8};
+
+/// The numbers among them, by the names of parameters and of keys in tissue files, with what they may be.
+struct ModelNumber {
+  const char* name;
+  double ModelOptions::*field;
+  geometry::Range range;
+};
+inline constexpr ModelNumber kModelNumbers[] = {
+    {"strut_stiffness", &ModelOptions::strut_stiffness, {1e-3, 1e6}},
+    {"lateral_stiffness", &ModelOptions::lateral_stiffness, {1e-3, 1e3}},
+    {"skin", &ModelOptions::skin, {0, 10}},
+    {"volume_stiffness", &ModelOptions::volume_stiffness, {0, 1e3}},
+    {"stiffening", &ModelOptions::stiffening, {0, 1e4}},
+    {"modulus", &ModelOptions::modulus, {1, 1e7}},
+    {"prestress", &ModelOptions::prestress, {1e-6, 0.5}},
 };
 
 /// As the papers have it, but for the struts' stiffness: inner nodes settle, no skin, units that may change

@@ -27,21 +27,13 @@ TensegricHandler::Setup TensegricHandler::setup_from(Parameters& parameters) {
       parameters.choice("inner_nodes", to_string(model.inner), {"free", "bound"}));
   model.layers = parameters.integer("layers", model.layers, tensegric::kLayers);
   model.uniform = parameters.flag("uniform_stiffness", model.uniform);
-  model.lateral_stiffness =
-      parameters.number("lateral_stiffness", model.lateral_stiffness, tensegric::kLateralStiffness);
-  model.skin = parameters.number("skin", model.skin, tensegric::kSkin);
-  model.volume_stiffness =
-      parameters.number("volume_stiffness", model.volume_stiffness, tensegric::kVolumeStiffness);
-  model.stiffening = parameters.number("stiffening", model.stiffening, tensegric::kStiffening);
-  model.modulus = parameters.number("modulus", model.modulus, tensegric::kModulus);
-  model.strut_stiffness =
-      parameters.number("strut_stiffness", model.strut_stiffness, tensegric::kStrutStiffness);
-  model.prestress = parameters.number("prestress", model.prestress, tensegric::kPrestress);
+  for (const tensegric::ModelNumber& number : tensegric::kModelNumbers)
+    model.*number.field = parameters.number(number.name, model.*number.field, number.range);
   for (const std::string& part : parameters.texts("stiff_parts"))
     model.stiff_parts.push_back(tensegric::stiff_part_from(part));
   tensegric::FitterOptions& fitter = setup.fitter;
-  fitter.beta = parameters.number("beta", fitter.beta, {0, geometry::kBeta.high});
-  if (fitter.beta != 0) geometry::check_option("beta", fitter.beta, geometry::kBeta);
+  fitter.beta = parameters.number("beta", fitter.beta, geometry::kBetaOrNone);
+  geometry::check_beta(fitter.beta);
   tensegric::SolverOptions& solver = setup.fitter.solver;
   solver.solver = tensegric::solver_from(
       parameters.choice("solver", to_string(solver.solver), {"equilibrium", "adaptive", "relaxation"}));

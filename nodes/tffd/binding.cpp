@@ -59,7 +59,7 @@ std::vector<Anchor> anchors_of(const NormalTerms& bound) {
 
 void check_options(const Options& options) {
   geometry::check_option("truncation", options.truncation, kTruncation);
-  if (options.beta != 0) geometry::check_option("beta", options.beta, geometry::kBeta);
+  geometry::check_beta(options.beta);
   if (options.setting == Setting::paper && (options.truncation > 0 || options.precision == Precision::fast))
     throw Refusal(refusal::kBadOption,
                   "t-FFD: the paper's setting has neither a fast precision nor a truncation");

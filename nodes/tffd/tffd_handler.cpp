@@ -58,7 +58,7 @@ std::string codes_of(const std::vector<FitWarning>& warnings) {
 TffdHandler::TffdHandler(Parameters parameters) {
   const std::string setting = parameters.choice("setting", "standard", {"standard", "paper"});
   options_.setting = setting == "paper" ? tffd::Setting::paper : tffd::Setting::standard;
-  options_.beta = parameters.number("beta", options_.beta, {0, geometry::kBeta.high});
+  options_.beta = parameters.number("beta", options_.beta, geometry::kBetaOrNone);
   options_.precision = parameters.choice("precision", "reference", {"reference", "fast"}) == "fast"
                            ? tffd::Precision::fast
                            : tffd::Precision::reference;

@@ -15,7 +15,7 @@ namespace tensegric_fit::virtual_body {
 struct ModelBodyParameters {
   Eigen::VectorXd shape;  ///< standard deviations, -4 to 4 each; as many as the model's components, or none
   double stature = 1.64;  ///< 1.40 to 2.00
-  std::array<double, 2> arms{0.45, 0.45};    ///< 0.17 to 1.40, of each upper arm from hanging, to the side
+  std::array<double, 2> arms{0.45, 0.45};    ///< 0.17 to 1.05, of each upper arm from hanging, to the side
   std::array<double, 2> forwards{0, 0};      ///< -0.5 to 0.5, of each upper arm
   std::array<double, 2> elbows{0.35, 0.35};  ///< 0 to 1, how far each is bent
   double legs = 0;   ///< -0.15 to 0.30, of each thigh to the side, from where it is at rest; soles stay level

@@ -115,14 +115,10 @@ TEST(Model, RefusesWhatCannotStand) {
     options.*option = value;
     return code(bust_mesh(), options);
   };
-  for (const auto& [option, range] : {std::pair(&ModelOptions::strut_stiffness, kStrutStiffness),
-                                      {&ModelOptions::lateral_stiffness, kLateralStiffness},
-                                      {&ModelOptions::prestress, kPrestress},
-                                      {&ModelOptions::skin, kSkin},
-                                      {&ModelOptions::volume_stiffness, kVolumeStiffness}}) {
-    EXPECT_EQ(code_with(option, 0.9 * range.low - 1e-9), "bad_option");
-    EXPECT_EQ(code_with(option, 1.1 * range.high), "bad_option");
-    EXPECT_EQ(code_with(option, range.high), "built");
+  for (const auto& [name, option, range] : kModelNumbers) {
+    EXPECT_EQ(code_with(option, 0.9 * range.low - 1e-9), "bad_option") << name;
+    EXPECT_EQ(code_with(option, 1.1 * range.high), "bad_option") << name;
+    EXPECT_EQ(code_with(option, range.high), "built") << name;
   }
 }
 
