@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "capture/stage_report_message.hpp"
 #include "ros/scan_tag.hpp"
+#include "ros/stage_report_message.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -77,9 +77,7 @@ void CaptureHandler::add(const DeformedMesh& deformed) {
 void CaptureHandler::add(const diagnostic_msgs::DiagnosticArray& message, double now) {
   for (const diagnostic_msgs::DiagnosticStatus& status : message.status) {
     const auto report = stage_report_in(status, name_space_);
-    if (!report) continue;
-    const auto& [stage, said] = *report;
-    if (board_.report(stage, said, now) && watch_ && armed_) watch_->add_refusal(stage, said);
+    if (report && board_.report(*report, now) && watch_ && armed_) watch_->add_refusal(*report);
   }
 }
 

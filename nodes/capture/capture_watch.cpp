@@ -52,10 +52,10 @@ void CaptureWatch::add_scan(const std::string& scan_id, std::uint64_t stamp) {
   stamp_ = stamp;
 }
 
-void CaptureWatch::add_refusal(const std::string& stage, const StageReport& report) {
+void CaptureWatch::add_refusal(const StageReport& report) {
   const bool of_chain = std::any_of(std::begin(kChain), std::end(kChain),
-                                    [&](const Step& step) { return stage == step.stage; });
-  if (scan_id_.empty() && !of_chain && !refused_) refused_ = CaptureEnd{report.code, report.message};
+                                    [&](const Step& step) { return report.stage == step.stage; });
+  if (scan_id_.empty() && !of_chain && !refused_) refused_ = CaptureEnd{report.code, report.last_error};
 }
 
 std::vector<std::string> CaptureWatch::missing() const {
@@ -123,8 +123,8 @@ std::string CaptureWatch::warnings() const {
   std::string words;
   for (const char* name : {"assembler", "reconstruction", "landmarks", "control_mesh"}) {
     const StageReport* report = board_.find(name);
-    if (report != nullptr && report->scan_id == scan_id_ && !report->warning.empty())
-      words += (words.empty() ? "" : "; ") + report->warning;
+    if (report != nullptr && report->scan_id == scan_id_ && report->warns)
+      words += (words.empty() ? "" : "; ") + report->message;
   }
   return words;
 }
@@ -158,7 +158,7 @@ std::optional<CaptureEnd> CaptureWatch::end(double now) const {
     for (int i = 0; i < (goal_.with_fit ? kAll : kMeasuring); ++i) {
       const StageReport* report = board_.find(kChain[i].stage);
       if (report != nullptr && report->refused() && report->scan_id == scan_id_)
-        return CaptureEnd{report->code, report->message};
+        return CaptureEnd{report->code, report->last_error};
     }
     if (is_complete() && missing().empty()) return CaptureEnd{"", warnings()};
     if (is_complete())

@@ -44,7 +44,7 @@ class CaptureWatch {
   void add_landmarks(const std::string& scan_id) { measured_.insert(scan_id); }
   void add_fit(const std::string& scan_id) { fitted_.insert(scan_id); }
   /// A stage has just refused something: StageBoard::report.
-  void add_refusal(const std::string& stage, const StageReport& report);
+  void add_refusal(const StageReport& report);
 
   const std::string& scan_id() const { return scan_id_; }
   CaptureProgress progress(double now);

@@ -4,11 +4,11 @@
 
 namespace tensegric_fit::capture {
 
-bool StageBoard::report(const std::string& stage, const StageReport& report, double now) {
-  const StageReport* last = find(stage);
+bool StageBoard::report(const StageReport& report, double now) {
+  const StageReport* last = find(report.stage);
   const bool again = last != nullptr && last->refused() && last->scan_id == report.scan_id &&
-                     last->code == report.code && last->message == report.message;
-  stages_[stage] = {report, now};
+                     last->code == report.code && last->last_error == report.last_error;
+  stages_[report.stage] = {report, now};
   return report.refused() && !again;
 }
 
@@ -32,7 +32,7 @@ std::string StageBoard::trouble(double now) const {
   std::string words;
   for (const auto& [stage, heard] : stages_) {
     const double silent = now - heard.at, working = working_seconds(stage, now);
-    if (silent > kSilent)
+    if (silent > geometry::kSilent)
       words += fmt::format("{}{} is dead: silent for {:.0f} s", words.empty() ? "" : "; ", stage, silent);
     else if (working > kSlow)
       words += fmt::format("{}{} is slow: working for {:.0f} s", words.empty() ? "" : "; ", stage, working);

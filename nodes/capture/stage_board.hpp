@@ -4,29 +4,20 @@
 #include <map>
 #include <string>
 
+#include "geometry/stage_report.hpp"
+
 namespace tensegric_fit::capture {
 
-/// One report of a stage on /diagnostics.
-struct StageReport {
-  std::string state;           ///< waiting, working, done, superseded, refused, failed
-  std::string scan_id;         ///< that the state is about
-  std::string code, message;   ///< of the last error
-  std::string warning;         ///< where it is done, but not as it should be
-  double working_seconds = 0;  ///< on the current work
-
-  /// Whether it refused that scan.
-  bool refused() const { return state == "refused" || state == "failed"; }
-};
+using geometry::StageReport;
 
 /// Stages report once a second, whatever they do. Times are seconds of any steady clock.
 class StageBoard {
  public:
-  static constexpr double kSilent = 3.5;  ///< s without a report: dead
-  static constexpr double kSlow = 10;     ///< s on one piece of work
-  static constexpr double kGone = 10;     ///< s without a report: not one that is just being started again
+  static constexpr double kSlow = 10;  ///< s on one piece of work
+  static constexpr double kGone = 10;  ///< s without a report: not one that is just being started again
 
   /// True where the stage has just refused something: not for a report that repeats it.
-  bool report(const std::string& stage, const StageReport& report, double now);
+  bool report(const StageReport& report, double now);
 
   /// Null where the stage never said anything.
   const StageReport* find(const std::string& stage) const;

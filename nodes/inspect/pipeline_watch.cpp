@@ -13,15 +13,11 @@ constexpr std::array<const char*, 5> kStages{"reconstruction", "landmarks", "con
 
 constexpr std::array<const char*, 2> kBooth{"assembler", "scan_player"};  // before the chain, where there are
 
-bool said_no(const StageReport& report) {
-  return report.state == "refused" || report.state == "failed";
-}
-
 }  // namespace
 
 void PipelineWatch::hear(const StageReport& report, double now) {
   const auto before = stages_.find(report.stage);
-  if (before != stages_.end() && !said_no(report) && !report.last_error.empty() &&
+  if (before != stages_.end() && !report.refused() && !report.last_error.empty() &&
       report.last_error != before->second.report.last_error) {
     dropped_ = report;
     dropped_at_ = now;
@@ -36,21 +32,22 @@ void PipelineWatch::hear(const StageReport& report, double now) {
 
 PipelineWatch::State PipelineWatch::state(double now) const {
   State state{"", false, false, 0, static_cast<int>(kStages.size()), ""};
-  const bool lives = std::any_of(stages_.begin(), stages_.end(),
-                                 [now](const auto& stage) { return now - stage.second.at <= kSilence; });
+  const bool lives = std::any_of(stages_.begin(), stages_.end(), [now](const auto& stage) {
+    return now - stage.second.at <= geometry::kSilent;
+  });
   if (!lives) return {words::kPipelineNotRunning, true, false, 0, state.all, ""};
   const auto first = stages_.find(kStages.front());
   const std::string scan_id = first == stages_.end() ? "" : first->second.report.scan_id;
   state.newest_scan = scan_id;
   for (const char* stage : kStages) {
     const auto found = stages_.find(stage);
-    if (found == stages_.end() || now - found->second.at > kSilence) {
+    if (found == stages_.end() || now - found->second.at > geometry::kSilent) {
       if (!state.trouble) state.words = words::silent(stage);
       state.trouble = true;
       continue;
     }
     const StageReport& report = found->second.report;
-    if (said_no(report)) {
+    if (report.refused()) {
       if (!state.trouble) state.words = words::stage_refused(stage, report.message);
       state.trouble = true;
     } else if (report.state == "working") {
@@ -71,9 +68,9 @@ void PipelineWatch::look_at_booth(double now, State& state) const {
   for (const char* stage : kBooth) {
     const auto found = stages_.find(stage);
     if (found == stages_.end() || !words.empty()) continue;
-    if (now - found->second.at > kSilence) {
+    if (now - found->second.at > geometry::kSilent) {
       words = words::silent(stage);
-    } else if (said_no(found->second.report) && found->second.said_at >= scan_at_) {
+    } else if (found->second.report.refused() && found->second.said_at >= scan_at_) {
       words = words::stage_refused(stage, found->second.report.message);
       state.newest_scan = found->second.report.scan_id;
     }

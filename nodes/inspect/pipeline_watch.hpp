@@ -4,22 +4,14 @@
 #include <map>
 #include <string>
 
+#include "geometry/stage_report.hpp"
+
 namespace tensegric_fit::inspect {
 
-/// Words of a stage on /diagnostics.
-struct StageReport {
-  std::string stage;    ///< reconstruction, landmarks, control_mesh, tensegric, tffd; assembler, scan_player
-  std::string state;    ///< waiting, working, done, superseded, refused, failed
-  std::string message;  ///< a sentence
-  std::string scan_id;
-  bool warns = false;           ///< it is done, and `message` says what is not as it should be
-  std::string last_error = {};  ///< a sentence: what it refused last, or dropped without a change of state
-};
+using geometry::StageReport;
 
 class PipelineWatch {
  public:
-  /// Seconds of silence after which a stage counts as dead: each speaks once a second.
-  static constexpr double kSilence = 3;
   /// Seconds for which something that a stage dropped is shown.
   static constexpr double kNews = 30;
 

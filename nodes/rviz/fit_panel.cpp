@@ -14,6 +14,7 @@
 #include "ros/flat.hpp"
 #include "ros/line_force.hpp"
 #include "ros/log_words.hpp"
+#include "ros/stage_report_message.hpp"
 #include "rviz/qt_text.hpp"
 
 namespace tensegric_fit::inspect {
@@ -324,20 +325,9 @@ void FitPanel::take_deformed(const DeformedMesh& deformed) {
 }
 
 void FitPanel::take_diagnostics(const diagnostic_msgs::DiagnosticStatus& status) {
-  // "<namespace>/<node>: <stage>"; another booth's stages are no concern of ours.
-  const std::size_t colon = status.name.find(": ");
-  if (colon == std::string::npos) return;
-  const std::string node = "/" + status.name.substr(0, colon);
-  const std::string& ours = ros::this_node::getNamespace();
-  if (node.substr(0, node.rfind('/')) != (ours == "/" ? "" : ours)) return;
-  StageReport report{status.name.substr(colon + 2), "", status.message, ""};
-  for (const auto& pair : status.values) {
-    if (pair.key == "state") report.state = pair.value;
-    if (pair.key == "scan_id") report.scan_id = pair.value;
-    if (pair.key == "last_error_message") report.last_error = pair.value;
-  }
-  report.warns = report.state == "done" && status.level == diagnostic_msgs::DiagnosticStatus::WARN;
-  watch_.hear(report, seconds(Clock::now()));
+  // Another booth's stages are no concern of ours.
+  if (const auto report = node::stage_report_in(status, ros::this_node::getNamespace()))
+    watch_.hear(*report, seconds(Clock::now()));
 }
 
 void FitPanel::show_lines() {

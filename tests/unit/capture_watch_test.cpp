@@ -19,12 +19,13 @@ class CaptureWatchTest : public testing::Test {
   bool say(const std::string& stage, const std::string& state, const std::string& scan_id, double at = 1,
            const std::string& code = "", double working = 0) {
     StageReport report;
+    report.stage = stage;
     report.state = state;
     report.scan_id = scan_id;
     report.code = code;
-    report.message = code.empty() ? "" : "because";
+    report.last_error = code.empty() ? "" : "because";
     report.working_seconds = working;
-    return board_.report(stage, report, at);
+    return board_.report(report, at);
   }
 
   static std::string code(const CaptureWatch& watch, double now = 1) {
@@ -138,12 +139,12 @@ TEST_F(CaptureWatchTest, ARefusalBeforeThereIsAScanCountsOnceAndOnlyWhenItIsNew)
   CaptureWatch capture = watch();
   EXPECT_EQ(code(capture), "under way");
   ASSERT_TRUE(say("assembler", "refused", "2.0", 1, "missing_sensor"));
-  capture.add_refusal("assembler", *board_.find("assembler"));
+  capture.add_refusal(*board_.find("assembler"));
   EXPECT_EQ(code(capture), "missing_sensor");
 
   CaptureWatch other = watch();
   ASSERT_TRUE(say("landmarks", "refused", "old", 1, "not_a_body"));  // of a scan that was under way
-  other.add_refusal("landmarks", *board_.find("landmarks"));
+  other.add_refusal(*board_.find("landmarks"));
   EXPECT_EQ(code(other), "under way");
 }
 

@@ -35,8 +35,8 @@ TEST(PipelineWatch, SlowIsNotDead) {
   all_say(watch, "done", 0);
   watch.hear({"tensegric", "working", "", "one"}, 0);
   all_say(watch, "working", 60);  // the heartbeat goes on while it works
-  EXPECT_FALSE(watch.state(60 + 0.9 * PipelineWatch::kSilence).trouble);
-  EXPECT_TRUE(watch.state(60 + 1.1 * PipelineWatch::kSilence).trouble);
+  EXPECT_FALSE(watch.state(60 + 0.9 * geometry::kSilent).trouble);
+  EXPECT_TRUE(watch.state(60 + 1.1 * geometry::kSilent).trouble);
 }
 
 TEST(PipelineWatch, NamesTheStageThatDied) {
