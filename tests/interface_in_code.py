@@ -197,7 +197,7 @@ def value_of(expression, file):
         return text_in(expression)
     if expression in ("true", "false"):
         return expression
-    match = re.fullmatch(r"(?:\w+::)*to_string\((.*)\)", expression)
+    match = re.fullmatch(r"(?:\w+::)*(?:to_string|k\w+\.of)\((.*)\)", expression)
     if match:
         return value_of(match[1], file)
     match = re.fullmatch(r'(?:\w+::)*shipped_folder\("(\w+)"\)', expression)
@@ -210,6 +210,10 @@ def value_of(expression, file):
             if words:
                 names = [text_in(word) for word in split_at_commas(words[1])]
                 return names[0] if match[2] else names
+    match = re.fullmatch(r"(?:\w+::)*(k\w+)\.all\(\)", expression)
+    if match:  # geometry/enum_words.hpp
+        words = {found for other in all_sources() for found in re.findall(rf"\b{match[1]}\{{\{{(.*?)\}}\}}", source(other))}
+        return [text_in(word) for word in split_at_commas(words.pop())]
     if re.fullmatch(r"\{.*\}", expression):
         return [text_in(word) for word in split_at_commas(expression[1:-1])]
     end = re.fullmatch(r"((?:\w+::)*k[A-Z]\w*)\.(low|high)", expression)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "geometry/enum_words.hpp"
 #include "geometry/parallel_for.hpp"
 #include "geometry/percentile.hpp"
 #include "geometry/point_tree.hpp"
@@ -188,17 +189,9 @@ class Columns {
 }  // namespace
 
 std::string to_string(RegistrationStatus status) {
-  switch (status) {
-    case RegistrationStatus::refined:
-      return "refined";
-    case RegistrationStatus::no_overlap:
-      return "no_overlap";
-    case RegistrationStatus::not_better:
-      return "not_better";
-    case RegistrationStatus::too_far:
-      return "too_far";
-  }
-  return "";
+  static constexpr geometry::EnumWords<RegistrationStatus, 4> kWords{
+      {"refined", "no_overlap", "not_better", "too_far"}};
+  return kWords.of(status);
 }
 
 Registration register_columns(const std::vector<PointCloud>& columns, const RegistrationOptions& options) {

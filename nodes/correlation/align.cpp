@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "correlation/skin_parts.hpp"
+#include "geometry/enum_words.hpp"
 #include "geometry/rigid_motion.hpp"
 
 namespace tensegric_fit::correlation {
@@ -85,16 +86,9 @@ Step step_from(const std::vector<Match>& matches) {
 }  // namespace
 
 std::string to_string(AlignmentStatus status) {
-  switch (status) {
-    case AlignmentStatus::converged:
-      return "converged";
-    case AlignmentStatus::capped:
-      return "capped";
-    case AlignmentStatus::undetermined:
-      return "undetermined";
-    default:
-      return "too_little";
-  }
+  static constexpr geometry::EnumWords<AlignmentStatus, 4> kWords{
+      {"converged", "capped", "undetermined", "too_little"}};
+  return kWords.of(status);
 }
 
 Alignment align(const Patch& patch, const SeenSurface& scan, const Isometry3d& start) {

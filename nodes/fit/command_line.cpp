@@ -66,7 +66,8 @@ std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, s
       "From a booth scan to the body that a garment would make of it. Exit: 0 done, 2 usage, 3 input "
       "refused, 1 the results cannot be written.");
   std::vector<std::string> ratios;
-  std::string band, gravity, volume = "control", solver = to_string(line.settings.solver.solver);
+  std::string band, gravity, solver = to_string(line.settings.solver.solver),
+                             volume = tensegric::kVolumeWords.of(line.settings.solver.volume);
 
   auto* scan = app.add_option("--scan", line.scans,
                               "Scan: FILE.ply, .pcd, .xyz, .bag, or a mesh .obj, .stl, .glb, .gltf; may be "
@@ -99,10 +100,10 @@ std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, s
       ->check(CLI::ExistingFile);
   app.add_option("--solver", solver, "Solver")
       ->capture_default_str()
-      ->check(CLI::IsMember({"equilibrium", "adaptive", "relaxation"}));
+      ->check(CLI::IsMember(tensegric::kSolverWords.all()));
   app.add_option("--volume", volume, "Whose volume is kept: the control mesh's or the body's")
       ->capture_default_str()
-      ->check(CLI::IsMember({"control", "body"}));
+      ->check(CLI::IsMember(tensegric::kVolumeWords.all()));
   auto* control_triangles =
       app.add_option(
              "--control-triangles", line.settings.control_mesh.control_triangles,
@@ -161,7 +162,7 @@ std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, s
     line.settings.control_mesh.control_triangles = kShapeTriangles;
   if (line.is_shape()) line.settings.model = tensegric::papers_model();  // a shape has no bones
   line.posture = {twist * M_PI / 180, lean * M_PI / 180};
-  if (volume == "body") line.settings.solver.volume = tensegric::KeptVolume::body;
+  line.settings.solver.volume = *tensegric::kVolumeWords.find(volume);
   line.settings.solver.solver = tensegric::solver_from(solver);
   return std::nullopt;
 }

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "geometry/enum_words.hpp"
 #include "geometry/json.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using correlation::SkinPart;
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 
@@ -32,18 +32,8 @@ Json json_of(const std::vector<correlation::Difference>& differences) {
   return json;
 }
 
-const char* word_of(SkinPart part) {
-  switch (part) {
-    case SkinPart::covered:
-      return "covered";
-    case SkinPart::surroundings:
-      return "surroundings";
-    case SkinPart::still:
-      return "still";
-    default:
-      return "mobile";
-  }
-}
+constexpr geometry::EnumWords<correlation::SkinPart, 4> kPartWords{
+    {"covered", "surroundings", "still", "mobile"}};
 
 Json in_degrees(const std::optional<double>& radians) {
   return radians ? Json(*radians * kDegrees) : Json(nullptr);
@@ -88,7 +78,7 @@ Json report_of(const Correlated& correlated) {
 std::string distance_csv(const correlation::Correlation& result) {
   std::string text = "vertex,part,compared,distance_mm\n";
   for (std::size_t v = 0; v < result.parts.size(); ++v)
-    text += fmt::format("{},{},{},{:.4f}\n", v, word_of(result.parts[v]), int(result.map.compared[v]),
+    text += fmt::format("{},{},{},{:.4f}\n", v, kPartWords.of(result.parts[v]), int(result.map.compared[v]),
                         1e3 * result.map.distance[v]);
   return text;
 }

@@ -61,15 +61,9 @@ tensegric::GarmentLine line_in(const GarmentLine& message) {
 }
 
 std::string word_of(TensionLaw::Kind kind) {
-  switch (kind) {
-    case TensionLaw::Kind::rigid:
-      return GarmentLine::RIGID;
-    case TensionLaw::Kind::stiffness:
-      return GarmentLine::STIFFNESS;
-    case TensionLaw::Kind::table:
-      break;
-  }
-  return GarmentLine::TABLE;
+  return kind == TensionLaw::Kind::rigid       ? GarmentLine::RIGID
+         : kind == TensionLaw::Kind::stiffness ? GarmentLine::STIFFNESS
+                                               : GarmentLine::TABLE;
 }
 
 double limit_of(double tension_limit) {

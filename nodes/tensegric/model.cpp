@@ -171,7 +171,7 @@ class MemberPlacer {
 }  // namespace
 
 std::string to_string(InnerNodes inner) {
-  return inner == InnerNodes::free ? "free" : "bound";
+  return kInnerWords.of(inner);
 }
 
 StiffPart stiff_part_from(const std::string& text) {
@@ -202,8 +202,7 @@ ModelOptions papers_model() {
 }
 
 InnerNodes inner_nodes_from(const std::string& word) {
-  for (InnerNodes inner : {InnerNodes::free, InnerNodes::bound})
-    if (word == to_string(inner)) return inner;
+  if (const auto inner = kInnerWords.find(word)) return *inner;
   throw Refusal(refusal::kBadOption, "inner nodes are '" + word + "', neither free nor bound");
 }
 

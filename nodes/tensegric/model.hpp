@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/control_mesh.hpp"
+#include "geometry/enum_words.hpp"
 #include "geometry/range.hpp"
 
 namespace tensegric_fit::tensegric {
@@ -17,6 +18,7 @@ using Positions = std::vector<Eigen::Vector3d>;
 
 /// Whether inner nodes settle (the papers) or are bound to the bones below them (P2 §6).
 enum class InnerNodes { free, bound };
+inline constexpr geometry::EnumWords<InnerNodes, 2> kInnerWords{{"free", "bound"}};
 
 std::string to_string(InnerNodes inner);
 /// \throw Refusal bad_option naming the word and the choices

@@ -134,36 +134,17 @@ Outcome relax_and_check(Problem& problem, const Solution* start, Recorder& recor
 }  // namespace
 
 std::string to_string(SolverName name) {
-  switch (name) {
-    case SolverName::equilibrium:
-      return "equilibrium";
-    case SolverName::adaptive:
-      return "adaptive";
-    case SolverName::relaxation:
-      break;
-  }
-  return "relaxation";
+  return kSolverWords.of(name);
 }
 
 std::string to_string(Status status) {
-  switch (status) {
-    case Status::converged:
-      return "converged";
-    case Status::infeasible:
-      return "infeasible";
-    case Status::capped:
-      return "capped";
-    case Status::oscillating:
-      return "oscillating";
-    case Status::diverged:
-      break;
-  }
-  return "diverged";
+  static constexpr geometry::EnumWords<Status, 5> kWords{
+      {"converged", "infeasible", "capped", "oscillating", "diverged"}};
+  return kWords.of(status);
 }
 
 SolverName solver_from(const std::string& word) {
-  for (SolverName name : {SolverName::equilibrium, SolverName::adaptive, SolverName::relaxation})
-    if (to_string(name) == word) return name;
+  if (const auto name = kSolverWords.find(word)) return *name;
   throw Refusal(refusal::kBadOption, "solver '" + word + "' is not equilibrium, adaptive or relaxation");
 }
 

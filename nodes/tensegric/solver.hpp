@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/enum_words.hpp"
 #include "geometry/fibre.hpp"
 #include "geometry/posture.hpp"
 #include "geometry/range.hpp"
@@ -21,6 +22,9 @@ enum class SolverName { equilibrium, adaptive, relaxation };
 enum class Status { converged, infeasible, capped, oscillating, diverged };
 /// Whose volume stays as it is: the control mesh's (P1 §3.4), or that of the body below it.
 enum class KeptVolume { control, body };
+
+inline constexpr geometry::EnumWords<SolverName, 3> kSolverWords{{"equilibrium", "adaptive", "relaxation"}};
+inline constexpr geometry::EnumWords<KeptVolume, 2> kVolumeWords{{"control", "body"}};
 
 std::string to_string(SolverName name);
 std::string to_string(Status status);

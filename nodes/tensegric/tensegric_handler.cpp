@@ -24,7 +24,7 @@ TensegricHandler::Setup TensegricHandler::setup_from(Parameters& parameters) {
   Setup setup;
   tensegric::ModelOptions& model = setup.fitter.model;
   model.inner = tensegric::inner_nodes_from(
-      parameters.choice("inner_nodes", to_string(model.inner), {"free", "bound"}));
+      parameters.choice("inner_nodes", to_string(model.inner), tensegric::kInnerWords.all()));
   model.layers = parameters.integer("layers", model.layers, tensegric::kLayers);
   model.uniform = parameters.flag("uniform_stiffness", model.uniform);
   for (const tensegric::ModelNumber& number : tensegric::kModelNumbers)
@@ -36,13 +36,12 @@ TensegricHandler::Setup TensegricHandler::setup_from(Parameters& parameters) {
   geometry::check_beta(fitter.beta);
   tensegric::SolverOptions& solver = setup.fitter.solver;
   solver.solver = tensegric::solver_from(
-      parameters.choice("solver", to_string(solver.solver), {"equilibrium", "adaptive", "relaxation"}));
+      parameters.choice("solver", to_string(solver.solver), tensegric::kSolverWords.all()));
   solver.max_iterations =
       parameters.integer("max_iterations", solver.max_iterations, tensegric::kMaxIterations);
   solver.time_budget = parameters.number("time_budget", solver.time_budget, tensegric::kTimeBudget);
-  solver.volume = parameters.choice("volume", "control", {"control", "body"}) == "body"
-                      ? tensegric::KeptVolume::body
-                      : tensegric::KeptVolume::control;
+  solver.volume = *tensegric::kVolumeWords.find(
+      parameters.choice("volume", tensegric::kVolumeWords.of(solver.volume), tensegric::kVolumeWords.all()));
   solver.gravity = parameters.vector("gravity", solver.gravity);
   solver.line_force = parameters.number("line_force", solver.line_force, tensegric::kPseudoForce);
   solver.volume_force = parameters.number("volume_force", solver.volume_force, tensegric::kPseudoForce);
