@@ -1,28 +1,8 @@
 #include "fit/tissue_file.hpp"
 
-#include <fmt/format.h>
-
 #include "geometry/checked_yaml.hpp"
 
 namespace tensegric_fit::fit {
-
-std::string tissue_yaml(const Settings& settings) {
-  const tensegric::ModelOptions& model = settings.model;
-  std::string parts;
-  for (const tensegric::StiffPart& part : model.stiff_parts)
-    parts += fmt::format("  - {}\n", to_string(part));
-  return fmt::format(
-             "inner_nodes: {}\nlayers: {}\nuniform_stiffness: {}\nstrut_stiffness: "
-             "{:.4g}\nlateral_stiffness: "
-             "{:.4g}\nskin: "
-             "{:.4g}\nvolume_stiffness: "
-             "{:.4g}\nstiffening: {:.4g}\nmodulus: {:.4g}\n"
-             "prestress: {:.4g}\nthickness: {:.4g}\nbeta: {:.4g}\n",
-             to_string(model.inner), model.layers, model.uniform, model.strut_stiffness,
-             model.lateral_stiffness, model.skin, model.volume_stiffness, model.stiffening, model.modulus,
-             model.prestress, settings.control_mesh.thickness, settings.tffd.beta) +
-         (parts.empty() ? "" : "stiff_parts:\n" + parts);
-}
 
 void take_tissue(const std::string& path, Settings& settings) {
   namespace refusal = geometry::refusal;

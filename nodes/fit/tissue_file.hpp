@@ -7,14 +7,9 @@
 
 namespace tensegric_fit::fit {
 
-/// The parameters of `settings` that say what tissue is like, as YAML: inner_nodes, layers, strut_stiffness,
-/// lateral_stiffness, uniform_stiffness, skin, volume_stiffness, stiffening, modulus, prestress, thickness,
-/// beta, stiff_parts (see ModelOptions, control_mesh::Options and tffd::Options): constants hold for the
-/// reach that they were fitted with.
-std::string tissue_yaml(const Settings& settings);
-
-/// Puts the file's values in place of those of `settings`; what it does not name stays. A key `evidence` may
-/// hold anything. \throw Refusal bad_option naming file and key: unknown, or its value out of range
+/// Puts the file's values (fields of tensegric::ModelOptions, `thickness` of control_mesh::Options, `beta` of
+/// tffd::Options) in place of those of `settings`; what it does not name stays. A key `evidence` may hold
+/// anything. \throw Refusal bad_option naming file and key: unknown, or its value out of range
 void take_tissue(const std::string& path, Settings& settings);
 
 }  // namespace tensegric_fit::fit

@@ -126,11 +126,4 @@ std::vector<int> route_over_edges(const ControlMesh& control, const std::vector<
   return route;
 }
 
-double line_length(const std::vector<int>& nodes, const std::vector<Eigen::Vector3d>& positions) {
-  double length = 0;
-  for (std::size_t i = 1; i < nodes.size(); ++i)
-    length += (positions[nodes[i]] - positions[nodes[i - 1]]).norm();
-  return length;
-}
-
 }  // namespace tensegric_fit::geometry

@@ -56,7 +56,4 @@ Eigen::Vector3d region_apex(const ControlMesh& control, const ControlRegion& reg
 /// index. \throw Refusal unknown_line: two stops are in parts of the mesh that are not connected.
 std::vector<int> route_over_edges(const ControlMesh& control, const std::vector<int>& stops);
 
-/// Length of an open line over the nodes at `positions`.
-double line_length(const std::vector<int>& nodes, const std::vector<Eigen::Vector3d>& positions);
-
 }  // namespace tensegric_fit::geometry

@@ -26,7 +26,7 @@ inline constexpr char kViewFront[] = "Front", kViewLeft[] = "Left", kViewBack[] 
 inline constexpr char kLine[] = "Line", kNeutral[] = "neutral length", kNow[] = "now", kPull[] = "pull";
 inline constexpr char kMeasure[] = "Measure", kScanned[] = "scan", kWornGirth[] = "worn",
                       kChange[] = "change", kBraSize[] = "Bra size", kNoSize[] = "-",
-                      kLift[] = "lift of the bust", kApart[] = "bust points apart", kVolume[] = "Volume";
+                      kLift[] = "lift of the bust", kApart[] = "bust points apart";
 inline constexpr char kOldBody[] = " Shown pale below: the body before.",
                       kOldBodyGone[] = " The body before is no longer shown.";
 inline constexpr char kNoLines[] = "No garment is worn so far.";
@@ -43,8 +43,7 @@ std::string stage_refused(const std::string& stage, const std::string& message);
 std::string working(const std::string& stage);
 
 // What became of a request.
-inline constexpr char kAsked[] = "Fitting ...",
-                      kNoAnswer[] = "The fitting pipeline does not answer; what is shown is the last fit.",
+inline constexpr char kNoAnswer[] = "The fitting pipeline does not answer; what is shown is the last fit.",
                       kEmptyFolder[] = "Name a folder for the export.",
                       kNothingToExport[] = "Nothing was exported: no body under a garment is shown so far.";
 std::string solving(int iteration);

@@ -19,15 +19,4 @@ std::vector<double> control_distortion(const geometry::ControlMesh& control,
 /// bad_mesh: not one value a control vertex
 std::vector<double> body_distortion(const Binding& binding, const std::vector<double>& at_control_vertices);
 
-/// How a triangle of skin was stretched in its own plane, after / before: the most and the least of all
-/// directions.
-struct Stretch {
-  double most, least;
-};
-
-/// One a control triangle. \throw Refusal bad_mesh: another number of nodes; a control triangle without area
-/// at rest
-std::vector<Stretch> principal_stretches(const geometry::ControlMesh& control,
-                                         const std::vector<Eigen::Vector3d>& outer);
-
 }  // namespace tensegric_fit::tffd

@@ -133,7 +133,7 @@ std::string evidence_of(const calibration::Calibration& found,
   text += "  left_out:\n";
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     text += fmt::format("    {}:\n", bodies[b].name);
-    std::istringstream lines(fit::tissue_yaml(found.left_out[b].settings));
+    std::istringstream lines(calibration::tissue_yaml(found.left_out[b].settings));
     for (std::string line; std::getline(lines, line);) text += "      " + line + "\n";
   }
   return text;
@@ -248,7 +248,7 @@ calibration::Calibration fitted(const Cases& cases, const fit::Settings& setting
 void write(const calibration::Calibration& found, const Cases& cases, int control_triangles,
            const std::string& out) {
   const std::string text =
-      fit::tissue_yaml(found.adjusted.settings) + evidence_of(found, cases.bodies, control_triangles);
+      calibration::tissue_yaml(found.adjusted.settings) + evidence_of(found, cases.bodies, control_triangles);
   fmt::print("{}", text);
   write_text(out, text);
 }

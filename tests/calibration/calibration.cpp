@@ -430,4 +430,17 @@ Calibration calibrate(const std::vector<CalibrationBody>& bodies,
   return result;
 }
 
+std::string tissue_yaml(const fit::Settings& settings) {
+  const tensegric::ModelOptions& model = settings.model;
+  std::string text = fmt::format("inner_nodes: {}\nlayers: {}\nuniform_stiffness: {}\n",
+                                 to_string(model.inner), model.layers, model.uniform);
+  for (const tensegric::ModelNumber& number : tensegric::kModelNumbers)
+    text += fmt::format("{}: {:.4g}\n", number.name, model.*number.field);
+  text +=
+      fmt::format("thickness: {:.4g}\nbeta: {:.4g}\n", settings.control_mesh.thickness, settings.tffd.beta);
+  if (!model.stiff_parts.empty()) text += "stiff_parts:\n";
+  for (const tensegric::StiffPart& part : model.stiff_parts) text += fmt::format("  - {}\n", to_string(part));
+  return text;
+}
+
 }  // namespace tensegric_fit::calibration

@@ -64,6 +64,10 @@ std::vector<CaseOutcome> wear_cases(const CalibrationBody& body,
                                     const std::vector<control_mesh::Template>& patterns,
                                     const Adjusted& adjusted, bool warm);
 
+/// What of `settings` says what tissue is like, as fit::take_tissue reads it: constants hold for the reach
+/// (`beta`) that they were fitted with.
+std::string tissue_yaml(const fit::Settings& settings);
+
 /// What is fitted: of those in tissue_yaml that are numbers, and `pull`.
 struct CalibrationOptions {
   std::vector<std::string> fitted = {"strut_stiffness", "lateral_stiffness", "skin", "volume_stiffness"};

@@ -184,13 +184,12 @@ TEST(TissueFile, IsReadAsWrittenAndChecked) {
   truth.model.skin = 0.0625;
   truth.model.layers = 3;
   truth.control_mesh.thickness = 0.75;
-  EXPECT_EQ(fit::tissue_yaml(take(fit::tissue_yaml(truth) + "evidence: {anything: 1}\n")),
-            fit::tissue_yaml(truth));
+  EXPECT_EQ(tissue_yaml(take(tissue_yaml(truth) + "evidence: {anything: 1}\n")), tissue_yaml(truth));
   fit::Settings papers;
   fit::take_tissue(TENSEGRIC_FIT_SOURCE_DIR "/tests/benchmarks/papers.yaml", papers);
   truth = fit::Settings();
   truth.model = tensegric::papers_model();
-  EXPECT_EQ(fit::tissue_yaml(papers), fit::tissue_yaml(truth));
+  EXPECT_EQ(tissue_yaml(papers), tissue_yaml(truth));
   for (const char* bad : {"stiffness: 1\n", "skin: -1\n", "inner_nodes: loose\n", "thickness: much\n",
                           "layers: 0\n", "layers: 2.5\n", "[1, 2]\n"})
     EXPECT_EQ(refusal_of([&] { take(bad); }), "bad_option") << bad;

@@ -8,6 +8,14 @@
 
 namespace tensegric_fit::tensegric {
 
+/// Length of an open line over the nodes at `positions`.
+inline double line_length(const std::vector<int>& nodes, const std::vector<Eigen::Vector3d>& positions) {
+  double length = 0;
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    length += (positions[nodes[i]] - positions[nodes[i - 1]]).norm();
+  return length;
+}
+
 struct BustShape {
   int columns = 10, rows = 6;  ///< quads; even numbers keep the middle column and row on nodes
   bool rim_inner_fixed = true;

@@ -73,7 +73,7 @@ TEST_F(Equilibrium, LineAndVolumeAreExact) {
     expect_exact(s);
     EXPECT_GT(s.lines[0].tension, 0);
     EXPECT_NEAR(s.lines[0].neutral, ratio * s.lines[0].initial, 1e-12);
-    EXPECT_NEAR(s.lines[0].final, geometry::line_length(s.lines[0].nodes, s.outer), 1e-12);
+    EXPECT_NEAR(s.lines[0].final, line_length(s.lines[0].nodes, s.outer), 1e-12);
     EXPECT_EQ(triangle_change(model,
                               [&s] {
                                 Positions x = s.outer;

@@ -205,9 +205,9 @@ TEST_F(Derivatives, OfALineAlsoWhereItCollapses) {
   Garment garment;
   garment.lines.push_back({"chest", 0.9, {}, 1, {}, false});
   const Band band = lay_bands(model, garment)[0];
-  EXPECT_DOUBLE_EQ(smooth_length(band, x), geometry::line_length(band.nodes, x));
+  EXPECT_DOUBLE_EQ(smooth_length(band, x), line_length(band.nodes, x));
   x[band.nodes[4]] = x[band.nodes[5]] + Eigen::Vector3d(2e-4, 1e-4, -3e-4);  // a segment below 1 mm
-  EXPECT_GT(smooth_length(band, x), geometry::line_length(band.nodes, x));
+  EXPECT_GT(smooth_length(band, x), line_length(band.nodes, x));
   LengthCurvature(band, free_index).add(x, 1, *hessian);
   check([&](const Positions& y) { return smooth_length(band, y); },
         [&](const Positions& y) {

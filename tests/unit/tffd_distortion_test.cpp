@@ -57,29 +57,9 @@ TEST(Distortion, OnTheSkinStaysBetweenThatOfTheNodesAndOne) {
   }
 }
 
-TEST(Distortion, PrincipalStretchesAreThoseOfTheMap) {
-  geometry::ControlMesh control = patch();
-  for (Eigen::Vector3d& p : control.outer) p.z() = 0;
-  // A flat sheet drawn out to 1.2 along a slanted axis, narrowed to 0.8 across it, then turned in space.
-  const Eigen::AngleAxisd slant(0.4, Eigen::Vector3d::UnitZ()),
-      turn(1.1, Eigen::Vector3d(1, 2, -1).normalized());
-  const Eigen::Matrix3d map =
-      turn.matrix() * slant.matrix() * Eigen::Vector3d(1.2, 0.8, 1).asDiagonal() * slant.matrix().transpose();
-  for (const Stretch& stretch : principal_stretches(control, mapped(control.outer, map))) {
-    EXPECT_NEAR(stretch.most, 1.2, 1e-12);
-    EXPECT_NEAR(stretch.least, 0.8, 1e-12);
-  }
-  for (const Stretch& stretch :
-       principal_stretches(control, Points(control.outer.size(), Eigen::Vector3d::Zero()))) {
-    EXPECT_EQ(stretch.most, 0);  // collapsed to a point, and still a number
-    EXPECT_EQ(stretch.least, 0);
-  }
-}
-
 TEST(Distortion, RefusesOtherCounts) {
   const geometry::ControlMesh control = patch();
   EXPECT_THROW(control_distortion(control, {}), geometry::Refusal);
-  EXPECT_THROW(principal_stretches(control, {}), geometry::Refusal);
   EXPECT_THROW(body_distortion(Binding(slab(21), control, {}), {1.0}), geometry::Refusal);
 }
 
