@@ -1,5 +1,6 @@
 #include "batch/identity.hpp"
 
+#include <fmt/format.h>
 #include <link.h>
 #include <openssl/evp.h>
 
@@ -58,13 +59,7 @@ class Digest {
   std::string hex(std::size_t digits) {
     std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
     EVP_DigestFinal_ex(context_.get(), bytes.data(), nullptr);
-    constexpr char kDigits[] = "0123456789abcdef";
-    std::string text;
-    for (const unsigned char byte : bytes) {
-      text += kDigits[byte >> 4];
-      text += kDigits[byte & 15];
-    }
-    return text.substr(0, digits);
+    return fmt::format("{:02x}", fmt::join(bytes, "")).substr(0, digits);
   }
 
  private:

@@ -1,11 +1,10 @@
 /// correlate: a fit and a worn scan -> result files.
-#include <opencv2/imgcodecs.hpp>
-
 #include "files/owner_only.hpp"
 #include "fit/correlate_line.hpp"
 #include "fit/correlation_report.hpp"
 #include "fit/result_folder.hpp"
 #include "geometry/ply.hpp"
+#include "inspect/composition.hpp"
 #include "inspect/correlation_model.hpp"
 #include "inspect/correlation_pictures.hpp"
 #include "scan_files/scan_file.hpp"
@@ -74,9 +73,7 @@ class Run {
   }
 
   PagePicture save(const std::string& name, const cv::Mat& picture, const std::string& caption) const {
-    std::vector<unsigned char> png;
-    if (!cv::imencode(".png", picture, png)) throw std::runtime_error(name + ": cannot be encoded");
-    PagePicture page{std::string(png.begin(), png.end()), caption};
+    PagePicture page{inspect::png_bytes(picture), caption};
     write_text(path(name), page.png);
     return page;
   }

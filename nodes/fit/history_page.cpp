@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "files/html.hpp"
@@ -63,13 +62,10 @@ cv::Mat outlines(const geometry::TriangleMesh& from, const geometry::TriangleMes
 
 std::string picture_of(const Visit& from, const Visit& to) {
   const geometry::TriangleMesh one = body_of(from), other = body_of(to);
-  std::vector<uchar> png;
-  cv::imencode(".png",
-               inspect::side_by_side(outlines(one, other, inspect::front_view),
-                                     outlines(one, other, inspect::side_view)),
-               png);
+  const cv::Mat both = inspect::side_by_side(outlines(one, other, inspect::front_view),
+                                             outlines(one, other, inspect::side_view));
   return fmt::format("<img alt=\"outlines of both bodies\" src=\"data:image/png;base64,{}\">\n",
-                     files::base64({png.begin(), png.end()}));
+                     files::base64(inspect::png_bytes(both)));
 }
 
 // The customer's page of an export, else the folder.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <future>
-#include <opencv2/imgcodecs.hpp>
 #include <utility>
 
 #include "body_model/parts.hpp"
@@ -18,9 +17,7 @@ constexpr int kPanel = 600;  // pixels; the height of the pictures of a fit
 constexpr int kWhole = 900;  // of a body that is measured only
 
 PictureFile file(const std::string& name, const cv::Mat& picture) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", picture, bytes);
-  return {name, {bytes.begin(), bytes.end()}};
+  return {name, inspect::png_bytes(picture)};
 }
 
 using Normals = std::vector<Eigen::Vector3d>;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <vector>
 
 #include "inspect/colours.hpp"
 
@@ -75,6 +78,12 @@ cv::Mat with_distortion_scale(const cv::Mat& picture) {
 cv::Mat with_distance_scale(const cv::Mat& picture) {
   const std::string end = std::to_string(std::lround(1e3 * kFarthestDistance)) + " mm";
   return with_scale(picture, {"worn inside", "worn outside", {"-" + end, "0", end}});
+}
+
+std::string png_bytes(const cv::Mat& picture) {
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".png", picture, bytes)) throw std::runtime_error("a picture cannot be encoded");
+  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace tensegric_fit::inspect

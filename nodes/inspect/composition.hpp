@@ -1,4 +1,4 @@
-/// Pictures put together: before beside after, words, the scale of colours.
+/// Pictures put together: before beside after, words, the scale of colours; as files.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -18,5 +18,8 @@ cv::Mat with_distortion_scale(const cv::Mat& picture);
 
 /// The same with the fixed scale of distance_colour, millimetres.
 cv::Mat with_distance_scale(const cv::Mat& picture);
+
+/// The picture as a PNG file's bytes. \throw std::runtime_error: it cannot be encoded
+std::string png_bytes(const cv::Mat& picture);
 
 }  // namespace tensegric_fit::inspect

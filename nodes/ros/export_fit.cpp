@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <set>
 
 #include "files/whole_folder.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/shading_normals.hpp"
+#include "inspect/composition.hpp"
 #include "inspect/fit_model.hpp"
 #include "inspect/fit_pictures.hpp"
 #include "mesh_files/maker_files.hpp"
@@ -26,9 +26,7 @@ namespace {
 using files::FileContent;
 
 FileContent png(const std::string& name, const cv::Mat& picture) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", picture, bytes);
-  return {name, {bytes.begin(), bytes.end()}};
+  return {name, inspect::png_bytes(picture)};
 }
 
 /// Of each region that a line of the garment runs over; of all where there is none.
