@@ -55,7 +55,7 @@ int batch_main(int argc, char** argv) {
       ->check(CLI::ExistingFile);
   app.add_option("--out", options.out, "Folder for the results, one line of JSON per row")->required();
   app.add_option("--shard", shard, "I/N: every N-th row, from the I-th on")->capture_default_str();
-  app.add_option("--jobs", options.workers, "Scans at once; one per core where not said")
+  app.add_option("--jobs", options.workers, "Scans at once; default: one per core")
       ->check(CLI::Range(1, 1024));
   app.add_option("--time", options.limits.seconds, "Seconds that a scan may take")
       ->capture_default_str()

@@ -35,7 +35,7 @@ void for_each_line(const std::string& file, const std::function<void(Json&&, std
     Json line = Json::parse(text, nullptr, false);
     if (!line.is_object() || !line.contains("row") || !line.contains("key") || !line.contains("status"))
       throw Refusal(geometry::refusal::kBrokenFile,
-                    file + ", line " + std::to_string(number) + ": is no result of a batch");
+                    file + ", line " + std::to_string(number) + ": is not a result of a batch");
     use(std::move(line), place);
     place += text.size() + 1;
   }

@@ -8,8 +8,8 @@
 namespace tensegric_fit::batch {
 
 /// Lines of a file of results, in their order, with the places (bytes) at which they begin; an unfinished
-/// last one, as a kill leaves it, is none. \throw Refusal broken_file: cannot be read, a line that is no
-/// result
+/// last one, as a kill leaves it, does not count. \throw Refusal broken_file: cannot be read, a line that is
+/// not a result
 void for_each_line(const std::string& file,
                    const std::function<void(nlohmann::ordered_json&& line, std::size_t place)>& use);
 

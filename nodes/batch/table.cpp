@@ -66,7 +66,7 @@ Folder read_folder(const std::string& path) {
   std::ifstream stream(fs::path(path) / "batch.json");
   folder.description = Json::parse(stream, nullptr, false);
   if (!folder.description.is_object() || !folder.description.contains("rows"))
-    throw Refusal(kBroken, path + " has no batch.json: it is no folder of fit_batch");
+    throw Refusal(kBroken, path + " has no batch.json: it is not a folder of fit_batch");
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(path))
     if (entry.path().extension() == ".jsonl") files.push_back(entry.path());

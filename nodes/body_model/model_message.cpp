@@ -70,7 +70,7 @@ body_model::Parameters parameters_in(const BodyModel& message, const body_model:
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(message.rotation.data());
   parameters.position = vector_in(message.position);
   check(parameters.rotation.isUnitary(kUnit) && parameters.rotation.determinant() > 0,
-        "its rotation is none");
+        "its matrix is not a rotation");
   check(message.scale > 0, "its scale is not above 0");
   parameters.log_scale = std::log(message.scale);
   parameters.turns = points_in(message.turns);

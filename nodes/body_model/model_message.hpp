@@ -16,7 +16,7 @@ BodyModel to_message(const ScanTag& tag, const body_model::RegisteredBody& body,
                      const std::vector<unsigned char>& mesh_parts);
 
 /// `model` is the one that this build has. \throw Refusal other_model: it was registered with another;
-/// bad_model: arrays that do not fit the model, or a pose that is none; non_finite
+/// bad_model: arrays that do not fit the model, or a pose that is not a rotation and a scale; non_finite
 body_model::RegisteredBody registered_in(const BodyModel& message,
                                          const std::shared_ptr<const body_model::Model>& model);
 

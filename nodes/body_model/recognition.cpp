@@ -225,7 +225,7 @@ double misfit_of(const RegisteredBody& body, const Samples& samples, const Off& 
 void check(const Evidence& e, double stature) {
   std::string why;
   if (e.unexplained > kUnexplained) {
-    why = fmt::format("{:.0f} % of the surface is none of hers: a thing, or more than one person",
+    why = fmt::format("{:.0f} % of the surface is not hers: a thing, or more than one person",
                       100 * e.unexplained);
   } else if (!(stature > kShortest && stature < kTallest)) {
     why = "nobody has that size";

@@ -17,7 +17,7 @@ struct Evidence {
   double shape = 0;        ///< root of the mean square of the shape's coefficients, in standard deviations
 };
 
-/// Surface that is none of hers: hair, a thing, somebody else. Scan's frame, metres.
+/// Surface that is not hers: hair, a thing, somebody else. Scan's frame, metres.
 struct Unexplained {
   Eigen::Vector3d centre;
   double extent;        ///< between its farthest points

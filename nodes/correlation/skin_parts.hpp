@@ -16,7 +16,7 @@ struct SimulatedBody {
   const geometry::BodyMeasures& measures;        ///< of `rest`
 };
 
-/// \throw Refusal bad_mesh, non_finite: meshes that are none, or another number of vertices at rest and
+/// \throw Refusal bad_mesh, non_finite: meshes that are not valid, or another number of vertices at rest and
 /// deformed
 void check(const SimulatedBody& body);
 

@@ -75,9 +75,9 @@ std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, s
                    ->allow_extra_args(false);
   auto* mesh = app.add_option("--mesh", line.mesh,
                               "Body mesh .ply, .obj, .stl, .glb, .gltf, taken as it is instead of a scan");
-  app.add_option("--unit", line.asked.unit, "Unit of the scan or mesh; not said: inferred from the body")
+  app.add_option("--unit", line.asked.unit, "Unit of the scan or mesh; default: inferred from the body")
       ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
-  app.add_option("--up", line.asked.up, "Its axis that points up; not said: inferred from the body")
+  app.add_option("--up", line.asked.up, "Its axis that points up; default: inferred from the body")
       ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
   app.add_option(
          "--export", line.exports,
@@ -105,11 +105,10 @@ std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, s
       ->capture_default_str()
       ->check(CLI::IsMember(tensegric::kVolumeWords.all()));
   auto* control_triangles =
-      app.add_option(
-             "--control-triangles", line.settings.control_mesh.control_triangles,
-             fmt::format("Control triangles, at least; of a shape that is simplified about as many, {} "
-                         "where not said",
-                         kShapeTriangles))
+      app.add_option("--control-triangles", line.settings.control_mesh.control_triangles,
+                     fmt::format("Control triangles, at least; of a shape that is simplified about as many, "
+                                 "default: {}",
+                                 kShapeTriangles))
           ->capture_default_str()
           ->check(whole_in(control_mesh::kControlTriangles));
   app.add_option("--body-triangles", line.settings.reconstruction.body_triangles,

@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
       "1 there is none or the page cannot be written, 2 usage, 3 a folder is refused.");
   app.add_option("DIR", folders, "Folders that hold them, at any depth")->required();
   app.add_option("--customer", customer, "The shop's own id; none: who was here");
-  app.add_option("--compare", pair, "Two visits by number: first and last where not said")->expected(2);
+  app.add_option("--compare", pair, "Two visits by number; default: first and last")->expected(2);
   app.add_option("--out", out, "Page.html with tables, outlines and links");
   try {
     app.parse(argc, argv);

@@ -18,7 +18,7 @@ struct Source {
   std::size_t points = 0;
   std::vector<std::string> more = {};  ///< further files of the same scan
   mesh_files::Reading reading = {};    ///< of all of them
-  std::string customer = {};           ///< the shop's own id of her; empty: not said
+  std::string customer = {};           ///< the shop's own id of her; empty: none
   std::string garment = {};            ///< its name
 };
 

@@ -9,9 +9,9 @@
 namespace tensegric_fit::geometry {
 
 struct SpawnedProcess {
-  pid_t id = -1;  ///< to be waited for by the caller
-  int channel =
-      -1;  ///< a stream socket, the other end of its standard input and output; the caller's to close
+  pid_t id = -1;  ///< the caller waits for it
+  /// A stream socket, the other end of its standard input and output; the caller closes it.
+  int channel = -1;
 };
 
 /// Starts `program`. It has standard error of this process and no other of its descriptors (a socket of ROS

@@ -18,8 +18,8 @@ class CarriedPoints {
   CarriedPoints(const geometry::TriangleMesh& rest, const geometry::SurfaceTree& skin,
                 const std::vector<Eigen::Vector3d>& points);
 
-  /// Where they are with the mesh's vertices there. \pre one per vertex of the mesh at rest
-  /// `lift` metres above the skin, for what would sink into it half-way.
+  /// Where they are once the mesh's vertices are at `vertices`, `lift` metres above the skin, for what would
+  /// sink into it half-way. \pre one per vertex of the mesh at rest
   std::vector<Eigen::Vector3d> at(const std::vector<Eigen::Vector3d>& vertices, double lift = 0) const;
 
  private:

@@ -86,7 +86,7 @@ class Reader {
   const Json& array(const char* name) const { return list(root_, name); }
 
   std::size_t index(const Json& value) const {
-    if (!value.is_number_unsigned()) throw broken("has a number that is none or negative");
+    if (!value.is_number_unsigned()) throw broken("has an index that is not a whole number or is negative");
     return value.get<std::size_t>();
   }
 

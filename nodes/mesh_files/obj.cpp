@@ -11,7 +11,7 @@ namespace {
 namespace refusal = geometry::refusal;
 using geometry::Refusal;
 
-/// Words of a file, line by line; a backslash at a line's end goes on on the next.
+/// Words of a file, line by line; after a backslash at its end a line continues on the next.
 class Lines {
  public:
   explicit Lines(std::string_view text) : rest_(text) {}

@@ -1,4 +1,4 @@
-/// Sides of triangles and what lies across them: the means of cutting a surface open and closing it.
+/// Sides of triangles and what lies across them: what cuts a surface open and closes it needs them.
 #pragma once
 
 #include <vector>

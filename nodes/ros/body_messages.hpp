@@ -30,7 +30,7 @@ std::vector<geometry::Fracture> fractures_in(const TriangleMesh& message);
 
 Landmarks to_message(const ScanTag& tag, const geometry::BodyMeasures& measures);
 
-/// \throw Refusal non_finite, bad_mesh: a transform that is none
+/// \throw Refusal non_finite, bad_mesh: a transform that is not rigid
 geometry::BodyMeasures measures_in(const Landmarks& message);
 
 ControlMesh to_message(const ScanTag& tag, const geometry::ControlMesh& control);

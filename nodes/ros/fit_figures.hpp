@@ -49,7 +49,7 @@ struct FitFigures {
   std::optional<inspect::BraSize> size_after;  ///< of the girths with the garment on
 };
 
-/// \throw Refusal bad_mesh, non_finite: arrays that do not fit each other, or a number that is none
+/// \throw Refusal bad_mesh, non_finite: arrays that do not fit each other, or a number that is not finite
 FitFigures figures_of(const FittedScan& scan);
 
 }  // namespace tensegric_fit::node

@@ -24,7 +24,7 @@ constexpr double kSamePlace = 1e-9;  // m
 constexpr Tolerance kHandedBack{1, 1e-9, 1};
 constexpr double kNearFold = 0.002;  // of a line's length: a millimetre of a chest
 constexpr int kMostPerLoad = 60, kMostAtEnd = 80, kMostCorrections = 10;
-constexpr int kMostFromRest = 300, kMostWarm = 100;  // a start that leads nowhere soon is none
+constexpr int kMostFromRest = 300, kMostWarm = 100;  // a start that leads nowhere soon is dropped
 // Under a weight a shape may buckle and go over to another balance, by up to twice its length in steps of
 // half a part's length at most: 100 to 200 of them, whatever the load steps.
 constexpr int kMostWhileBuckling = 300, kMostUnderWeight = 1200;
@@ -322,7 +322,7 @@ bool is_rest_asked_for(const Problem& problem) {
                      [](const Band& band) { return band.neutral >= band.initial; });
 }
 
-// A start in another posture is none.
+// A solution in another posture is not a start.
 bool is_start(const Problem& problem, const Solution& start) {
   if (start.status != Status::converged && start.status != Status::infeasible) return false;
   const Positions x = positions_of(start), target = posed(problem, 1);

@@ -11,7 +11,7 @@ namespace tensegric_fit::node {
 /// `first` is the garment that the node was started with: under another one the text counts no more.
 std::string kept_text(const std::string& first, const GarmentRequest& worn);
 
-/// Nothing where the text belongs to another `first` garment, or is none of kept_text().
+/// Nothing where the text belongs to another `first` garment, or is not from kept_text().
 std::optional<GarmentRequest> kept_garment(const std::string& text, const std::string& first);
 
 }  // namespace tensegric_fit::node

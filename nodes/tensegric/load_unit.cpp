@@ -27,7 +27,7 @@ Eigen::Vector3d force_of_share(const Model& model, const Eigen::Vector3d& share,
     if (problem.free_index[i] >= 0)
       farthest = std::max(farthest, step.move.segment<3>(3 * problem.free_index[i]).norm());
   if (!(farthest > 0 && std::isfinite(farthest)))
-    throw geometry::Refusal(geometry::refusal::kBadOption, "nothing gives way to this gravity");
+    throw geometry::Refusal(geometry::refusal::kBadOption, "all nodes are fixed: gravity has no effect");
   const auto box = geometry::bounding_box(model.control.outer);
   return kMoveOfUnit * (box[1] - box[0]).norm() / farthest * share;
 }

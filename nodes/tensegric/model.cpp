@@ -155,7 +155,7 @@ class MemberPlacer {
     const double length = (rest_[a] - rest_[b]).norm();
     if (!(length > shortest_ && std::isfinite(length)))
       throw Refusal(refusal::kBadMesh,
-                    "two nodes of the tensegric model that a part joins lie on one point, or as good as");
+                    "two nodes of the tensegric model that a part joins lie on one point, or nearly");
     const double stiffness = model_.options.uniform ? kind : (kind * tissue + skin) / length;
     model_.members.push_back({a, b, strut, stiffness, length, length, model_.options.stiffening});
     densities_.push_back(density);

@@ -16,8 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// m that weight sets an arm out from its shoulder blade: some 10 mm down the shoulder's slope, and a reader
-// who goes by the arm is beyond what ISO 20685 allows.
+// m that weight sets an arm out from its shoulder blade: some 10 mm down the shoulder's slope, and a
+// landmark that is read from the arm is farther off than ISO 20685 allows.
 constexpr double kMostSetOut = 0.007;
 constexpr double kGridSpacing = 0.0065;  // on the reference body; scales with the stature
 
