@@ -2,67 +2,48 @@
 
 #include <array>
 #include <cmath>
-#include <nanoflann.hpp>
+#include <utility>
 
-#include "geometry/leaf_order.hpp"
+#include "geometry/kd_tree.hpp"
 
 namespace tensegric_fit::body_model {
+namespace {
 
-struct OrientedTree::Tree {
-  using Place = std::array<float, 6>;
-  using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Tree>, Tree, 6, int>;
+using Place = std::array<float, 6>;
 
+Place place_of(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, float reach) {
+  const Eigen::Vector3f p = point.cast<float>(), n = reach * normal.cast<float>();
+  return {p.x(), p.y(), p.z(), n.x(), n.y(), n.z()};
+}
+
+std::vector<Place> places_of(const std::vector<Eigen::Vector3d>& points,
+                             const std::vector<Eigen::Vector3d>& normals, float reach) {
   std::vector<Place> places;
-  std::vector<int> order;
+  places.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) places.push_back(place_of(points[i], normals[i], reach));
+  return places;
+}
+
+}  // namespace
+
+struct OrientedTree::Tree : geometry::KdTree<Place, float, 6> {
+  Tree(std::vector<Place> places, float r) : KdTree(std::move(places)), reach(r) {}
   float reach;
-  std::unique_ptr<Index> index;
-
-  void build() {
-    index = std::make_unique<Index>(6, *this);
-    index->buildIndex();
-    order = geometry::to_leaf_order(*index, places);
-  }
-
-  Place place(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const {
-    const Eigen::Vector3f p = point.cast<float>(), n = reach * normal.cast<float>();
-    return {p.x(), p.y(), p.z(), n.x(), n.y(), n.z()};
-  }
-
-  // What nanoflann asks of a data set.
-  std::size_t kdtree_get_point_count() const { return places.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const { return places[i][axis]; }
-  template <typename Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
 };
 
 OrientedTree::OrientedTree(const std::vector<Eigen::Vector3d>& points,
                            const std::vector<Eigen::Vector3d>& normals, double reach)
-    : tree_(std::make_unique<Tree>()) {
-  tree_->reach = static_cast<float>(reach);
-  tree_->places.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    tree_->places.push_back(tree_->place(points[i], normals[i]));
-  tree_->build();
-}
+    : tree_(std::make_unique<Tree>(places_of(points, normals, static_cast<float>(reach)),
+                                   static_cast<float>(reach))) {}
 
 OrientedTree::~OrientedTree() = default;
 
 int OrientedTree::nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const {
-  const Tree::Place query = tree_->place(point, normal);
-  int index = 0;
-  float squared = 0;
-  tree_->index->knnSearch(query.data(), 1, &index, &squared);
-  return tree_->order[index];
+  return tree_->nearest(place_of(point, normal, tree_->reach).data()).first;
 }
 
 double OrientedTree::distance(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const {
-  const Tree::Place query = tree_->place(point, normal);
-  int index = 0;
-  float squared = 0;
-  tree_->index->knnSearch(query.data(), 1, &index, &squared);
-  return std::sqrt(squared);
+  return std::sqrt(tree_->nearest(place_of(point, normal, tree_->reach).data()).second);
 }
 
 }  // namespace tensegric_fit::body_model

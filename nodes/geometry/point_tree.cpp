@@ -1,33 +1,13 @@
 #include "geometry/point_tree.hpp"
 
 #include <cmath>
-#include <nanoflann.hpp>
 
-#include "geometry/leaf_order.hpp"
+#include "geometry/kd_tree.hpp"
 
 namespace tensegric_fit::geometry {
 
-struct PointTree::Tree {
-  using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Tree>, Tree, 3, int>;
-
-  std::vector<Eigen::Vector3d> points;
-  std::vector<int> order;
-  Index index;
-
-  explicit Tree(const std::vector<Eigen::Vector3d>& p) : points(p), index(3, *this) {
-    index.buildIndex();
-    order = to_leaf_order(index, points);
-  }
-
-  // What nanoflann asks of a data set.
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points[i][static_cast<Eigen::Index>(axis)];
-  }
-  template <typename Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
+struct PointTree::Tree : KdTree<Eigen::Vector3d, double, 3> {
+  using KdTree::KdTree;
 };
 
 namespace {
@@ -63,17 +43,11 @@ PointTree& PointTree::operator=(PointTree&&) noexcept = default;
 PointTree::~PointTree() = default;
 
 double PointTree::distance(const Eigen::Vector3d& query) const {
-  int index;
-  double squared = 0;
-  tree_->index.knnSearch(query.data(), 1, &index, &squared);
-  return std::sqrt(squared);
+  return std::sqrt(tree_->nearest(query.data()).second);
 }
 
 int PointTree::nearest(const Eigen::Vector3d& query) const {
-  int index;
-  double squared;
-  tree_->index.knnSearch(query.data(), 1, &index, &squared);
-  return tree_->order[index];
+  return tree_->nearest(query.data()).first;
 }
 
 void PointTree::nearest(const Eigen::Vector3d& query, int count, std::vector<int>& indices) const {
