@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 
+#include "geometry/disjoint_sets.hpp"
 #include "geometry/status.hpp"
 #include "geometry/triangle_mesh.hpp"
 
@@ -62,23 +62,17 @@ template <typename Is>
 std::vector<std::vector<Change>> pieces(const WornSkin& skin, const std::vector<Change>& changes, Is is) {
   std::vector<Change> picked;
   std::copy_if(changes.begin(), changes.end(), std::back_inserter(picked), is);
-  std::vector<int> parent(picked.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  geometry::DisjointSets sets(picked.size());
   std::map<int, int> first_at;  // vertex -> the first picked triangle there
   for (std::size_t i = 0; i < picked.size(); ++i)
     for (const int v : skin.triangles[picked[i].triangle]) {
       const auto [at, is_new] = first_at.emplace(v, static_cast<int>(i));
-      const int a = root(at->second), b = root(static_cast<int>(i));
-      if (!is_new) parent[std::max(a, b)] = std::min(a, b);
+      if (!is_new) sets.join(at->second, static_cast<int>(i));
     }
   std::vector<std::vector<Change>> found;
   std::map<int, std::size_t> place;
   for (std::size_t i = 0; i < picked.size(); ++i) {
-    const auto [at, is_new] = place.emplace(root(static_cast<int>(i)), found.size());
+    const auto [at, is_new] = place.emplace(sets.root(static_cast<int>(i)), found.size());
     if (is_new) found.emplace_back();
     found[at->second].push_back(picked[i]);
   }
