@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "geometry/checked_yaml.hpp"
+#include "geometry/points.hpp"
 
 namespace tensegric_fit::body_model {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using geometry::mean_of;
 
 constexpr double kSole = 0.006;  // m over the lowest point of the feet at rest: skin that bears her
 // Deviations: of 100 women who stand upright 13 seem to lean by 2, one by 3. In between the scan's
@@ -27,12 +29,6 @@ std::vector<Vector3d> soles_of(const RegisteredBody& body) {
   for (std::size_t v = 0; v < model.mean.size(); ++v)
     if (model.mean[v].z() < lowest + kSole) soles.push_back(body.posed[v]);
   return soles;
-}
-
-Vector3d mean_of(const std::vector<Vector3d>& points) {
-  Vector3d sum = Vector3d::Zero();
-  for (const Vector3d& p : points) sum += p;
-  return sum / static_cast<double>(points.size());
 }
 
 Vector3d normal_of(const std::vector<Vector3d>& points, const Vector3d& up) {

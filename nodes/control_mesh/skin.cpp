@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/even_steps.hpp"
 #include "geometry/section.hpp"
 
 namespace tensegric_fit::control_mesh {
@@ -68,25 +69,6 @@ std::vector<Vector3d> forward(const geometry::SectionLoop& loop, const PlaceOnLo
   for (std::size_t i = 1; i <= steps; ++i) way.push_back(loop.points[(a.segment + i) % count]);
   way.push_back(b.point);
   return way;
-}
-
-std::vector<Vector3d> divide(const std::vector<Vector3d>& way, int count) {
-  const double length = geometry::length_of(way, false);
-  std::vector<Vector3d> points;
-  double behind = 0;
-  std::size_t s = 0;
-  for (int i = 1; i <= count; ++i) {
-    const double target = length * i / (count + 1);
-    double step = (way[s + 1] - way[s]).norm();
-    while (s + 2 < way.size() && behind + step < target) {
-      behind += step;
-      ++s;
-      step = (way[s + 1] - way[s]).norm();
-    }
-    points.push_back(way[s] +
-                     (way[s + 1] - way[s]) * (step > 0 ? std::min(1.0, (target - behind) / step) : 0.0));
-  }
-  return points;
 }
 
 }  // namespace
@@ -198,7 +180,8 @@ std::vector<Vector3d> Skin::between(const Vector3d& a, const Vector3d& b, int co
           way = candidate;
     }
   }
-  std::vector<Vector3d> points = divide(way.empty() ? std::vector<Vector3d>{a, b} : way, count);
+  std::vector<Vector3d> points =
+      geometry::between_ends(way.empty() ? std::vector<Vector3d>{a, b} : way, count);
   if (way.empty())  // the section is broken here: the skin beside the straight way
     for (Vector3d& p : points) p = nearest(p);
   return points;

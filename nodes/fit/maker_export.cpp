@@ -5,6 +5,7 @@
 
 #include "fit/result_folder.hpp"
 #include "geometry/moved_skin.hpp"
+#include "geometry/points.hpp"
 #include "inspect/fit_model.hpp"
 #include "mesh_files/maker_files.hpp"
 #include "mesh_files/measures_file.hpp"
@@ -13,11 +14,6 @@ namespace tensegric_fit::fit {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
-
-Points moved(Points points, const Eigen::Isometry3d& motion) {
-  for (Eigen::Vector3d& p : points) p = motion * p;
-  return points;
-}
 
 std::string glb_of(const Body& body, const Fit* fit) {
   const Points nowhere;
@@ -51,9 +47,10 @@ void export_for_makers(const std::string& folder, const std::vector<std::string>
     write_text((std::filesystem::path(folder) / name).string(), bytes);
   };
   const Eigen::Isometry3d& place = body.measures.body_from_scan;
-  const geometry::TriangleMesh rest{moved(body.mesh.mesh.vertices, place), body.mesh.mesh.triangles};
+  const geometry::TriangleMesh rest{geometry::moved(body.mesh.mesh.vertices, place),
+                                    body.mesh.mesh.triangles};
   geometry::TriangleMesh worn;
-  if (fit != nullptr) worn = {moved(fit->deformed, place), rest.triangles};
+  if (fit != nullptr) worn = {geometry::moved(fit->deformed, place), rest.triangles};
   if (wanted("obj")) write("body.obj", mesh_files::obj_text(rest, "body"));
   if (wanted("stl")) write("body.stl", mesh_files::stl_bytes(rest));
   if (fit != nullptr && wanted("obj")) write("deformed.obj", mesh_files::obj_text(worn, "deformed"));

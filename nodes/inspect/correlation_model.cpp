@@ -1,13 +1,13 @@
 #include "inspect/correlation_model.hpp"
 
+#include "geometry/points.hpp"
 #include "mesh_files/glb.hpp"
 
 namespace tensegric_fit::inspect {
 
 std::string correlation_glb(const CorrelationScene& scene) {
-  const auto in_body_frame = [&](std::vector<Eigen::Vector3d> points) {
-    for (Eigen::Vector3d& p : points) p = scene.body_from_scan * p;
-    return points;
+  const auto in_body_frame = [&](const std::vector<Eigen::Vector3d>& points) {
+    return geometry::moved(points, scene.body_from_scan);
   };
   mesh_files::GlbMesh body{"body", {in_body_frame(scene.before.vertices), scene.before.triangles}};
   body.colours = distance_colours(scene.distance, scene.compared);

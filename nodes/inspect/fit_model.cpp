@@ -1,7 +1,7 @@
 #include "inspect/fit_model.hpp"
 
-#include <algorithm>
-
+#include "geometry/even_steps.hpp"
+#include "geometry/points.hpp"
 #include "inspect/colours.hpp"
 #include "mesh_files/glb.hpp"
 
@@ -15,38 +15,24 @@ constexpr double kTubeRadius = 0.004;  // m: a line lies on the skin, and half o
 constexpr int kTubePoints = 200;
 constexpr Colour kTubeColour{40, 40, 48};
 
-Points moved(Points points, const Eigen::Isometry3d& motion) {
-  for (Eigen::Vector3d& p : points) p = motion * p;
-  return points;
-}
-
 // As many points for a line before and after, in even steps.
 Points in_steps(const Points& line, int count) {
-  std::vector<double> reached{0};
-  for (std::size_t i = 1; i < line.size(); ++i)
-    reached.push_back(reached.back() + (line[i] - line[i - 1]).norm());
   Points result;
-  std::size_t i = 0;
-  for (int k = 0; k < count; ++k) {
-    const double at = reached.back() * k / (count - 1);
-    while (i + 2 < line.size() && reached[i + 1] < at) ++i;
-    const double step = reached[i + 1] - reached[i];
-    const double share = step > 0 ? std::clamp((at - reached[i]) / step, 0.0, 1.0) : 0;
-    result.push_back(line[i] + share * (line[i + 1] - line[i]));
-  }
+  for (const auto& [segment, share] : geometry::even_places(line, count))
+    result.push_back(line[segment] + share * (line[segment + 1] - line[segment]));
   return result;
 }
 
 mesh_files::GlbMesh body_of(const FitModel& model) {
-  mesh_files::GlbMesh body{"body",
-                           {moved(model.before.vertices, model.body_from_scan), model.before.triangles}};
+  mesh_files::GlbMesh body{
+      "body", {geometry::moved(model.before.vertices, model.body_from_scan), model.before.triangles}};
   if (model.after.empty()) {
     body.colour = kNeutral;
     return body;
   }
   body.colours = distortion_colours(model.distortion);
   body.scalars = {{"_DISTORTION", {model.distortion.begin(), model.distortion.end()}}};
-  body.morphs = {{kMorph, moved(model.after, model.body_from_scan)}};
+  body.morphs = {{kMorph, geometry::moved(model.after, model.body_from_scan)}};
   body.extras = {{"distortion", "skin area under the garment / before"},
                  {"distortion_colours", {kTightest, 1, kLoosest}}};
   return body;
@@ -59,7 +45,8 @@ std::string fit_glb(const FitModel& model) {
   for (const ModelLine& line : model.lines) {
     if (line.before.size() < 2 || line.after.size() < 2) continue;
     const auto tube = [&](const Points& course) {
-      return mesh_files::tube(in_steps(moved(course, model.body_from_scan), kTubePoints), kTubeRadius);
+      return mesh_files::tube(in_steps(geometry::moved(course, model.body_from_scan), kTubePoints),
+                              kTubeRadius);
     };
     mesh_files::GlbMesh mesh{"line " + line.name, tube(line.before)};
     mesh.morphs = {{kMorph, tube(line.after).vertices}};

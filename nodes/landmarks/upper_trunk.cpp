@@ -1,24 +1,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/points.hpp"
 #include "landmarks/finders.hpp"
 
 namespace tensegric_fit::landmarks {
 namespace {
 
 using Eigen::Vector3d;
+using geometry::mean_of;
 using geometry::SectionLoop;
 
 constexpr double kArmBeside = 0.08;                      // m from the trunk's middle to an arm's, at least
 constexpr int kHalvings = 12;                            // of the search for the highest plane: 0.1 mm
 constexpr int kHarmonics = 8, kLoopPoints = 180;         // of a neck: waves of 40 mm
 constexpr double kNeckStep = 0.005, kNeckReach = 0.040;  // m (definition)
-
-Vector3d mean_of(const std::vector<Vector3d>& points) {
-  Vector3d sum = Vector3d::Zero();
-  for (const Vector3d& p : points) sum += p;
-  return sum / static_cast<double>(points.size());
-}
 
 /// Whether a loop goes round the body, and not round a hollow within: a fold that the scan did not see into
 /// may go on inside the mesh.

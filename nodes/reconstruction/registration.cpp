@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/percentile.hpp"
+#include "geometry/points.hpp"
 #include "geometry/rigid_motion.hpp"
 #include "reconstruction/sensor_patches.hpp"
 
@@ -114,9 +115,7 @@ double largest_move(const Points& from, const Points& to, const std::vector<int>
 void register_sensors(Points& points, const std::vector<int>& sensor_of) {
   const int sensors = sensor_of.empty() ? 0 : *std::max_element(sensor_of.begin(), sensor_of.end()) + 1;
   if (sensors < 2) return;
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points) middle += p;
-  middle /= static_cast<double>(points.size());
+  const Eigen::Vector3d middle = geometry::mean_of(points);
   Points moved = points;
   for (int pass = 0; pass < kPasses; ++pass) {
     const std::vector<SmallMotion> motions = motions_of(moved, sensor_of, sensors, middle);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "geometry/even_steps.hpp"
 #include "geometry/status.hpp"
 #include "ros/flat.hpp"
 #include "tensegric/members.hpp"
@@ -90,22 +91,6 @@ GarmentLine line_of(const tensegric::GarmentLine& line) {
   message.width = line.width;
   message.smooth = line.smooth;
   return message;
-}
-
-// `count` places evenly along a polyline, as its segments and the shares of their lengths.
-std::vector<std::pair<std::size_t, double>> evenly(const std::vector<Eigen::Vector3d>& line,
-                                                   std::size_t count) {
-  std::vector<double> at{0};
-  for (std::size_t i = 1; i < line.size(); ++i) at.push_back(at.back() + (line[i] - line[i - 1]).norm());
-  std::vector<std::pair<std::size_t, double>> places;
-  std::size_t segment = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double wanted = at.back() * static_cast<double>(k) / static_cast<double>(count - 1);
-    while (segment + 2 < line.size() && at[segment + 1] < wanted) ++segment;
-    const double length = at[segment + 1] - at[segment];
-    places.emplace_back(segment, length > 0 ? std::min(1.0, (wanted - at[segment]) / length) : 0);
-  }
-  return places;
 }
 
 FitState named(const FitName& name) {
@@ -252,7 +237,7 @@ BandShapes bands_message(const FitName& name, const tensegric::Solution& solutio
     band.width = line.width;
     band.fibres = static_cast<std::uint32_t>(line.fibres.size());
     for (std::size_t f = 0; f < line.fibres.size(); ++f) {
-      const std::vector<std::pair<std::size_t, double>> places = evenly(line.fibres_at_rest[f], count);
+      const auto places = geometry::even_places(line.fibres_at_rest[f], static_cast<int>(count));
       for (const auto& [fibres, values] :
            {std::pair(&line.fibres_at_rest, &band.at_rest), {&line.fibres, &band.worn}})
         for (const auto& [segment, share] : places) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/even_steps.hpp"
 #include "geometry/section.hpp"
 #include "geometry/status.hpp"
 #include "geometry/surface_tree.hpp"
@@ -32,19 +33,8 @@ std::vector<Vector3d> evenly(const std::vector<Vector3d>& line) {
   const double length = geometry::length_of(line, false);
   if (!(length > kSpacing)) throw Refusal(refusal::kBadGarment, "a line on the body has no length");
   const int count = std::max(2, static_cast<int>(std::ceil(length / kSpacing)) + 1);
-  std::vector<Vector3d> points{line.front()};
-  double behind = 0;
-  std::size_t s = 1;
-  for (int i = 1; i + 1 < count; ++i) {
-    const double at = length * i / (count - 1);
-    while (s + 1 < line.size() && behind + (line[s] - line[s - 1]).norm() < at) {
-      behind += (line[s] - line[s - 1]).norm();
-      ++s;
-    }
-    const double segment = (line[s] - line[s - 1]).norm();
-    const double t = segment > 0 ? std::clamp((at - behind) / segment, 0.0, 1.0) : 0.0;
-    points.push_back(line[s - 1] + t * (line[s] - line[s - 1]));
-  }
+  std::vector<Vector3d> points = geometry::between_ends(line, count - 2);
+  points.insert(points.begin(), line.front());
   points.push_back(line.back());
   return points;
 }

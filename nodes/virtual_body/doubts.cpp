@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "geometry/points.hpp"
+
 namespace tensegric_fit::virtual_body {
 namespace {
 
@@ -33,7 +35,7 @@ double gap_between_thighs(const Skin& skin, const Vector3d& crotch) {
     double left = std::numeric_limits<double>::infinity(), right = -left;
     for (const auto& loop : skin.cut({0, 0, crotch.z() - below}, Vector3d::UnitZ(), Part::trunk)) {
       const auto box = geometry::bounding_box(loop.points);
-      if (middle_of(loop.points).y() > crotch.y())
+      if (geometry::mean_of(loop.points).y() > crotch.y())
         left = std::min(left, box[0].y());
       else
         right = std::max(right, box[1].y());

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "body_model/registered_body.hpp"
+#include "geometry/points.hpp"
 #include "geometry/status.hpp"
 #include "virtual_body/model_body.hpp"
 #include "virtual_body/skin_measures.hpp"
@@ -41,9 +42,9 @@ std::optional<Vector3d> gap(const Skin& skin, Side side, double height) {
     trunk = &loop;
   }
   if (trunk == nullptr) return std::nullopt;
-  const double middle = middle_of(trunk->points).y();
+  const double middle = geometry::mean_of(trunk->points).y();
   for (const SectionLoop& loop : loops)
-    if (&loop != trunk && kSign[side] * (middle_of(loop.points).y() - middle) > kBeside &&
+    if (&loop != trunk && kSign[side] * (geometry::mean_of(loop.points).y() - middle) > kBeside &&
         (arm == nullptr || loop.points.size() > arm->points.size()))
       arm = &loop;
   if (arm == nullptr) return std::nullopt;

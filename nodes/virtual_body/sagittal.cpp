@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/points.hpp"
 #include "geometry/section.hpp"
 #include "geometry/status.hpp"
 
@@ -54,7 +55,7 @@ Line profile_down(const Skin& skin, const Vector3d& start) {
   std::rotate(loop.begin(), nearest, loop.end());
   Line back = loop;
   std::reverse(back.begin() + 1, back.end());
-  const auto height = [](const Line& way) { return middle_of(even(way, kWay)).z(); };
+  const auto height = [](const Line& way) { return geometry::mean_of(even(way, kWay)).z(); };
   if (height(back) < height(loop)) loop = back;
   return geometry::smoothed(even(loop, kReach + kBeyond), kSmoothing, static_cast<int>(4 * kSmoothing));
 }

@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/points.hpp"
+
 namespace tensegric_fit::virtual_body {
 namespace {
 
@@ -60,7 +62,7 @@ Tape Skin::round_nearest(const Vector3d& origin, const Vector3d& normal, Part pa
   Tape best;
   double nearest = std::numeric_limits<double>::infinity();
   for (const SectionLoop& loop : cut(origin, normal, part)) {
-    const double far = (middle_of(loop.points) - origin).norm();
+    const double far = (geometry::mean_of(loop.points) - origin).norm();
     if (far >= nearest) continue;
     nearest = far;
     best = loop.points;
@@ -98,12 +100,6 @@ std::optional<Vector3d> Skin::above(const Vector3d& point) const {
 
 double girth(const Tape& tape) {
   return geometry::length_of(tape, true);
-}
-
-Vector3d middle_of(const std::vector<Vector3d>& points) {
-  Vector3d sum = Vector3d::Zero();
-  for (const Vector3d& p : points) sum += p;
-  return sum / static_cast<double>(points.size());
 }
 
 }  // namespace tensegric_fit::virtual_body

@@ -50,6 +50,4 @@ class Skin {
 
 double girth(const Tape& tape);  ///< m
 
-Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& points);
-
 }  // namespace tensegric_fit::virtual_body
