@@ -271,12 +271,12 @@ TEST_F(TensegricHandlerTest, StartedAgainItWearsWhatItWore) {
 TEST_F(TensegricHandlerTest, RefusedGarmentsLeaveTheOldOneOn) {
   TensegricHandler stage = handler();
   EXPECT_EQ(refusal_of([&] { stage.put_on(chest_at(1e300)); }),
-            "line 'chest': ratio 1e+300 is not in [0.05, 10]");
+            "line 'chest': 'ratio' is 1e+300, outside [0.05, 10]");
   SetGarment::Request request;
   request.name = "B1";
   request.lines = {"chest"};
   request.ratios = {1e300};
-  EXPECT_EQ(refusal_of([&] { stage.put_on(request); }), "ratio 1e+300 is outside [0.05, 10]");
+  EXPECT_EQ(refusal_of([&] { stage.put_on(request); }), "garment B1: 'ratio' is 1e+300, outside [0.05, 10]");
   EXPECT_EQ(stage.worn().garment.lines.at(0).ratio, 0.95);
 }
 
