@@ -12,8 +12,8 @@ namespace tensegric_fit::tensegric {
 namespace {
 
 constexpr int kMostSteps = 60;
-// Largest net force at a free node / largest ideal force of a part: what is aimed at; and what is a balance
-// where it falls no more, as sums over thousands of parts round by some 1e-13.
+// Largest net force at a free node: aimed at, over the largest ideal force of a part; and what is a balance
+// where it falls no more, over the largest force of a part: sums over thousands of parts round by some 1e-13.
 constexpr double kTolerance = 1e-13, kRoundOff = 1e-11;
 
 // Nearest point w to the ideal (+-1, in multiples of each part's ideal density) with C w = 0 and w within its
@@ -43,7 +43,7 @@ class NearestBalance {
     factor.analyzePattern(matrix_.lower());
     double before = std::numeric_limits<double>::infinity();
     for (int step = 0; step < kMostSteps && imbalance(force) > kTolerance; ++step) {
-      if (imbalance(force) <= kRoundOff && imbalance(force) >= before) break;
+      if (is_rounding(force, w) && imbalance(force) >= before) break;
       before = imbalance(force);
       fill(y, lowest);
       factor.factorize(matrix_.lower());
@@ -59,7 +59,7 @@ class NearestBalance {
       }
       y += length * dy;
     }
-    if (imbalance(force) > kRoundOff) return {};
+    if (imbalance(force) > kTolerance && !is_rounding(force, w)) return {};
     Eigen::VectorXd density(w.size());
     for (std::size_t i = 0; i < w.size(); ++i) density[i] = w[i] * density_[i];
     return density;
@@ -126,6 +126,13 @@ class NearestBalance {
   }
 
   double imbalance(const Eigen::VectorXd& force) const { return force.lpNorm<Eigen::Infinity>() / largest_; }
+
+  bool is_rounding(const Eigen::VectorXd& force, const std::vector<double>& w) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < w.size(); ++i)
+      largest = std::max(largest, std::abs(w[i]) * column_[i].norm());
+    return force.lpNorm<Eigen::Infinity>() <= kRoundOff * largest;
+  }
 
   const Model& model_;
   std::vector<int> free_;
