@@ -107,10 +107,16 @@ class Cameras {
 TEST(DepthCamerasTest, DepthImagesBecomeABodyAndItsMeasures) {
   Cameras booth("played");
   ASSERT_TRUE(booth.ready());
-  booth.send_all(ros::Time(100));
-  ASSERT_TRUE(wait_for([&] { return !booth.landmarks.empty() && !booth.bodies.empty(); }));
+  ros::Time sent(100);
+  booth.send_all(sent);
+  ASSERT_TRUE(wait_for([&] {
+    // Where /tf_static came later than the images they were refused by that name.
+    if (sent == ros::Time(100) && booth.facts[booth.stage("assembler")]["last_error"] == "no_transform")
+      booth.send_all(sent = ros::Time(110));
+    return !booth.landmarks.empty() && !booth.bodies.empty();
+  }));
   EXPECT_EQ(booth.scans.size(), 1u);
-  EXPECT_EQ(booth.scans[0]->header.stamp, ros::Time(100));
+  EXPECT_EQ(booth.scans[0]->header.stamp, sent);
 
   // The surface, where it was seen: away from soles, hands and head, as far as ISO-like limits of the design
   // go.
