@@ -96,7 +96,9 @@ GarmentLine read_line(const YAML::Node& node, const std::string& where) {
   line.name = geometry::required<std::string>(node, "name", where, kBadGarment);
   line.ratio = number("ratio", line.ratio);
   line.law = read_law(node, where);
-  line.tension_limit = number("tension_limit", line.tension_limit);
+  if (node["tension_limit"])  // none is said by leaving it out, not by .inf
+    line.tension_limit =
+        geometry::number_in(node, "tension_limit", kTension.low, kTension.high, where, kBadGarment);
   line.through = words(node, "through", where);
   const auto follow = geometry::optional<std::string>(node, "follow", "skin", where, kBadGarment);
   if (follow != "skin" && follow != "taut") refuse(where, "'follow' is '" + follow + "', not skin or taut");

@@ -103,7 +103,7 @@ def main():
     if arguments.full_scans:
         make_bodies(work / "full", arguments.programs, arguments.bodies, ())
     for part in range(arguments.parts):
-        if part in (line["part"] for line in done):
+        if any((line["part"], line["parts"]) == (part, arguments.parts) for line in done):
             continue
         done.append(run_part(part, work, arguments))
         print(json.dumps(done[-1]), flush=True)
