@@ -7,9 +7,9 @@
 #include "assembler/capture_join.hpp"
 #include "geometry/status.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 using assembler::Capture;
 using assembler::CaptureJoin;
 using Fate = CaptureJoin::Fate;
@@ -159,3 +159,4 @@ TEST(CaptureJoinTest, OptionsOutOfRangeAreRefused) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit

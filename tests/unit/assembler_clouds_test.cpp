@@ -9,9 +9,9 @@
 #include "virtual_body/virtual_body.hpp"
 #include "virtual_booth/virtual_scanner.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 using assembler::AssemblerOptions;
 using assembler::Assembly;
 using assembler::Capture;
@@ -202,3 +202,4 @@ TEST(AssemblerTest, OptionsOutOfRangeAreRefused) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit

@@ -11,10 +11,9 @@
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
 
+namespace tensegric_fit::body_model {
 namespace {
 
-using namespace tensegric_fit;
-using namespace body_model;
 using Eigen::Vector3d;
 
 const std::string kBones = geometry::shipped_folder("body_model") + "/bones.tfb";
@@ -188,3 +187,4 @@ TEST(Bones, OfAnotherFormatOrModelAreRefusedByName) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit::body_model

@@ -6,15 +6,12 @@
 
 #include "body_model/posed_model.hpp"
 #include "body_model/registration.hpp"
+#include "shipped_model.hpp"
 
 namespace tensegric_fit::body_model {
 namespace {
 
 using Eigen::Vector3d;
-
-const Model& model() {
-  return shipped_registrar().model();
-}
 
 /// Somebody in some pose, somewhere.
 Parameters random_woman(std::uint32_t seed) {

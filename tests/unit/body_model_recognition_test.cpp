@@ -9,6 +9,8 @@
 #include "body_model/recognition.hpp"
 #include "body_model/registration.hpp"
 #include "geometry/status.hpp"
+#include "refusal_of.hpp"
+#include "shipped_model.hpp"
 #include "virtual_body/model_body.hpp"
 
 namespace tensegric_fit::body_model {
@@ -16,12 +18,6 @@ namespace {
 
 using Eigen::Vector3d;
 using geometry::TriangleMesh;
-
-constexpr double kDegree = M_PI / 180;
-
-const Model& model() {
-  return shipped_registrar().model();
-}
 
 /// A woman of the model's own make, m, z up, facing x, on the floor.
 TriangleMesh woman(double arms = 30 * kDegree) {
@@ -94,18 +90,8 @@ TriangleMesh turned(double height, const std::function<Eigen::Vector2d(double)>&
   return mesh;
 }
 
-RegisteredBody registered(const TriangleMesh& mesh) {
-  return register_mesh(shipped_registrar(), mesh);
-}
-
-/// "" where it is taken for a person.
-std::string refusal_of(const TriangleMesh& mesh) {
-  try {
-    registered(mesh);
-  } catch (const geometry::Refusal& refusal) {
-    return refusal.code();
-  }
-  return "";
+std::string refusal_of_mesh(const TriangleMesh& mesh) {
+  return refusal_of([&] { register_mesh(shipped_registrar(), mesh); });
 }
 
 std::vector<std::string> names_of(const std::vector<geometry::Missing>& missing) {
@@ -119,7 +105,7 @@ using Names = std::vector<std::string>;
 
 TEST(Recognition, AWholeWomanLacksNothing) {
   for (const double arms : {15.0, 45.0, 80.0}) {
-    const RegisteredBody body = registered(woman(arms * kDegree));
+    const RegisteredBody body = register_mesh(shipped_registrar(), woman(arms * kDegree));
     EXPECT_EQ(names_of(missing_parts(body)), Names()) << arms;
     EXPECT_TRUE(body.unexplained.empty()) << arms;
     EXPECT_TRUE(body.note.empty()) << body.note;
@@ -140,17 +126,17 @@ TEST(Recognition, ThingsAreRefused) {
     const auto at = [z](double middle, double r) { return r * r - (z - middle) * (z - middle); };
     return Eigen::Vector2d::Constant(std::sqrt(std::max({0.0, at(0.35, 0.35), at(0.9, 0.28), at(1.3, 0.2)})));
   };
-  EXPECT_EQ(refusal_of(turned(
+  EXPECT_EQ(refusal_of_mesh(turned(
                 1.7, [](double) { return Eigen::Vector2d(0.25, 0.2); }, 20)),
             "not_a_body")
       << "box";
-  EXPECT_EQ(refusal_of(turned(1.6, ball)), "not_a_body") << "ball";
-  EXPECT_EQ(refusal_of(turned(1.5, round(0.18))), "not_a_body") << "cylinder";
-  EXPECT_EQ(refusal_of(turned(1.8, round(0.04))), "not_a_body") << "pole";
-  EXPECT_EQ(refusal_of(turned(1.7, cigar)), "not_a_body") << "cigar";
-  EXPECT_EQ(refusal_of(turned(1.5, snowman)), "not_a_body") << "snowman";
+  EXPECT_EQ(refusal_of_mesh(turned(1.6, ball)), "not_a_body") << "ball";
+  EXPECT_EQ(refusal_of_mesh(turned(1.5, round(0.18))), "not_a_body") << "cylinder";
+  EXPECT_EQ(refusal_of_mesh(turned(1.8, round(0.04))), "not_a_body") << "pole";
+  EXPECT_EQ(refusal_of_mesh(turned(1.7, cigar)), "not_a_body") << "cigar";
+  EXPECT_EQ(refusal_of_mesh(turned(1.5, snowman)), "not_a_body") << "snowman";
   const Eigen::Isometry3d over(Eigen::Translation3d(0, 0, 1.65) * Eigen::AngleAxisd(M_PI, Vector3d::UnitX()));
-  EXPECT_EQ(refusal_of(moved(woman(), over)), "not_a_body") << "a woman upside down";
+  EXPECT_EQ(refusal_of_mesh(moved(woman(), over)), "not_a_body") << "a woman upside down";
 }
 
 TEST(Recognition, TwoPersonsAreRefusedAndTheRefusalSaysWhy) {
@@ -158,7 +144,7 @@ TEST(Recognition, TwoPersonsAreRefusedAndTheRefusalSaysWhy) {
     TriangleMesh two = woman(15 * kDegree);
     add(two, moved(two, Eigen::Translation3d(-0.5, 0, 0) * Eigen::AngleAxisd(yaw, Vector3d::UnitZ())));
     try {
-      registered(two);
+      register_mesh(shipped_registrar(), two);
       FAIL() << "two persons were taken for one";
     } catch (const geometry::Refusal& refusal) {
       EXPECT_EQ(refusal.code(), std::string(geometry::refusal::kNotABody));
@@ -171,7 +157,8 @@ TEST(Recognition, TwoPersonsAreRefusedAndTheRefusalSaysWhy) {
 TEST(Recognition, LimbsThatAreNotThereAreNamed) {
   const TriangleMesh whole = woman();
   const auto missing_without = [&](const Names& parts) {
-    return missing_parts(registered(without(whole, [&](int v, const Vector3d&) { return is_of(v, parts); })));
+    return missing_parts(register_mesh(
+        shipped_registrar(), without(whole, [&](int v, const Vector3d&) { return is_of(v, parts); })));
   };
   EXPECT_EQ(names_of(missing_without({"forearm_L", "hand_L"})), Names({"forearm_L"}));
   EXPECT_EQ(names_of(missing_without({"hand_R"})), Names({"hand_R"}));
@@ -195,7 +182,8 @@ TEST(Recognition, HalvesOfAWomanAreRegisteredInHerSizeAndNamed) {
                            Half{"no shanks", 0.43, 2, {"shank_L", "shank_R"}, 0.03},
                            Half{"no crown", 0, 1.57, {"crown"}, 0.02}}) {
     SCOPED_TRACE(half.what);
-    const RegisteredBody body = registered(
+    const RegisteredBody body = register_mesh(
+        shipped_registrar(),
         without(whole, [&](int, const Vector3d& p) { return p.z() < half.low || p.z() > half.high; }));
     EXPECT_EQ(names_of(missing_parts(body)), half.missing);
     EXPECT_NEAR(body.stature(), 1.64, half.off);
@@ -209,7 +197,7 @@ TEST(Recognition, WhatIsNotHersIsNamedWhereItIs) {
   add(mesh, moved(turned(
                       0.30, [](double) { return Eigen::Vector2d(0.12, 0.08); }, 8),
                   Eigen::Isometry3d(Eigen::Translation3d(-0.30, 0, 1.05))));
-  const RegisteredBody body = registered(mesh);
+  const RegisteredBody body = register_mesh(shipped_registrar(), mesh);
   ASSERT_EQ(body.unexplained.size(), 1U);
   EXPECT_LT((body.unexplained[0].centre - Vector3d(-0.30, 0, 1.20)).norm(), 0.1);
   EXPECT_GT(body.unexplained[0].extent, 0.25);
@@ -224,8 +212,8 @@ TEST(Recognition, AnUnusualShapeIsMeasuredWithAWord) {
   parameters.shape = Eigen::VectorXd::Zero(model().components());
   for (int i = 0; i < model().components(); ++i) parameters.shape[i] = i % 2 == 0 ? 2.2 : -2.2;
   parameters.arms = {0.8, 0.8};
-  const RegisteredBody body =
-      registered({virtual_body::stand(model(), parameters).vertices, model().triangles});
+  const RegisteredBody body = register_mesh(
+      shipped_registrar(), {virtual_body::stand(model(), parameters).vertices, model().triangles});
   EXPECT_NE(body.note.find("unusual"), std::string::npos) << body.evidence.shape;
 }
 

@@ -11,6 +11,8 @@
 #include "body_model/registration.hpp"
 #include "geometry/decimate.hpp"
 #include "geometry/status.hpp"
+#include "refusal_of.hpp"
+#include "shipped_model.hpp"
 #include "virtual_booth/random_body.hpp"
 
 namespace tensegric_fit::body_model {
@@ -20,13 +22,7 @@ using Eigen::Vector3d;
 using geometry::TriangleMesh;
 using virtual_body::ModelBodyParameters;
 
-constexpr double kDegree = M_PI / 180;
-
-const Model& model() {
-  return shipped_registrar().model();
-}
-
-ModelBodyParameters random_woman(std::uint64_t seed) {
+ModelBodyParameters drawn_woman(std::uint64_t seed) {
   ModelBodyParameters woman = virtual_booth::random_model_body(seed, model());
   woman.shape = woman.shape.cwiseMin(2).cwiseMax(-2);
   return woman;
@@ -88,7 +84,7 @@ void expect_found(const Registered& her, double spacing = 0) {
 
 TEST(Registration, FindsPoseAndShapeWhateverYawAndTilt) {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const ModelBodyParameters woman = random_woman(seed);
+    const ModelBodyParameters woman = drawn_woman(seed);
     for (const auto& [yaw, tilt] : {std::pair(0.0, 0.0), std::pair(100.0, 0.0), std::pair(233.0, 15.0)}) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", yaw " << yaw << ", tilt " << tilt);
       const Eigen::Isometry3d motion = motion_of(yaw * kDegree, tilt * kDegree);
@@ -104,7 +100,7 @@ TEST(Registration, FindsArmsThatHangAndArmsHeldOut) {
   for (const std::uint64_t seed : {1, 2})
     for (const double arms : {20.0, 80.0}) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", arms " << arms);
-      ModelBodyParameters woman = random_woman(seed);
+      ModelBodyParameters woman = drawn_woman(seed);
       woman.arms = {arms * kDegree, arms * kDegree};
       woman.forwards = {0, 0};
       woman.elbows = {0.1, 0.1};
@@ -113,7 +109,7 @@ TEST(Registration, FindsArmsThatHangAndArmsHeldOut) {
 }
 
 TEST(Registration, FewAndManyTrianglesWillDo) {
-  const ModelBodyParameters woman = random_woman(2);
+  const ModelBodyParameters woman = drawn_woman(2);
   // 5,000 triangles are 27 mm wide: facets lie up to 1.5 mm inside of a limb's skin.
   for (const auto& [triangles, spacing] : {std::pair(5000, 0.0015), std::pair(200000, 0.0)}) {
     SCOPED_TRACE(triangles);
@@ -122,7 +118,7 @@ TEST(Registration, FewAndManyTrianglesWillDo) {
 }
 
 TEST(Registration, TheSameMeshGivesTheSameBitsTwoAtOnceToo) {
-  const ModelBodyParameters woman = random_woman(4);
+  const ModelBodyParameters woman = drawn_woman(4);
   RegisteredBody second, third;
   std::thread other([&] { second = registered(woman, motion_of(2, 0)).body; });
   third = registered(woman, motion_of(2, 0)).body;
@@ -135,7 +131,7 @@ TEST(Registration, TheSameMeshGivesTheSameBitsTwoAtOnceToo) {
 }
 
 TEST(Registration, AMovedBodyIsTheBodyOfTheMovedMesh) {
-  const ModelBodyParameters woman = random_woman(1);
+  const ModelBodyParameters woman = drawn_woman(1);
   const Eigen::Isometry3d motion = motion_of(2, 0);
   const RegisteredBody still = registered(woman, Eigen::Isometry3d::Identity()).body,
                        there = registered(woman, motion).body, moved_there = moved(still, motion);
@@ -155,7 +151,7 @@ TEST(Registration, AMovedBodyIsTheBodyOfTheMovedMesh) {
 }
 
 TEST(Registration, GivesPerVertexWhatItPromises) {
-  const Registered her = registered(random_woman(3), motion_of(0, 0));
+  const Registered her = registered(drawn_woman(3), motion_of(0, 0));
   const std::size_t count = model().mean.size();
   for (const auto size :
        {her.body.posed.size(), her.body.skin.size(), her.body.off.size(), her.body.support.size()})
@@ -175,22 +171,14 @@ TEST(Registration, GivesPerVertexWhatItPromises) {
   EXPECT_THROW(her.body.joint("elbow"), std::out_of_range);
 }
 
-std::string refusal_of(const TriangleMesh& mesh) {
-  try {
-    register_mesh(shipped_registrar(), mesh);
-  } catch (const geometry::Refusal& refusal) {
-    return refusal.code();
-  }
-  return "accepted";
-}
-
 TEST(Registration, WhatIsNoPersonsSizeIsRefused) {
-  EXPECT_EQ(refusal_of({}), geometry::refusal::kNotABody);
+  EXPECT_EQ(refusal_of([] { register_mesh(shipped_registrar(), {}); }), geometry::refusal::kNotABody);
   const virtual_body::StandingModel standing = virtual_body::stand(model(), {});
   for (const double size : {0.1, 0.25, 1.5, 10.0, 1000.0}) {
     TriangleMesh mesh{standing.vertices, model().triangles};
     for (Vector3d& v : mesh.vertices) v *= size;
-    EXPECT_EQ(refusal_of(mesh), geometry::refusal::kNotABody) << size;
+    EXPECT_EQ(refusal_of([&] { register_mesh(shipped_registrar(), mesh); }), geometry::refusal::kNotABody)
+        << size;
   }
 }
 

@@ -7,9 +7,9 @@
 #include "geometry/surface_tree.hpp"
 #include "known_bodies.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 using Eigen::Vector3d;
 
 const std::string kRoot = TENSEGRIC_FIT_SOURCE_DIR;
@@ -74,3 +74,4 @@ TEST_P(OnBody, ControlMeshIsAsACarefulEngineerWouldDrawIt) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit

@@ -8,15 +8,15 @@
 #include "control_mesh/grid.hpp"
 #include "control_mesh/placing.hpp"
 #include "control_mesh/skin.hpp"
+#include "control_mesh_templates.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 using Eigen::Vector3d;
 
-const std::string kBust = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/templates/bust.yaml";
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kBustLevel = 1.2, kBustAngle = kPi / 5, kBreastHeight = 0.05;
 constexpr int kAround = 200,
@@ -93,10 +93,6 @@ control_mesh::Options finer(int triangles) {
 geometry::ControlMesh fit(const Trunk& trunk, int triangles = 120) {
   return control_mesh::fit_template(control_mesh::load_template(kBust), trunk.mesh, trunk.measures,
                                     finer(triangles));
-}
-
-Vector3d area_of(const std::vector<Vector3d>& nodes, const Eigen::Vector3i& t) {
-  return geometry::area_vector(nodes[t[0]], nodes[t[1]], nodes[t[2]]);
 }
 
 std::vector<char> on_rim(const geometry::ControlMesh& control) {
@@ -403,3 +399,4 @@ TEST(FitTemplate, RefusesBadInput) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit

@@ -7,9 +7,9 @@
 #include "fit/chain.hpp"
 #include "virtual_body/virtual_body.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 using Eigen::Vector3d;
 
 const std::string kLaunch = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/";
@@ -127,3 +127,4 @@ TEST_P(Worn, LiftedButtocksHaveNoDents) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit

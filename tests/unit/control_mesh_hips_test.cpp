@@ -8,18 +8,16 @@
 #include "control_mesh/grid.hpp"
 #include "control_mesh/skin.hpp"
 #include "control_mesh_changed_template.hpp"
+#include "control_mesh_templates.hpp"
 #include "geometry/status.hpp"
 #include "measured_body.hpp"
 #include "virtual_body/virtual_body.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 using control_mesh::refusal_with;
 using Eigen::Vector3d;
-
-const std::string kTemplates = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/templates/";
-const std::string kHips = kTemplates + "hips.yaml";
 
 struct Body {
   geometry::TriangleMesh mesh;
@@ -63,10 +61,6 @@ geometry::ControlMesh fit(const Body& body, int triangles = 120) {
   control_mesh::Options options;
   options.control_triangles = triangles;
   return control_mesh::fit_template(control_mesh::load_template(kHips), body.mesh, body.measures, options);
-}
-
-Vector3d area_of(const std::vector<Vector3d>& nodes, const Eigen::Vector3i& t) {
-  return geometry::area_vector(nodes[t[0]], nodes[t[1]], nodes[t[2]]);
 }
 
 TEST(HipsTemplate, HasTwoLegsAndNoNodeBetweenThem) {
@@ -177,3 +171,4 @@ TEST(HipsTemplate, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit

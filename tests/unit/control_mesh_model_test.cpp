@@ -7,9 +7,9 @@
 #include "control_mesh/fit_template.hpp"
 #include "geometry/status.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 using Eigen::Vector3d;
 
 /// Two rows of three nodes over the left bust point and the middle.
@@ -55,7 +55,7 @@ struct Posed {
   geometry::BodyMeasures measures;
 };
 
-std::string refusal_of(const control_mesh::Template& pattern, const Posed& posed, bool with_model) {
+std::string why_refused(const control_mesh::Template& pattern, const Posed& posed, bool with_model) {
   try {
     control_mesh::fit_template(pattern, posed.mesh, posed.measures, {}, with_model ? &posed.body : nullptr);
   } catch (const geometry::Refusal& refusal) {
@@ -123,16 +123,17 @@ TEST(NodesOnTheModel, StandInForLandmarksThatAreMissing) {
 
 TEST(NodesOnTheModel, NeedAModelThatHasThem) {
   const Posed posed(0);
-  EXPECT_NE(refusal_of(small_template("bust_point_L"), posed, false)
+  EXPECT_NE(why_refused(small_template("bust_point_L"), posed, false)
                 .find("missing_part:body_model: the template small"),
             std::string::npos);
-  EXPECT_NE(refusal_of(small_template("65000"), posed, true)
+  EXPECT_NE(why_refused(small_template("65000"), posed, true)
                 .find("bad_template: the template small, row 0, column 0: "
                       "the body model has no vertex 65000"),
             std::string::npos);
-  EXPECT_NE(refusal_of(small_template("elbow_L"), posed, true).find("no skin point 'elbow_L'"),
+  EXPECT_NE(why_refused(small_template("elbow_L"), posed, true).find("no skin point 'elbow_L'"),
             std::string::npos);
-  EXPECT_EQ(refusal_of(small_template("bust_point_L"), posed, true), "");
+  EXPECT_EQ(why_refused(small_template("bust_point_L"), posed, true), "");
 }
 
 }  // namespace
+}  // namespace tensegric_fit

@@ -8,23 +8,14 @@
 
 #include "control_mesh/shape_control.hpp"
 #include "geometry/status.hpp"
+#include "refusal_of.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 using control_mesh::ShapeFixing;
 using Eigen::Vector3d;
 using geometry::TriangleMesh;
-
-template <typename Action>
-std::string refusal_of(Action action) {
-  try {
-    action();
-  } catch (const geometry::Refusal& refusal) {
-    return refusal.code();
-  }
-  return "accepted";
-}
 
 // A closed lens of radius 0.5 m round `centre`, 2 * `height` thick in its middle and sharp at its rim.
 TriangleMesh lens(double height, const Vector3d& centre = Vector3d::Zero()) {
@@ -154,3 +145,4 @@ TEST(ShapeControl, FilesAreReadWithCare) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit

@@ -7,14 +7,13 @@
 #include "control_mesh/grid.hpp"
 #include "control_mesh/template.hpp"
 #include "control_mesh_changed_template.hpp"
+#include "control_mesh_templates.hpp"
 #include "geometry/status.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 using control_mesh::refusal_with;
-const std::string kBust = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/templates/bust.yaml";
-const std::string kHips = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/templates/hips.yaml";
 
 TEST(BustTemplate, HasTheSizeOfThePapers) {
   const auto grid = control_mesh::grid_of(control_mesh::load_template(kBust));
@@ -140,3 +139,4 @@ TEST(BustTemplate, RefusesAFileThatIsNotThere) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "correlation/align.hpp"
+#include "correlation_customer.hpp"
 
 namespace tensegric_fit::correlation {
 namespace {
@@ -42,11 +43,6 @@ double figure(const Vector3d& p, double bust = 0) {
 
 Patch patch_of(const TriangleMesh& mesh) {
   return {mesh.vertices, geometry::vertex_normals(mesh.vertices, mesh.triangles)};
-}
-
-TriangleMesh moved(TriangleMesh mesh, const Isometry3d& motion) {
-  for (Vector3d& p : mesh.vertices) p = motion * p;
-  return mesh;
 }
 
 Isometry3d motion(double degrees, const Vector3d& axis, const Vector3d& shift) {

@@ -6,6 +6,7 @@
 
 #include "correlation/correlate.hpp"
 #include "fit/chain.hpp"
+#include "geometry/points.hpp"
 #include "virtual_body/virtual_body.hpp"
 #include "virtual_booth/virtual_scanner.hpp"
 
@@ -26,6 +27,11 @@ inline virtual_body::BodyParameters customer() {
 
 inline TriangleMesh moved(TriangleMesh mesh, const std::function<Vector3d(const Vector3d&)>& motion) {
   for (Vector3d& p : mesh.vertices) p = motion(p);
+  return mesh;
+}
+
+inline TriangleMesh moved(TriangleMesh mesh, const Eigen::Isometry3d& motion) {
+  mesh.vertices = geometry::moved(mesh.vertices, motion);
   return mesh;
 }
 

@@ -9,7 +9,6 @@
 namespace tensegric_fit::geometry {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 const auto kAll = [](const std::vector<int>&) { return true; };
 
 /// Two unit spheres, centres at x = -2 and x = 2.
@@ -30,7 +29,7 @@ TEST(CutOff, ASphereWithoutItsCapIsClosedAndHasItsVolume) {
     const CutMesh cut = cut_off(sphere, {normal, -height}, kAll);
     const TriangleMesh left{cut.of(sphere.vertices), cut.triangles};
     EXPECT_TRUE(is_closed(left)) << height;
-    const double cap = 1 - height, volume = 4 * kPi / 3 - kPi * cap * cap * (3 - cap) / 3;
+    const double cap = 1 - height, volume = 4 * M_PI / 3 - M_PI * cap * cap * (3 - cap) / 3;
     EXPECT_NEAR(cone_volume(left.vertices, left.triangles), volume, 0.01) << height;
     for (const Eigen::Vector3d& vertex : left.vertices) EXPECT_LT(vertex.dot(normal), height + 1e-12);
     for (std::size_t v = 0; v < sphere.vertices.size(); ++v)

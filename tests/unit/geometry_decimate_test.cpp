@@ -5,9 +5,9 @@
 #include "geometry/decimate.hpp"
 #include "geometry/status.hpp"
 
+namespace tensegric_fit::geometry {
 namespace {
 
-using namespace tensegric_fit::geometry;
 using Eigen::Vector3d;
 
 // Ring of radius 1 m, tube of radius 0.3 m.
@@ -93,3 +93,4 @@ TEST(Decimate, ABeltIsMadeFinerAndNothingElse) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit::geometry

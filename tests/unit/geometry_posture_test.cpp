@@ -6,9 +6,9 @@
 #include "geometry/status.hpp"
 #include "geometry/triangle_mesh.hpp"
 
+namespace tensegric_fit::geometry {
 namespace {
 
-using namespace tensegric_fit::geometry;
 using Eigen::Vector3d;
 
 constexpr double kDegree = M_PI / 180;
@@ -175,3 +175,4 @@ TEST(Posture, RefusalsHaveNames) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit::geometry

@@ -15,20 +15,10 @@
 #include "geometry/shading_normals.hpp"
 #include "geometry/status.hpp"
 #include "geometry/triangle_mesh.hpp"
+#include "refusal_of.hpp"
 
+namespace tensegric_fit::geometry {
 namespace {
-
-using namespace tensegric_fit::geometry;
-
-template <typename Action>
-std::string refusal_of(Action action) {
-  try {
-    action();
-  } catch (const Refusal& refusal) {
-    return refusal.code();
-  }
-  return "accepted";
-}
 
 // Sphere of latitude and longitude, closed, oriented outwards.
 TriangleMesh sphere(double radius, int rings, int sectors) {
@@ -265,7 +255,7 @@ pcl::PCLPointCloud2 cloud_of(const std::vector<pcl::PCLPointField>& fields, std:
   return cloud;
 }
 
-TEST(PointsOf, ReadsDoublesInAnyOrderWithPadding) {
+TEST(PointFields, ReadsDoublesInAnyOrderWithPadding) {
   using F = pcl::PCLPointField;
   pcl::PCLPointCloud2 cloud =
       cloud_of({{"z", 4, F::FLOAT64, 1}, {"x", 12, F::FLOAT64, 1}, {"y", 24, F::FLOAT64, 1}}, 40, 2);
@@ -282,7 +272,7 @@ TEST(PointsOf, ReadsDoublesInAnyOrderWithPadding) {
   EXPECT_TRUE(points.normals.empty());
 }
 
-TEST(PointsOf, RefusesWrongFieldsAndShortData) {
+TEST(PointFields, RefusesWrongFieldsAndShortData) {
   using F = pcl::PCLPointField;
   EXPECT_EQ(refusal_of([] {
               points_of(cloud_of({{"x", 0, F::FLOAT32, 1}, {"y", 4, F::FLOAT32, 1}}, 8, 3));
@@ -323,7 +313,7 @@ TEST(CheckedYaml, NamesTheKey) {
   EXPECT_EQ(refusal_of([&] { required<double>(map, "law", "line", "bad_garment"); }), "bad_garment");
 }
 
-TEST(Joined, KeepsPiecesApartAndNumbersOn) {
+TEST(JoinedMeshes, KeepsPiecesApartAndNumbersOn) {
   ControlMesh one;
   one.outer = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   one.inner = {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}};
@@ -352,3 +342,4 @@ TEST(Joined, KeepsPiecesApartAndNumbersOn) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit::geometry

@@ -10,9 +10,9 @@
 #include "totals.hpp"
 #include "truth_reader.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 using population::Figure;
 using population::Score;
 using population::Truth;
@@ -197,3 +197,4 @@ TEST_F(PopulationTest, FamiliesAreSeedsOrAFoldersNames) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit

@@ -14,16 +14,16 @@
 #include "virtual_body/model_body.hpp"
 #include "virtual_booth/virtual_scanner.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
 constexpr double kLargeGirth = 0.009, kHeight = 0.004;  // ISO 20685
 
 /// A woman who holds her arms out, so that a cut takes them off; she faces x.
-const virtual_body::VirtualBody& woman() {
+const virtual_body::VirtualBody& arms_out() {
   static const virtual_body::VirtualBody body = [] {
     virtual_body::ModelBodyParameters parameters;
     parameters.arms = {1.05, 1.05};
@@ -38,7 +38,7 @@ const Points& scan() {
     virtual_booth::ScannerOptions options;
     options.points = 80000;
     options.floor = true;
-    return virtual_booth::scan_body(woman().mesh, options).cloud.points;
+    return virtual_booth::scan_body(arms_out().mesh, options).cloud.points;
   }();
   return points;
 }
@@ -92,8 +92,8 @@ void expect_measured_right(const Points& points, int persons = 0) {
   const Outcome outcome = measure(points);
   ASSERT_EQ(outcome.refusal, "");
   for (const char* girth : {"bust", "waist", "hip"})
-    EXPECT_NEAR(girth_of(outcome.measures, girth), girth_of(woman().truth, girth), kLargeGirth) << girth;
-  EXPECT_NEAR(outcome.measures.height("crotch"), woman().truth.height("crotch"), kHeight);
+    EXPECT_NEAR(girth_of(outcome.measures, girth), girth_of(arms_out().truth, girth), kLargeGirth) << girth;
+  EXPECT_NEAR(outcome.measures.height("crotch"), arms_out().truth.height("crotch"), kHeight);
   EXPECT_EQ(outcome.persons, persons);
 }
 
@@ -128,12 +128,12 @@ TEST(ReconstructionBadInput, ABodyThatDoesNotStandIsRefused) {
 }
 
 TEST(ReconstructionBadInput, AMannequinWithoutHeadAndArmsIsMeasured) {
-  const double neck = woman().truth.height("neck") - 0.02;
+  const double neck = arms_out().truth.height("neck") - 0.02;
   const Outcome outcome = measure(
       kept(body_alone(), [neck](const Vector3d& p) { return p.z() < neck && std::abs(p.y()) < 0.24; }));
   ASSERT_EQ(outcome.refusal, "");
   for (const char* girth : {"bust", "waist", "hip"})
-    EXPECT_NEAR(girth_of(outcome.measures, girth), girth_of(woman().truth, girth), kLargeGirth) << girth;
+    EXPECT_NEAR(girth_of(outcome.measures, girth), girth_of(arms_out().truth, girth), kLargeGirth) << girth;
 }
 
 TEST(ReconstructionBadInput, OfTwoPeopleTheNearerSeenIsMeasuredAndTheOtherNamed) {
@@ -223,3 +223,4 @@ TEST(ReconstructionBadInput, CoordinatesThatFloat32CannotResolveAreRefused) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit

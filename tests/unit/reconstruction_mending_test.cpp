@@ -8,9 +8,9 @@
 #include "reconstruction/registration.hpp"
 #include "reconstruction_figure.hpp"
 
+namespace tensegric_fit::reconstruction {
 namespace {
 
-using namespace tensegric_fit::reconstruction;
 using Eigen::Vector3d;
 
 constexpr int kSensors = 6;
@@ -132,3 +132,4 @@ TEST(ReconstructionMending, AnArmThatMovedRegainsHalfOfItsThickness) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit::reconstruction

@@ -13,9 +13,9 @@
 #include "geometry/status.hpp"
 #include "reconstruction/poisson.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 using geometry::PointCloud;
 using geometry::TriangleMesh;
 using reconstruction::PoissonWorker;
@@ -136,3 +136,4 @@ TEST(Poisson, AWorkerThatIsNotNeededGoes) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit

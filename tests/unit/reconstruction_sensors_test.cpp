@@ -5,9 +5,9 @@
 #include "reconstruction/registration.hpp"
 #include "reconstruction_figure.hpp"
 
+namespace tensegric_fit::reconstruction {
 namespace {
 
-using namespace tensegric_fit::reconstruction;
 using Eigen::Vector3d;
 
 /// Depth images of the figure, one cloud of all sensors.
@@ -16,15 +16,15 @@ struct Capture {
   std::vector<int> sensor;
 };
 
-constexpr int kSensors = 4;
-constexpr double kNoise = 0.001;  // m, along the ray
+constexpr int kSquare = 4;              // sensors
+constexpr double kAlongTheRay = 0.001;  // m, noise
 
 /// Four sensors in a square round the figure, a pixel every 4 mm of skin; each is up to 2 mm and 2 mrad off.
 Capture capture() {
   constexpr double kFar = 1.2, kPixel = 0.004 / kFar;
   std::mt19937 random(5);
   Capture result;
-  for (int s = 0; s < kSensors; ++s) {
+  for (int s = 0; s < kSquare; ++s) {
     const double turn = M_PI / 4 + M_PI / 2 * s;
     const Vector3d outward(std::cos(turn), std::sin(turn), 0), across(-outward.y(), outward.x(), 0);
     const Vector3d eye = kFar * outward + 0.8 * Vector3d::UnitZ();
@@ -41,7 +41,7 @@ Capture capture() {
         result.truth.push_back(hit);
         // As a scan file keeps it.
         result.points.push_back(
-            (error * (hit + kNoise * figure::gaussian(random) * ray)).cast<float>().cast<double>());
+            (error * (hit + kAlongTheRay * figure::gaussian(random) * ray)).cast<float>().cast<double>());
         result.sensor.push_back(s);
       }
     }
@@ -55,16 +55,16 @@ TEST(ReconstructionSensors, SensorsThatAreOffAreBroughtTogether) {
   register_sensors(points, scan.sensor);
   // How far the sensors are apart: their mean errors against the mean of these.
   const auto apart = [&](const std::vector<Vector3d>& of) {
-    std::vector<Vector3d> sum(kSensors, Vector3d::Zero());
-    std::vector<double> count(kSensors);
+    std::vector<Vector3d> sum(kSquare, Vector3d::Zero());
+    std::vector<double> count(kSquare);
     for (std::size_t i = 0; i < of.size(); ++i) {
       sum[scan.sensor[i]] += of[i] - scan.truth[i];
       ++count[scan.sensor[i]];
     }
     Vector3d mean = Vector3d::Zero();
-    for (int s = 0; s < kSensors; ++s) mean += sum[s] / count[s] / kSensors;
+    for (int s = 0; s < kSquare; ++s) mean += sum[s] / count[s] / kSquare;
     double most = 0;
-    for (int s = 0; s < kSensors; ++s) most = std::max(most, (sum[s] / count[s] - mean).norm());
+    for (int s = 0; s < kSquare; ++s) most = std::max(most, (sum[s] / count[s] - mean).norm());
     return most;
   };
   EXPECT_GT(apart(scan.points), 0.0015);
@@ -89,3 +89,4 @@ TEST(ReconstructionSensors, OneSensorStaysWhereItIs) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit::reconstruction

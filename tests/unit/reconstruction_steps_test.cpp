@@ -16,10 +16,9 @@
 #include "reconstruction/thinning.hpp"
 #include "reconstruction_figure.hpp"
 
+namespace tensegric_fit::reconstruction {
 namespace {
 
-using namespace tensegric_fit;
-using namespace tensegric_fit::reconstruction;
 using geometry::TriangleMesh;
 
 /// A unit sphere of about that many triangles, outward.
@@ -245,3 +244,4 @@ TEST(WithoutStray, NoPointsAreNone) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit::reconstruction

@@ -16,9 +16,9 @@
 #include "virtual_booth/random_body.hpp"
 #include "virtual_booth/virtual_scanner.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 using geometry::PointCloud;
 using reconstruction::BodyMesh;
 using reconstruction::Options;
@@ -392,3 +392,4 @@ TEST(Reconstruction, RefusesOptionsOutOfRangeByTheirName) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit

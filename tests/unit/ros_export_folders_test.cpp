@@ -10,7 +10,9 @@
 namespace tensegric_fit::node {
 namespace {
 
-TEST_F(ExportFitTest, AnEncryptedExportIsReadWithItsKeyAlone) {
+class ExportFolders : public ExportFitTest {};
+
+TEST_F(ExportFolders, AnEncryptedExportIsReadWithItsKeyAlone) {
   if (std::system("command -v age-keygen > /dev/null") != 0) GTEST_SKIP() << "age is not installed";
   fs::create_directories(root_);
   const std::string key = (root_ / "key").string(), out = (root_ / "out").string();
@@ -39,7 +41,7 @@ TEST_F(ExportFitTest, AnEncryptedExportIsReadWithItsKeyAlone) {
   EXPECT_EQ(delete_exports(root_ / "exports", scan_.body->scan_id), std::vector<std::string>{folder});
 }
 
-TEST_F(ExportFitTest, AnAgeThatHangsOrFailsIsRefused) {
+TEST_F(ExportFolders, AnAgeThatHangsOrFailsIsRefused) {
   fs::create_directories(root_);
   const std::string age = (root_ / "age").string();
   const std::vector<files::FileContent> contents{{"fit.json", std::string(1 << 20, 'x')}};
@@ -60,7 +62,7 @@ TEST_F(ExportFitTest, AnAgeThatHangsOrFailsIsRefused) {
   EXPECT_EQ(refused("exit 3"), unsealed + "ended with exit code 3");
 }
 
-TEST_F(ExportFitTest, OldExportsGoAndNothingElse) {
+TEST_F(ExportFolders, OldExportsGoAndNothingElse) {
   for (const char* name : {"old", "new", "spoilt"}) export_fit(scan_, root_ / name, kWhole);
   std::ofstream(root_ / "spoilt" / "precious") << "mine";
   fs::create_directories(root_ / "no_export");
@@ -78,7 +80,7 @@ TEST_F(ExportFitTest, OldExportsGoAndNothingElse) {
   EXPECT_EQ(left.size(), 1u);
 }
 
-TEST_F(ExportFitTest, AFolderMadeToHarmIsLeftAlone) {
+TEST_F(ExportFolders, AFolderMadeToHarmIsLeftAlone) {
   const std::string id = scan_.body->scan_id;
   export_fit(scan_, root_ / "one", kWhole);
   fs::rename(root_ / "one" / "fit.json", root_ / "aside.json");
@@ -102,7 +104,7 @@ TEST_F(ExportFitTest, AFolderMadeToHarmIsLeftAlone) {
   EXPECT_TRUE(fs::exists(root_ / "one"));
 }
 
-TEST_F(ExportFitTest, ExportsAreDeletedByScanAndNothingElseIs) {
+TEST_F(ExportFolders, ExportsAreDeletedByScanAndNothingElseIs) {
   const std::string id = scan_.body->scan_id;
   for (const char* name : {"one", "two"}) export_fit(scan_, root_ / name, kWhole);
   export_fit(fitted("3.000000000-00000003"), root_ / "other", kWhole);

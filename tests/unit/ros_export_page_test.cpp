@@ -8,7 +8,9 @@
 namespace tensegric_fit::node {
 namespace {
 
-TEST_F(ExportFitTest, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
+class ExportPage : public ExportFitTest {};
+
+TEST_F(ExportPage, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
   export_fit(scan_, root_ / "one", kWhole);
   const std::string page = text_of(root_ / "one" / "fit.html");
   EXPECT_NE(page.find("<th scope=\"row\">bust girth, cm</th><td>94.2</td><td>84.8</td><td>-9.4</td>"),
@@ -68,7 +70,7 @@ double difference(const cv::Mat& a, const cv::Mat& b) {
   return static_cast<double>(clear) / (a.rows * a.cols);
 }
 
-TEST_F(ExportFitTest, TheBodyInThePageTurnsAndChanges) {
+TEST_F(ExportPage, TheBodyInThePageTurnsAndChanges) {
   if (std::system("command -v chromium > /dev/null") != 0) GTEST_SKIP() << "chromium is not installed";
   export_fit(scan_, root_ / "one", kWhole);
   const fs::path page = root_ / "one" / "fit.html";
@@ -80,7 +82,7 @@ TEST_F(ExportFitTest, TheBodyInThePageTurnsAndChanges) {
   EXPECT_GT(difference(worn, shown(page, "share=100&beside=1")), 0.02);
 }
 
-TEST_F(ExportFitTest, ThePageIsUsedByKeyboardAndReadByAScreenReader) {
+TEST_F(ExportPage, ThePageIsUsedByKeyboardAndReadByAScreenReader) {
   if (std::system("command -v chromium > /dev/null") != 0) GTEST_SKIP() << "chromium is not installed";
   const auto fit = boost::make_shared<FitState>(*scan_.fit);
   LineResult& line = fit->lines[0];

@@ -21,9 +21,9 @@
 #include "scan_files/scan_file.hpp"
 #include "virtual_booth/sensor_bag.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
@@ -238,3 +238,4 @@ TEST_F(ScanFileTest, OtherFilesAreRefusedByName) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "geometry/control_mesh.hpp"
+#include "tensegric/garment.hpp"
 
 namespace tensegric_fit::tensegric {
 
@@ -80,6 +81,17 @@ inline geometry::ControlMesh bust_mesh(const BustShape& shape = {}) {
   for (int i = 0; i <= across; ++i) chest.nodes.push_back(index(i, middle));
   control.lines.push_back(chest);
   return control;
+}
+
+/// A garment of one line that runs along a line of the control mesh.
+inline Garment chest(double ratio, const std::string& name = "chest") {
+  Garment garment;
+  garment.name = "B1";
+  garment.regions = {"bust"};
+  garment.lines.emplace_back();
+  garment.lines[0].name = name;
+  garment.lines[0].ratio = ratio;
+  return garment;
 }
 
 }  // namespace tensegric_fit::tensegric

@@ -19,12 +19,6 @@ GarmentLine line(const std::string& name, double ratio, std::vector<std::string>
   return result;
 }
 
-Garment chest(double ratio) {
-  Garment garment;
-  garment.lines.push_back(line("chest", ratio));
-  return garment;
-}
-
 Positions positions(const Solution& s) {
   Positions x = s.outer;
   x.insert(x.end(), s.inner.begin(), s.inner.end());

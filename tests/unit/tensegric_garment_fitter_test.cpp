@@ -12,17 +12,8 @@ namespace {
 
 const Progress kGoOn = [](const auto&, const auto&, const auto&) { return true; };
 
-Garment chest_at(double ratio) {
-  Garment garment;
-  garment.regions = {"bust"};
-  garment.lines.resize(1);
-  garment.lines[0].name = "chest";
-  garment.lines[0].ratio = ratio;
-  return garment;
-}
-
 std::optional<Solution> fit(GarmentFitter& fitter, double ratio, const Progress& progress = kGoOn) {
-  return fitter.fit(chest_at(ratio), SolverName::equilibrium, 0, progress);
+  return fitter.fit(chest(ratio), SolverName::equilibrium, 0, progress);
 }
 
 class GarmentFitterTest : public testing::Test {
@@ -57,12 +48,12 @@ TEST_F(GarmentFitterTest, AStoppedFitIsNoneAndTheNextIsAsIfItHadNotBeen) {
 }
 
 TEST_F(GarmentFitterTest, GarmentsAreCheckedAgainstTheNewestModel) {
-  Garment hat = chest_at(0.95), belt = chest_at(0.95);
+  Garment hat = chest(0.95), belt = chest(0.95);
   hat.regions = {"hat"};
   belt.lines[0].name = "belt";
   EXPECT_EQ(refusal_of(hat), "accepted");  // no model yet to say no
   fitter_.take(control_, nullptr, nullptr);
-  EXPECT_EQ(refusal_of(chest_at(0.9)), "accepted");
+  EXPECT_EQ(refusal_of(chest(0.9)), "accepted");
   EXPECT_EQ(refusal_of(hat), "bad_garment");
   EXPECT_EQ(refusal_of(belt), "unknown_line");
 }

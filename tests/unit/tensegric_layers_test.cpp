@@ -19,16 +19,6 @@ ModelOptions layered(int layers) {
   return options;
 }
 
-Garment chest(double ratio) {
-  Garment garment;
-  garment.name = "B1";
-  garment.regions = {"bust"};
-  garment.lines.emplace_back();
-  garment.lines[0].name = "chest";
-  garment.lines[0].ratio = ratio;
-  return garment;
-}
-
 TEST(Layers, EachIsAWholeLayerOfUnits) {
   const Model model = build_model(bust_mesh(), layered(3));
   EXPECT_EQ(model.nodes(), 4 * 77);

@@ -10,14 +10,6 @@
 namespace tensegric_fit::tensegric {
 namespace {
 
-Garment chest(double ratio, const std::string& name = "chest") {
-  Garment garment;
-  garment.lines.emplace_back();
-  garment.lines[0].name = name;
-  garment.lines[0].ratio = ratio;
-  return garment;
-}
-
 // Two busts, one `down` below the other, as bust and hips are: pieces of one control mesh.
 geometry::ControlMesh two_pieces() {
   geometry::ControlMesh upper = bust_mesh(), lower = upper;

@@ -13,21 +13,10 @@
 namespace tensegric_fit::tensegric {
 namespace {
 
-Garment chest() {
-  Garment garment;
-  garment.regions = {"bust"};
-  GarmentLine line;
-  line.name = "chest";
-  line.ratio = 0.92;
-  line.through = {"axilla_L", "bust_point_L", "sternum", "bust_point_R", "axilla_R"};
-  garment.lines.push_back(line);
-  return garment;
-}
-
 Solution worn(const std::vector<StiffPart>& parts) {
   ModelOptions options;
   options.stiff_parts = parts;
-  return solve(build_model(bust_mesh(), options), chest(), {});
+  return solve(build_model(bust_mesh(), options), chest(0.92), {});
 }
 
 template <typename Action>
@@ -77,7 +66,7 @@ TEST(StiffParts, EverywhereStiffPullsHarderAndMovesAlike) {
   ModelOptions stiff = plain;
   stiff.stiff_parts = {{"sternum", 0.3, 4}};
   const Model models[] = {build_model(bust_mesh(), plain), build_model(bust_mesh(), stiff)};
-  const Solution worn[] = {solve(models[0], chest(), {}), solve(models[1], chest(), {})};
+  const Solution worn[] = {solve(models[0], chest(0.92), {}), solve(models[1], chest(0.92), {})};
   for (std::size_t i = 0; i < worn[0].outer.size(); ++i)
     EXPECT_LT((worn[0].outer[i] - worn[1].outer[i]).norm(), 1e-7);
   EXPECT_NEAR(

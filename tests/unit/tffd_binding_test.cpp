@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "geometry/status.hpp"
+#include "point_lists.hpp"
 #include "tffd_shapes.hpp"
 
 namespace tensegric_fit::tffd {
@@ -13,27 +14,12 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-bool same_bits(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::memcmp(a.data(), b.data(), sizeof(double) * 3) == 0;
-}
-
-bool same_bits(const Points& a, const Points& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const auto& p, const auto& q) { return same_bits(p, q); });
-}
-
 Points affine_image(const Points& points) {
   Eigen::Matrix3d a;
   a << 1.10, 0.12, -0.05, 0.02, 0.93, 0.07, -0.03, 0.04, 1.21;
   Points image;
   for (const Eigen::Vector3d& p : points) image.push_back(a * p + Eigen::Vector3d(0.1, -0.2, 0.05));
   return image;
-}
-
-double farthest(const Points& a, const Points& b) {
-  double distance = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) distance = std::max(distance, (a[i] - b[i]).norm());
-  return distance;
 }
 
 std::string code_of(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,

@@ -85,11 +85,11 @@ struct Worn {
   fit::Fitting fitting;
 };
 
-class KnownBody : public testing::TestWithParam<test::KnownBody> {};
+class WornKnownBody : public testing::TestWithParam<test::KnownBody> {};
 
 // 12 % on the open bodies, whose breasts give way so far (8 % for the cradle, which cuts into the fold below
 // them); 5 % on any body.
-TEST_P(KnownBody, NoTriangleTurnsOverAndNoSkinGoesBeyondItsNodes) {
+TEST_P(WornKnownBody, NoTriangleTurnsOverAndNoSkinGoesBeyondItsNodes) {
   const bool open = GetParam().name[0] == 'F';
   Worn worn(GetParam().surface().surface, {"bust", "hips"});
   for (const std::string name : {"B1", "B2", "B3", "B4", "H1", "H2", "H3", "H4"}) {
@@ -102,7 +102,7 @@ TEST_P(KnownBody, NoTriangleTurnsOverAndNoSkinGoesBeyondItsNodes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tffd, KnownBody, testing::ValuesIn(test::known_bodies()), test::name_of);
+INSTANTIATE_TEST_SUITE_P(Tffd, WornKnownBody, testing::ValuesIn(test::known_bodies()), test::name_of);
 
 // Small breasts with a sharp fold below them cannot give way by 12 %.
 TEST(SmallBreasts, AreShapedNoFurtherThanTheirSkinAllows) {

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "point_lists.hpp"
 #include "tffd/body_volume.hpp"
 #include "tffd_shapes.hpp"
 
@@ -16,12 +17,6 @@ geometry::BoneFrames bones(double twist, double side_lean) {
   spine.pelvis = -0.1;
   spine.chest = 0.02;
   return {spine, {twist, side_lean}};
-}
-
-bool same_bits(const Points& a, const Points& b) {
-  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](const auto& p, const auto& q) {
-           return std::memcmp(p.data(), q.data(), 3 * sizeof(double)) == 0;
-         });
 }
 
 TEST(Posed, StillBonesChangeNothing) {

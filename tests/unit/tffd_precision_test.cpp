@@ -4,6 +4,7 @@
 #include <random>
 
 #include "geometry/status.hpp"
+#include "point_lists.hpp"
 #include "tffd/binding.hpp"
 #include "tffd_shapes.hpp"
 
@@ -11,12 +12,6 @@ namespace tensegric_fit::tffd {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
-
-double farthest(const Points& a, const Points& b) {
-  double distance = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) distance = std::max(distance, (a[i] - b[i]).norm());
-  return distance;
-}
 
 double farthest_node(const geometry::ControlMesh& control, const Moved& moved) {
   return std::max(farthest(control.outer, moved.outer), farthest(control.inner, moved.inner));

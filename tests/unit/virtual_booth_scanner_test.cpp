@@ -9,9 +9,9 @@
 #include "virtual_body/virtual_body.hpp"
 #include "virtual_booth/virtual_scanner.hpp"
 
+namespace tensegric_fit {
 namespace {
 
-using namespace tensegric_fit;
 using Eigen::Vector3d;
 using virtual_booth::ScannerOptions;
 using virtual_booth::VirtualScan;
@@ -273,3 +273,4 @@ TEST(VirtualScannerTest, ABoothThatLeansSeesItsFloorLeanToo) {
 }
 
 }  // namespace
+}  // namespace tensegric_fit
