@@ -9,13 +9,11 @@
 namespace tensegric_fit::population {
 namespace {
 
-using Json = nlohmann::json;
-
-Eigen::Vector3d triple(const Json& value) {
+Eigen::Vector3d triple(const nlohmann::json& value) {
   return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
 }
 
-std::vector<geometry::Measure> measures(const Json& map) {
+std::vector<geometry::Measure> measures(const nlohmann::json& map) {
   std::vector<geometry::Measure> list;
   for (const auto& [name, value] : map.items())
     if (value.is_number()) list.push_back({name, value.get<double>(), 1, ""});
@@ -37,7 +35,7 @@ void take_least_neck(Truth& truth) {
   vague.erase(std::remove(vague.begin(), vague.end(), "girth neck"), vague.end());
 }
 
-Truth truth_in(const Json& file) {
+Truth truth_in(const nlohmann::json& file) {
   Truth truth;
   for (const auto& [name, place] : file.at("landmarks").items())
     if (place.is_array()) truth.measures.landmarks.push_back({name, triple(place), 1, ""});
@@ -45,10 +43,11 @@ Truth truth_in(const Json& file) {
   truth.measures.girths = measures(file.at("girths"));
   truth.doubts.vague = file.value("vague", std::vector<std::string>());
   truth.doubts.hidden = file.value("hidden", std::vector<std::string>());
-  const Json loose = file.value("loose", Json::object());
+  const nlohmann::json loose = file.value("loose", nlohmann::json::object());
   for (const auto& [name, direction] : loose.items())
     truth.doubts.loose.emplace_back(name, triple(direction));
-  const std::string waist = file.value("extra", Json::object()).value("waist_method", std::string());
+  const std::string waist =
+      file.value("extra", nlohmann::json::object()).value("waist_method", std::string());
   if (!file.contains("vague") && waist.find("ruler") != std::string::npos)
     truth.doubts.vague = {"girth waist", "height waist"};
   take_least_neck(truth);
@@ -61,8 +60,8 @@ Truth read_truth(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw geometry::Refusal(geometry::refusal::kBrokenFile, path + ": cannot be read");
   try {
-    return truth_in(Json::parse(file));
-  } catch (const Json::exception& error) {
+    return truth_in(nlohmann::json::parse(file));
+  } catch (const nlohmann::json::exception& error) {
     throw geometry::Refusal(geometry::refusal::kBrokenFile, path + ": " + error.what());
   }
 }

@@ -65,7 +65,7 @@ std::vector<PartDifference> by_parts(const geometry::TriangleMesh& skin, const s
   return parts;
 }
 
-CasePicture picture(const std::string& caption, const cv::Mat& image) {
+CasePicture skin_picture(const std::string& caption, const cv::Mat& image) {
   std::vector<uchar> bytes;
   cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9});
   return {caption, std::string(bytes.begin(), bytes.end())};
@@ -94,13 +94,13 @@ void draw(const geometry::TriangleMesh& skin, const std::vector<double>& distanc
                          kPanel);
   };
   difference.pictures.push_back(
-      picture(fmt::format("full colour at {:g} mm: blue where the second lies outside, red where inside",
-                          1e3 * difference.scale),
-              inspect::side_by_side(from(inspect::front_view, skin.vertices, 1.05),
-                                    from(inspect::back_view, skin.vertices, 1.05))));
+      skin_picture(fmt::format("full colour at {:g} mm: blue where the second lies outside, red where inside",
+                               1e3 * difference.scale),
+                   inspect::side_by_side(from(inspect::front_view, skin.vertices, 1.05),
+                                         from(inspect::back_view, skin.vertices, 1.05))));
   difference.pictures.push_back(
-      picture(difference.parts.front().part,
-              from(forward >= 0 ? inspect::oblique_view : inspect::oblique_back_view, part, 2.5)));
+      skin_picture(difference.parts.front().part,
+                   from(forward >= 0 ? inspect::oblique_view : inspect::oblique_back_view, part, 2.5)));
 }
 
 class Skins {

@@ -9,6 +9,7 @@
 
 #include "geometry/status.hpp"
 #include "stamp.hpp"
+#include "yaml_values.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
@@ -22,12 +23,6 @@ std::string old_of(const Row& row) {
 
 std::string escaped(const std::string& text) {
   return std::regex_replace(text, std::regex(R"([.^$|()\[\]{}*+?\\])"), R"(\$&)");
-}
-
-std::string quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char letter : text) quoted += letter == '\'' ? "''" : std::string(1, letter);
-  return quoted + "'";
 }
 
 std::string with_golden(const std::string& text, const Row& row, const std::string& file) {

@@ -13,6 +13,7 @@
 #include "ros/body_messages.hpp"
 #include "ros/flat.hpp"
 #include "stamp.hpp"
+#include "yaml_values.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
@@ -71,13 +72,6 @@ Shape shape_of(const Recording& recording) {
   const auto hashes = hashes_of(recording);
   shape.hash = hashes.at(recording.deformed.empty() ? "body/mesh" : "body/deformed");
   return shape;
-}
-
-Vector3d vector_in(const YAML::Node& map, const char* key, const std::string& where) {
-  const auto values = geometry::required<std::vector<double>>(map, key, where, kBadCase);
-  if (values.size() != 3)
-    throw geometry::Refusal(kBadCase, where + ": '" + std::string(key) + "' is not [x, y, z]");
-  return {values[0], values[1], values[2]};
 }
 
 Shape read_shape(const std::string& file) {

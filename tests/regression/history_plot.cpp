@@ -8,7 +8,7 @@
 namespace tensegric_fit::regression {
 namespace {
 
-constexpr double kWidth = 290, kHeight = 190, kLeft = 44, kRight = 10, kTop = 24, kBottom = 32;
+constexpr double kPanelWidth = 290, kPanelHeight = 190, kLeft = 44, kRight = 10, kTop = 24, kBottom = 32;
 constexpr double kLeast = 1e-16;  // of what is shown as a power of ten
 constexpr const char* kColours[] = {"#2b5c8a", "#d1802b", "#4a8f5c", "#7a5195"};
 
@@ -31,7 +31,7 @@ std::string panel(double shift, const std::string& title, const std::vector<Curv
   const double margin = std::max(0.05 * (high - low), 0.1);
   low -= margin, high += margin;
   const std::size_t count = curves.front().values.size();
-  const double right = kWidth - kRight, bottom = kHeight - kBottom;
+  const double right = kPanelWidth - kRight, bottom = kPanelHeight - kBottom;
   const auto x = [&](std::size_t i) {
     return kLeft + (right - kLeft) * static_cast<double>(i) / static_cast<double>(count - 1);
   };
@@ -45,9 +45,9 @@ std::string panel(double shift, const std::string& title, const std::vector<Curv
   }
   svg += fmt::format("<path d=\"M{0} {1}V{2}H{3}\" fill=\"none\" stroke=\"#888\"/>\n", kLeft, kTop, bottom,
                      right);
-  svg += text(kLeft, kHeight - 18, "middle", "0") +
-         text(right, kHeight - 18, "end", std::to_string(count - 1)) +
-         text((kLeft + right) / 2, kHeight - 18, "middle", "iteration");
+  svg += text(kLeft, kPanelHeight - 18, "middle", "0") +
+         text(right, kPanelHeight - 18, "end", std::to_string(count - 1)) +
+         text((kLeft + right) / 2, kPanelHeight - 18, "middle", "iteration");
   double legend = kLeft;
   for (std::size_t c = 0; c < curves.size(); ++c) {
     const char* colour = kColours[c % std::size(kColours)];
@@ -56,7 +56,7 @@ std::string panel(double shift, const std::string& title, const std::vector<Curv
       points += fmt::format("{:.1f},{:.1f} ", x(i), y(curves[c].values[i]));
     svg += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n", points,
                        colour);
-    svg += text(legend, kHeight - 4, "start", curves[c].name, colour);
+    svg += text(legend, kPanelHeight - 4, "start", curves[c].name, colour);
     legend += 12 + 6 * static_cast<double>(curves[c].name.size());
   }
   return svg + "</g>\n";
@@ -85,9 +85,9 @@ std::string history_plot(const std::vector<tensegric::Iterate>& history) {
   std::string svg = fmt::format(
       "<svg viewBox=\"0 0 {0} {1}\" width=\"{0}\" role=\"img\" aria-label=\"how the fit went\" "
       "style=\"background:white;max-width:100%;height:auto;font:11px sans-serif\">\n",
-      2 * kWidth, kHeight);
+      2 * kPanelWidth, kPanelHeight);
   if (!lengths.empty()) svg += panel(0, "length of lines, % of rest", lengths);
-  return svg + panel(kWidth, "from balance, powers of ten", errors) + "</svg>\n";
+  return svg + panel(kPanelWidth, "from balance, powers of ten", errors) + "</svg>\n";
 }
 
 }  // namespace tensegric_fit::regression

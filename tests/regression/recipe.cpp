@@ -5,15 +5,10 @@
 #include "case.hpp"
 #include "geometry/checked_yaml.hpp"
 #include "virtual_booth/random_body.hpp"
+#include "yaml_values.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
-
-Eigen::Vector3d vector_in(const YAML::Node& map, const char* key, const std::string& where) {
-  const auto values = geometry::required<std::vector<double>>(map, key, where, kBadCase);
-  if (values.size() != 3) throw geometry::Refusal(kBadCase, where + ": '" + key + "' is not [x, y, z]");
-  return {values[0], values[1], values[2]};
-}
 
 virtual_booth::Fracture fracture_in(const YAML::Node& map, const std::string& where) {
   geometry::check_keys(map, {"centre", "radii", "shift", "from_column"}, where, kBadCase);

@@ -16,6 +16,7 @@
 #include "golden_shape.hpp"
 #include "stamp.hpp"
 #include "tensegric/fit_messages.hpp"
+#include "yaml_values.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
@@ -150,13 +151,6 @@ void write_bag(const fs::path& path, const Input& input, bool with_garments) {
     garment.name = plain_name(garment) + (i == 0 ? "" : fmt::format(" #{}", i + 1));
     bag.write("/garment", time + ros::Duration(i == 0 ? -1.0 : static_cast<double>(i)), garment);
   }
-}
-
-std::string quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char letter : text)
-    quoted += (letter == '"' || letter == '\\') ? std::string("\\") + letter : std::string(1, letter);
-  return quoted + "\"";
 }
 
 void write(const std::string& path, const std::string& text) {
