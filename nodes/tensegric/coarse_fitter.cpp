@@ -44,8 +44,8 @@ void CoarseFitter::take(const geometry::ControlMesh& coarse, const geometry::Con
 
 std::optional<CoarseFitter::Answer> CoarseFitter::fit(const Garment& garment, SolverName solver, int rest,
                                                       const std::function<bool()>& go_on) {
-  const auto solution = fitter_.fit(garment, solver, rest,
-                                    [&go_on](const auto&, const auto&, const auto&) { return go_on(); });
+  const auto solution =
+      fitter_.fit(garment, solver, rest, [&go_on](const auto&, const auto&, const auto&) { return go_on(); });
   if (!solution) return std::nullopt;
   const std::vector<Eigen::Vector3d> carried = skin_->worn(solution->outer, solution->inner);
   Answer answer{state_of(*solution), {}, {}, static_cast<int>(fitter_.model()->control.triangles.size())};

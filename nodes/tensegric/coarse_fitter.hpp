@@ -1,4 +1,5 @@
-/// A first answer to a garment, found on a coarse control mesh within milliseconds, for the nodes of a fine one.
+/// A first answer to a garment, found on a coarse control mesh within milliseconds, for the nodes of a fine
+/// one.
 #pragma once
 
 #include <memory>
@@ -12,8 +13,8 @@ namespace tensegric_fit::tensegric {
 /// For one thread.
 class CoarseFitter {
  public:
-  /// `fine`: of the fitter whose answers follow. The coarse mesh has the default tissue, which is calibrated on
-  /// coarse meshes, with the same stiff parts, solver, posture and kept volume.
+  /// `fine`: of the fitter whose answers follow. The coarse mesh has the default tissue, which is calibrated
+  /// on coarse meshes, with the same stiff parts, solver, posture and kept volume.
   CoarseFitter(const FitterOptions& fine, BindBody bind_body);
 
   /// The next garments are worn on these two meshes of one body. \throw Refusal as GarmentFitter::take: there

@@ -137,7 +137,8 @@ std::string TensegricHandler::kept() const {
   return kept_text(setup_.garment, worn_);
 }
 
-// Nothing where it was stopped, or where this garment has none: what is to be refused is refused on the fine mesh.
+// Nothing where it was stopped, or where this garment has none: what is to be refused is refused on the fine
+// mesh.
 std::optional<FitState> TensegricHandler::first_answer(const Input& input, const FitName& name,
                                                        const std::function<bool()>& go_on) {
   if (!input.coarse) return std::nullopt;
@@ -153,11 +154,10 @@ std::optional<FitState> TensegricHandler::first_answer(const Input& input, const
     }
     const auto answer = coarse_fitter_.fit(input.request.garment, name.solver, input.rest, go_on);
     if (!answer) return std::nullopt;
-    FitState state =
-        to_message(name, answer->state, answer->outer, answer->inner, milliseconds_since(start));
-    state.note = fmt::format(
-        "the first answer, found on control/coarse ({} triangles); that on control/mesh follows",
-        answer->triangles);
+    FitState state = to_message(name, answer->state, answer->outer, answer->inner, milliseconds_since(start));
+    state.note =
+        fmt::format("the first answer, found on control/coarse ({} triangles); that on control/mesh follows",
+                    answer->triangles);
     return state;
   } catch (const geometry::Refusal&) {
     return std::nullopt;

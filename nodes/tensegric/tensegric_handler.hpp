@@ -66,8 +66,8 @@ class TensegricHandler {
     Facts facts;
   };
   /// `go_on` is asked after each step; `publish` gets states on the way, none more often than the parameter
-  /// `progress_period`: with a coarse mesh its answer alone, carried to the nodes of `control`, as that is nearer
-  /// to the end than the way there. Nothing where it was stopped. \throw Refusal as
+  /// `progress_period`: with a coarse mesh its answer alone, carried to the nodes of `control`, as that is
+  /// nearer to the end than the way there. Nothing where it was stopped. \throw Refusal as
   /// GarmentFitter::take and fit
   std::optional<Output> handle(const Input& input, const std::function<bool()>& go_on,
                                const std::function<void(const FitState&)>& publish);

@@ -1,5 +1,6 @@
-/// When the answers to a change of garment come over topics, and how near each is to the reference: by body, the coarse
-/// one and the last. live_answers CASES.yaml (of reference_cases.py), with pipeline.launch running.
+/// When the answers to a change of garment come over topics, and how near each is to the reference: by body,
+/// the coarse one and the last. live_answers CASES.yaml (of reference_cases.py), with pipeline.launch
+/// running.
 #include <fmt/format.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
@@ -129,8 +130,7 @@ int main(int argc, char** argv) {
     std::string worn;  // by points that lie on this body alone
     for (const YAML::Node& one : entry["references"]) {
       const auto file = one["garment"].as<std::string>();
-      tensegric::Garment garment =
-          tensegric::take_garment(file, geometry::shipped_folder("garments"));
+      tensegric::Garment garment = tensegric::take_garment(file, geometry::shipped_folder("garments"));
       tensegric::set_ratio(garment, "", one["ratio"].as<double>());
       const std::vector<Arrival> came = booth.wear(garment);
       if (came.empty()) return 1;

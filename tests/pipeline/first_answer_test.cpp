@@ -41,7 +41,8 @@ TEST_F(FirstAnswerTest, ItIsTheSkinNearWhereItEndsAndTheFineOneFollows) {
   const ros::Subscriber every = ros::NodeHandle().subscribe<FitState>("control/deformed", 100, on_fit);
   ASSERT_TRUE(wait_for([&fits] { return !fits.empty(); }));  // what is latched
   fits.clear();
-  std::size_t first_skins = 0;  // not of each: a skin that has not begun when the fine answer comes is left out
+  std::size_t first_skins =
+      0;  // not of each: a skin that has not begun when the fine answer comes is left out
   for (const double ratio : {0.95, 0.93, 0.96}) {
     fits.clear();
     shapes_.clear();

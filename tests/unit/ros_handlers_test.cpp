@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "control_mesh/control_mesh_handler.hpp"
 #include "fit/bind_body.hpp"
 #include "geometry/status.hpp"
 #include "reconstruction/reconstruction_handler.hpp"
@@ -109,6 +110,15 @@ TEST(Parameters, ThatANodeTakesAreNotRefusedByItsCore) {
   EXPECT_NE(end("max_points", 4999), "accepted");  // fewer than the least
   EXPECT_NE(refusal_of([] { TffdHandler{parameters("{beta: 0.5}")}; }), "accepted");
   EXPECT_NE(refusal_of([] { TensegricHandler(parameters("{beta: 0.5}"), fit::bind_body); }), "accepted");
+}
+
+TEST(ControlMeshHandler, RefusesACoarseMeshThatIsNoCoarser) {
+  const auto said = [](const std::string& yaml) {
+    return refusal_of([&] { ControlMeshHandler{parameters(yaml)}; });
+  };
+  EXPECT_EQ(said("{control_triangles: 480, coarse_triangles: 120}"), "accepted");
+  EXPECT_EQ(said("{control_triangles: 480, coarse_triangles: 480}"),
+            "coarse_triangles is 480, not less than control_triangles (480)");
 }
 
 /// Messages of scans that all have the same bust.
