@@ -1,5 +1,7 @@
 #include "control_mesh/control_mesh_handler.hpp"
 
+#include <fmt/format.h>
+
 #include <boost/make_shared.hpp>
 
 #include <sstream>
@@ -30,9 +32,12 @@ std::optional<body_model::RegisteredBody> registered(const geometry::TriangleMes
 }  // namespace
 
 ControlMeshHandler::ControlMeshHandler(Parameters parameters) {
-  options_.control_triangles =
-      parameters.integer("control_triangles", options_.control_triangles, control_mesh::kControlTriangles);
-  options_.thickness = parameters.number("thickness", options_.thickness, control_mesh::kThickness);
+  control_mesh::Options& options = options_.front();
+  options.control_triangles =
+      parameters.integer("control_triangles", options.control_triangles, control_mesh::kControlTriangles);
+  options.thickness = parameters.number("thickness", options.thickness, control_mesh::kThickness);
+  const int coarse =
+      parameters.integer("coarse_triangles", 0, {0, control_mesh::kControlTriangles.high});  // 0: none
   std::istringstream names(parameters.text("template", "bust+hips"));
   const std::string folder = parameters.text("template_directory", geometry::shipped_folder("templates"));
   parameters.check_all_known();
@@ -40,6 +45,12 @@ ControlMeshHandler::ControlMeshHandler(Parameters parameters) {
     patterns_.push_back(
         control_mesh::load_template(geometry::yaml_file(folder, name, geometry::refusal::kBadTemplate)));
   if (patterns_.empty()) throw geometry::Refusal(geometry::refusal::kBadOption, "template is empty");
+  if (coarse == 0) return;
+  if (coarse >= options.control_triangles)
+    throw geometry::Refusal(geometry::refusal::kBadOption,
+                            fmt::format("coarse_triangles is {}, not less than control_triangles ({})",
+                                        coarse, options.control_triangles));
+  options_.push_back({coarse});  // of the thickness that the default tissue, which it is solved with, is for
 }
 
 std::optional<ControlMeshHandler::Input> ControlMeshHandler::with_model(
@@ -60,12 +71,14 @@ ControlMeshHandler::Output ControlMeshHandler::handle(const Input& input) const 
   std::string origin = "came with the mesh";
   const std::optional<body_model::RegisteredBody> model = registered(output.body, model_message, origin);
 
-  std::vector<geometry::ControlMesh> parts;
+  std::vector<geometry::ControlMesh> parts, coarse_parts;
   std::optional<geometry::Refusal> first;
   for (const control_mesh::Template& pattern : patterns_) {
     try {
-      parts.push_back(
-          control_mesh::fit_template(pattern, output.body, measures, options_, model ? &*model : nullptr));
+      const auto laid =
+          control_mesh::fit_template(pattern, output.body, measures, options_, model ? &*model : nullptr);
+      parts.push_back(laid.front());
+      if (laid.size() > 1) coarse_parts.push_back(laid.back());
     } catch (const geometry::Refusal& refusal) {
       if (!first) first = refusal;
       output.left_out += (output.left_out.empty() ? "" : "; ") + pattern.name + ": " + refusal.what();
@@ -75,6 +88,9 @@ ControlMeshHandler::Output ControlMeshHandler::handle(const Input& input) const 
 
   output.control_mesh = geometry::joined(parts);
   output.control = boost::make_shared<ControlMesh>(to_message(tag_in(*mesh), output.control_mesh));
+  if (!coarse_parts.empty())
+    output.coarse =
+        boost::make_shared<ControlMesh>(to_message(tag_in(*mesh), geometry::joined(coarse_parts)));
   output.facts = {{"nodes", std::to_string(output.control_mesh.outer.size())},
                   {"triangles", std::to_string(output.control_mesh.triangles.size())},
                   {"body_model", origin},

@@ -1,4 +1,4 @@
-/// body/mesh + body/landmarks + body/model -> control/mesh
+/// body/mesh + body/landmarks + body/model -> control/mesh, control/coarse
 #pragma once
 
 #include <tensegric_fit/BodyModel.h>
@@ -35,6 +35,7 @@ class ControlMeshHandler {
 
   struct Output {
     ControlMesh::ConstPtr control;
+    ControlMesh::ConstPtr coarse;  ///< of the same body, for a first answer; null where none is asked for
     geometry::TriangleMesh body;
     geometry::ControlMesh control_mesh;
     Eigen::Isometry3d body_from_scan;
@@ -49,7 +50,7 @@ class ControlMeshHandler {
   using Join = ScanJoin<Landmarks, TriangleMesh>;
   std::optional<Input> with_model(const std::optional<Join::Joined>& joined) const;
 
-  control_mesh::Options options_;
+  std::vector<control_mesh::Options> options_{1};  // of control/mesh; of control/coarse, where there is one
   std::vector<control_mesh::Template> patterns_;
   Join join_;
   BodyModel::ConstPtr model_;  // the newest

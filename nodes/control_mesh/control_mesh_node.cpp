@@ -1,4 +1,4 @@
-/// body/mesh + body/landmarks + body/model -> control/mesh
+/// body/mesh + body/landmarks + body/model -> control/mesh, control/coarse
 #include "control_mesh/control_mesh_handler.hpp"
 #include "ros/display.hpp"
 #include "ros/log_words.hpp"
@@ -15,6 +15,7 @@ class ControlMeshNode {
   ControlMeshNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
       : handler_(Parameters(private_node)),
         control_(node.advertise<ControlMesh>("control/mesh", 1, true)),
+        coarse_(node.advertise<ControlMesh>("control/coarse", 1, true)),
         display_(private_node),
         inputs_(node),
         stage_("control_mesh", node) {
@@ -44,6 +45,7 @@ class ControlMeshNode {
       const auto output = std::make_shared<const Output>(handler_.handle(input));
       if (!output->left_out.empty()) ROS_WARN("left out: %s", without_figures(output->left_out).c_str());
       return {[this, output] {
+                if (output->coarse) coarse_.publish(output->coarse);  // first: it is not waited for
                 control_.publish(output->control);
                 show(output);
               },
@@ -68,7 +70,7 @@ class ControlMeshNode {
   }
 
   ControlMeshHandler handler_;
-  ros::Publisher control_;
+  ros::Publisher control_, coarse_;
   Display display_;
   WatchedInputs inputs_;
   Stage stage_;  // last: its worker uses all of the above

@@ -182,13 +182,41 @@ geometry::ControlMesh laid_best(const Template& pattern, const geometry::BodyMea
   return count_badly_laid(repaired, skin) < least ? repaired : laid[best];
 }
 
+/// The template laid on the skin as finely as asked for, with its lines and inner nodes.
+geometry::ControlMesh refined(const Template& pattern, geometry::ControlMesh control, const Options& options,
+                              const Skin& skin) {
+  // 1. Inner nodes of a table below the outer ones, and constraining lines over them.
+  const auto place_at = [&](std::vector<double> thickness) {
+    for (double& t : thickness) t *= options.thickness;
+    place_inner_nodes(control, thickness, skin);
+  };
+  if (!pattern.thickness.empty()) place_at(thickness_of(pattern, control.outer.size()));
+  add_lines(pattern, control);
+
+  // 2. Finer triangles where they are asked for; what is left between triangles and skin is evened out.
+  // Inner nodes over bone or under a cushion follow.
+  while (control.triangles.size() < static_cast<std::size_t>(options.control_triangles))
+    control = subdivide(control, skin);
+  match_skin(control, liftable(pattern, control), skin);
+  if (pattern.bone)
+    place_on_bone(control, *pattern.bone, options.thickness);
+  else if (pattern.cushion)
+    place_at(thickness_of(*pattern.cushion, control));
+  else
+    thin_folded_units(control);
+  return control;
+}
+
 }  // namespace
 
-geometry::ControlMesh fit_template(const Template& pattern, const geometry::TriangleMesh& body,
-                                   const geometry::BodyMeasures& measures, const Options& options,
-                                   const body_model::RegisteredBody* model) {
-  geometry::check_option("control_triangles", options.control_triangles, kControlTriangles);
-  geometry::check_option("thickness", options.thickness, kThickness);
+std::vector<geometry::ControlMesh> fit_template(const Template& pattern, const geometry::TriangleMesh& body,
+                                                const geometry::BodyMeasures& measures,
+                                                const std::vector<Options>& options,
+                                                const body_model::RegisteredBody* model) {
+  for (const Options& one : options) {
+    geometry::check_option("control_triangles", one.control_triangles, kControlTriangles);
+    geometry::check_option("thickness", one.thickness, kThickness);
+  }
   geometry::check_mesh(body);
   if (body.triangles.empty()) throw Refusal(refusal::kNotABody, "the body mesh has no triangles");
 
@@ -210,35 +238,25 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
   std::optional<ModelSurface> model_surface;
   if (model && (pattern.needs_model() || pattern.may_use_model()))
     model_surface.emplace(*model, measures.body_from_scan);
-  geometry::ControlMesh control =
+  const geometry::ControlMesh laid =
       laid_best(pattern, measures, skin, model_surface ? &*model_surface : nullptr);
 
-  // 2. Inner nodes of a table below them, and constraining lines over them.
-  const auto place_at = [&](std::vector<double> thickness) {
-    for (double& t : thickness) t *= options.thickness;
-    place_inner_nodes(control, thickness, skin);
-  };
-  if (!pattern.thickness.empty()) place_at(thickness_of(pattern, control.outer.size()));
-  add_lines(pattern, control);
-
-  // 3. Finer triangles where they are asked for; what is left between triangles and skin is evened out.
-  // Inner nodes over bone or under a cushion follow.
-  while (control.triangles.size() < static_cast<std::size_t>(options.control_triangles))
-    control = subdivide(control, skin);
-  match_skin(control, liftable(pattern, control), skin);
-  if (pattern.bone)
-    place_on_bone(control, *pattern.bone, options.thickness);
-  else if (pattern.cushion)
-    place_at(thickness_of(*pattern.cushion, control));
-  else
-    thin_folded_units(control);
-
-  // 4. Back to the scan's frame.
+  // 2. As fine as each is to be, back in the scan's frame.
   const Eigen::Isometry3d scan_from_body = measures.body_from_scan.inverse();
-  for (Vector3d& p : control.outer) p = scan_from_body * p;
-  for (Vector3d& p : control.inner) p = scan_from_body * p;
-  geometry::check_control_mesh(control);
-  return control;
+  std::vector<geometry::ControlMesh> controls;
+  for (const Options& one : options) {
+    controls.push_back(refined(pattern, laid, one, skin));
+    for (Vector3d& p : controls.back().outer) p = scan_from_body * p;
+    for (Vector3d& p : controls.back().inner) p = scan_from_body * p;
+    geometry::check_control_mesh(controls.back());
+  }
+  return controls;
+}
+
+geometry::ControlMesh fit_template(const Template& pattern, const geometry::TriangleMesh& body,
+                                   const geometry::BodyMeasures& measures, const Options& options,
+                                   const body_model::RegisteredBody* model) {
+  return fit_template(pattern, body, measures, std::vector<Options>{options}, model).front();
 }
 
 }  // namespace tensegric_fit::control_mesh

@@ -1,6 +1,8 @@
 /// Template + body + landmarks -> control mesh (P1 §3.3, P2 §3).
 #pragma once
 
+#include <vector>
+
 #include "body_model/registered_body.hpp"
 #include "control_mesh/template.hpp"
 #include "geometry/body_measures.hpp"
@@ -27,5 +29,11 @@ struct Options {
 geometry::ControlMesh fit_template(const Template& pattern, const geometry::TriangleMesh& body,
                                    const geometry::BodyMeasures& measures, const Options& options,
                                    const body_model::RegisteredBody* model = nullptr);
+
+/// One for each of `options`, all from the same nodes: coarse and fine meshes of one body.
+std::vector<geometry::ControlMesh> fit_template(const Template& pattern, const geometry::TriangleMesh& body,
+                                                const geometry::BodyMeasures& measures,
+                                                const std::vector<Options>& options,
+                                                const body_model::RegisteredBody* model = nullptr);
 
 }  // namespace tensegric_fit::control_mesh

@@ -52,6 +52,12 @@ class BoundBody : public tensegric::BodyUnderGarment {
     return skin_folds(bound().binding, bound().mesh.triangles, outer, inner);
   }
 
+  std::vector<Eigen::Vector3d> worn(const std::vector<Eigen::Vector3d>& outer,
+                                    const std::vector<Eigen::Vector3d>& inner) const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return bound().binding.deform(outer, inner);
+  }
+
  private:
   struct Bound {
     geometry::TriangleMesh mesh;

@@ -29,6 +29,10 @@ class BodyUnderGarment {
   /// A SkinFolds. \pre one place a node
   virtual bool folds(const std::vector<Eigen::Vector3d>& outer,
                      const std::vector<Eigen::Vector3d>& inner) const = 0;
+
+  /// Where its vertices are with the control nodes here. \pre one place a node
+  virtual std::vector<Eigen::Vector3d> worn(const std::vector<Eigen::Vector3d>& outer,
+                                            const std::vector<Eigen::Vector3d>& inner) const = 0;
 };
 
 /// Binds a body to its control mesh. `body` gives the mesh and is called when it is needed first. How a body

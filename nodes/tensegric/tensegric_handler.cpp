@@ -1,5 +1,7 @@
 #include "tensegric/tensegric_handler.hpp"
 
+#include <fmt/format.h>
+
 #include <boost/make_shared.hpp>
 
 #include <chrono>
@@ -16,6 +18,15 @@ using Clock = std::chrono::steady_clock;
 
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// What fitters take besides control meshes.
+std::optional<geometry::BodyMeasures> measures_of(const TensegricHandler::Input& input) {
+  return input.landmarks ? std::optional(measures_in(*input.landmarks)) : std::nullopt;
+}
+
+std::function<geometry::TriangleMesh()> body_of(const TensegricHandler::Input& input) {
+  return [body = input.body] { return mesh_in(*body); };
 }
 
 }  // namespace
@@ -62,7 +73,8 @@ TensegricHandler::TensegricHandler(Parameters parameters, tensegric::BindBody bi
     : setup_(setup_from(parameters)),
       first_{tensegric::take_garment(setup_.garment, setup_.garment_directory), ""},
       worn_(kept_garment(setup_.kept, setup_.garment).value_or(first_)),
-      fitter_(setup_.fitter, std::move(bind_body)) {}
+      fitter_(setup_.fitter, bind_body),
+      coarse_fitter_(setup_.fitter, std::move(bind_body)) {}
 
 std::optional<TensegricHandler::Input> TensegricHandler::add(const ControlMesh::ConstPtr& control) {
   control_ = control;
@@ -106,7 +118,9 @@ bool TensegricHandler::complete() const {
 }
 
 TensegricHandler::Input TensegricHandler::input() const {
-  return {control_, needs_landmarks() ? landmarks_ : nullptr, body_, worn_, rests_};
+  const bool has_coarse = coarse_ && coarse_->scan_id == control_->scan_id;
+  return {control_, has_coarse ? coarse_ : nullptr, needs_landmarks() ? landmarks_ : nullptr, body_, worn_,
+          rests_};
 }
 
 bool TensegricHandler::needs_landmarks() const {
@@ -123,6 +137,33 @@ std::string TensegricHandler::kept() const {
   return kept_text(setup_.garment, worn_);
 }
 
+// Nothing where it was stopped, or where this garment has none: what is to be refused is refused on the fine
+// mesh.
+std::optional<FitState> TensegricHandler::first_answer(const Input& input, const FitName& name,
+                                                       const std::function<bool()>& go_on) {
+  if (!input.coarse) return std::nullopt;
+  const auto start = Clock::now();
+  try {
+    if (input.coarse != coarse_taken_ || input.control != fine_taken_) {
+      coarse_taken_ = nullptr;
+      const auto measures = measures_of(input);
+      coarse_fitter_.take(control_in(*input.coarse), control_in(*input.control),
+                          measures ? &*measures : nullptr, body_of(input));
+      coarse_taken_ = input.coarse;
+      fine_taken_ = input.control;
+    }
+    const auto answer = coarse_fitter_.fit(input.request.garment, name.solver, input.rest, go_on);
+    if (!answer) return std::nullopt;
+    FitState state = to_message(name, answer->state, answer->outer, answer->inner, milliseconds_since(start));
+    state.note =
+        fmt::format("the first answer, found on control/coarse ({} triangles); that on control/mesh follows",
+                    answer->triangles);
+    return state;
+  } catch (const geometry::Refusal&) {
+    return std::nullopt;
+  }
+}
+
 std::optional<TensegricHandler::Output> TensegricHandler::handle(
     const Input& input, const std::function<bool()>& go_on,
     const std::function<void(const FitState&)>& publish) {
@@ -131,20 +172,24 @@ std::optional<TensegricHandler::Output> TensegricHandler::handle(
       request.solver.empty() ? setup_.fitter.solver.solver : tensegric::solver_from(request.solver);
   const FitName name{tag_in(*input.control), request.garment.name, solver, setup_.fitter.posture};
   const auto start = Clock::now();
+  const std::optional<FitState> first = first_answer(input, name, go_on);
+  if (first)
+    publish(*first);
+  else if (input.coarse && !go_on())
+    return std::nullopt;
   double published = 0;
   const auto progress = [&](const tensegric::Iterate& iterate, const std::vector<Eigen::Vector3d>& outer,
                             const std::vector<Eigen::Vector3d>& inner) {
     const double now = milliseconds_since(start);
-    if (now - published >= 1000 * setup_.progress_period) {
+    if (!first && now - published >= 1000 * setup_.progress_period) {
       publish(to_message(name, iterate, outer, inner, now));
       published = now;
     }
     return go_on();
   };
   if (input.control != taken_) {
-    const auto measures = input.landmarks ? std::optional(measures_in(*input.landmarks)) : std::nullopt;
-    fitter_.take(control_in(*input.control), measures ? &*measures : nullptr,
-                 [body = input.body] { return mesh_in(*body); });
+    const auto measures = measures_of(input);
+    fitter_.take(control_in(*input.control), measures ? &*measures : nullptr, body_of(input));
     taken_ = input.control;
   }
   std::optional<tensegric::Solution> solution = fitter_.fit(request.garment, solver, input.rest, progress);

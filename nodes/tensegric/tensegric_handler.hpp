@@ -1,4 +1,4 @@
-/// control/mesh + garment -> control/deformed, control/forces
+/// control/mesh + control/coarse + garment -> control/deformed, control/forces
 #pragma once
 
 #include <tensegric_fit/ControlMesh.h>
@@ -12,6 +12,7 @@
 
 #include "ros/facts.hpp"
 #include "ros/parameters.hpp"
+#include "tensegric/coarse_fitter.hpp"
 #include "tensegric/fit_messages.hpp"
 #include "tensegric/garment_fitter.hpp"
 
@@ -27,12 +28,15 @@ class TensegricHandler {
 
   struct Input {
     ControlMesh::ConstPtr control;  // all of one scan
+    ControlMesh::ConstPtr coarse;   ///< for a first answer; null where none came
     Landmarks::ConstPtr landmarks;  ///< needed for a posture, else null
     TriangleMesh::ConstPtr body;
     GarmentRequest request;
     int rest;  ///< as GarmentFitter::fit
   };
   std::optional<Input> add(const ControlMesh::ConstPtr& control);
+  /// Nothing waits for it: fits that are asked for later have their first answers on it.
+  void add_coarse(const ControlMesh::ConstPtr& coarse) { coarse_ = coarse; }
   std::optional<Input> add(const Landmarks::ConstPtr& landmarks);
   std::optional<Input> add(const TriangleMesh::ConstPtr& body);
 
@@ -62,7 +66,8 @@ class TensegricHandler {
     Facts facts;
   };
   /// `go_on` is asked after each step; `publish` gets states on the way, none more often than the parameter
-  /// `progress_period`. Nothing where it was stopped. \throw Refusal as
+  /// `progress_period`: with a coarse mesh its answer alone, carried to the nodes of `control`, as that is
+  /// nearer to the end than the way there. Nothing where it was stopped. \throw Refusal as
   /// GarmentFitter::take and fit
   std::optional<Output> handle(const Input& input, const std::function<bool()>& go_on,
                                const std::function<void(const FitState&)>& publish);
@@ -81,17 +86,21 @@ class TensegricHandler {
   std::optional<Input> newly_complete();
   bool complete() const;
   Input input() const;
+  std::optional<FitState> first_answer(const Input& input, const FitName& name,
+                                       const std::function<bool()>& go_on);
 
   const Setup setup_;
   const GarmentRequest first_;
   GarmentRequest worn_;
-  ControlMesh::ConstPtr control_;  // newest of each
+  ControlMesh::ConstPtr control_, coarse_;  // newest of each
   Landmarks::ConstPtr landmarks_;
   TriangleMesh::ConstPtr body_;
   bool fresh_ = false;  // no fit to control_ was asked for so far
   int rests_ = 0;
   tensegric::GarmentFitter fitter_;
   ControlMesh::ConstPtr taken_;  // by fitter_
+  tensegric::CoarseFitter coarse_fitter_;
+  ControlMesh::ConstPtr coarse_taken_, fine_taken_;  // by coarse_fitter_
 };
 
 }  // namespace tensegric_fit::node

@@ -1,4 +1,4 @@
-/// control/mesh + garment -> control/deformed, control/forces
+/// control/mesh + control/coarse + garment -> control/deformed, control/forces
 #include <std_srvs/Trigger.h>
 
 #include "fit/bind_body.hpp"
@@ -28,6 +28,7 @@ class TensegricNode {
         stage_("tensegric", node) {
     announce();
     inputs_.subscribe("control/mesh", 2, &TensegricNode::on<ControlMesh>, this, kPrompt);
+    inputs_.subscribe("control/coarse", 2, &TensegricNode::on_coarse, this, kPrompt);
     inputs_.subscribe("body/mesh", 2, &TensegricNode::on_body, this, kPrompt);
     inputs_.subscribe("garment", 8, &TensegricNode::on_garment, this, kPrompt);
     if (handler_.needs_landmarks())
@@ -45,6 +46,8 @@ class TensegricNode {
     stage_.begin(body->scan_id);
     on(body);
   }
+
+  void on_coarse(const ControlMesh::ConstPtr& coarse) { handler_.add_coarse(coarse); }
 
   template <typename Message>
   void on(const boost::shared_ptr<const Message>& message) {

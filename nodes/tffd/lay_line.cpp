@@ -7,6 +7,7 @@
 #include <map>
 
 #include "geometry/even_steps.hpp"
+#include "geometry/parallel_for.hpp"
 #include "geometry/section.hpp"
 #include "geometry/status.hpp"
 #include "geometry/surface_tree.hpp"
@@ -43,9 +44,7 @@ std::vector<Vector3d> evenly(const std::vector<Vector3d>& line) {
 class SkinNear {
  public:
   SkinNear(const geometry::TriangleMesh& body, const std::vector<Vector3d>& line)
-      : skin_(near(body, line)),
-        normals_(geometry::vertex_normals(body.vertices, body.triangles)),
-        tree_(skin_) {}
+      : SkinNear(body, are_near(body.vertices, line)) {}
 
   SurfacePoint nearest(const Vector3d& q) const { return tree_.nearest(q); }
   const Eigen::Vector3i& corners(const SurfacePoint& at) const { return skin_.triangles[at.triangle]; }
@@ -58,15 +57,31 @@ class SkinNear {
   }
 
  private:
-  static geometry::TriangleMesh near(const geometry::TriangleMesh& body, const std::vector<Vector3d>& line) {
+  SkinNear(const geometry::TriangleMesh& body, const std::vector<char>& close)
+      : skin_{body.vertices, touching(body, close, 3)},
+        normals_(geometry::vertex_normals(body.vertices, touching(body, close, 1))),
+        tree_(skin_) {}
+
+  // One flag per vertex.
+  static std::vector<char> are_near(const std::vector<Vector3d>& vertices,
+                                    const std::vector<Vector3d>& line) {
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& point : line) box.extend(point);
     const geometry::PointTree tree(line);
-    std::vector<char> close(body.vertices.size());
-    for (std::size_t v = 0; v < close.size(); ++v) close[v] = tree.distance(body.vertices[v]) < kLineReach;
-    geometry::TriangleMesh skin{body.vertices, {}};
+    std::vector<char> close(vertices.size());
+    for (std::size_t v = 0; v < close.size(); ++v)
+      close[v] = box.exteriorDistance(vertices[v]) < kLineReach && tree.distance(vertices[v]) < kLineReach;
+    return close;
+  }
+
+  // Triangles of which so many corners and more are close.
+  static std::vector<Eigen::Vector3i> touching(const geometry::TriangleMesh& body,
+                                               const std::vector<char>& close, int corners) {
+    std::vector<Eigen::Vector3i> triangles;
     for (const Eigen::Vector3i& t : body.triangles)
-      if (close[t[0]] && close[t[1]] && close[t[2]]) skin.triangles.push_back(t);
-    if (skin.triangles.empty()) throw Refusal(refusal::kBadGarment, "a line lies nowhere near the body");
-    return skin;
+      if (close[t[0]] + close[t[1]] + close[t[2]] >= corners) triangles.push_back(t);
+    if (triangles.empty()) throw Refusal(refusal::kBadGarment, "a line lies nowhere near the body");
+    return triangles;
   }
 
   geometry::TriangleMesh skin_;
@@ -202,10 +217,9 @@ std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::Tr
   }
   const std::vector<Vector3d> sideways = across(middle, skin);
 
-  std::vector<geometry::Fibre> fibres;
   const int count = line.width > 0 ? kFibres : 1;
-  double shares = 0;
-  for (int f = 0; f < count; ++f) {
+  std::vector<geometry::Fibre> fibres(count);
+  const auto lay = [&](int f) {
     const double place = count > 1 ? 2.0 * f / (count - 1) - 1 : 0;  // -1 to 1 across the band
     const double share = std::abs(place) == 1 ? 0.5 : 1;  // the trapezoid rule: even over the width
     std::vector<CarriedPoint> points;
@@ -219,9 +233,13 @@ std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::Tr
     if (line.taut) points = on_the_tape(points, normals);
     if (line.held[0]) points.front().weights.clear();
     if (line.held[1]) points.back().weights.clear();
-    fibres.push_back({share, thinned(points, line.smooth)});
-    shares += fibres.back().share;
-  }
+    fibres[f] = {share, thinned(points, line.smooth)};
+  };
+  geometry::parallel_for(fibres.size(), [&lay](std::size_t begin, std::size_t end, int) {
+    for (std::size_t f = begin; f < end; ++f) lay(static_cast<int>(f));
+  });
+  double shares = 0;
+  for (const geometry::Fibre& fibre : fibres) shares += fibre.share;
   for (geometry::Fibre& fibre : fibres) fibre.share /= shares;
   return fibres;
 }

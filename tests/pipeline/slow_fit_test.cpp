@@ -1,70 +1,10 @@
 /// A fit that takes its time, over real topics: the skin is seen on its way.
-#include <gtest/gtest.h>
-#include <tensegric_fit/SetGarment.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
-#include "chain_client.hpp"
+#include "shapes_on_the_way.hpp"
 
 namespace tensegric_fit::tests {
 namespace {
 
-bool on_its_way(const DeformedMesh::ConstPtr& shape) {
-  return shape->status == FitState::SOLVING;
-}
-
-class SlowFitTest : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    client_ = std::make_unique<ChainClient>();
-    ASSERT_TRUE(client_->ready()) << "the chain did not come up";
-    ASSERT_NE(client_->fit(booth_scan("a")), "") << "no deformed body came out";
-  }
-  static void TearDownTestSuite() { client_.reset(); }
-
-  /// Every test begins with a garment that does not pull.
-  void SetUp() override {
-    listen_to_shapes();
-    put_on(1);
-    ASSERT_TRUE(wait_for([this] { return ended() && moved(*shapes_.back()) == 0; }));
-    shapes_.clear();
-  }
-
-  void listen_to_shapes() {
-    const boost::function<void(const DeformedMesh::ConstPtr&)> on_shape =
-        [this](const DeformedMesh::ConstPtr& shape) { shapes_.push_back(shape); };
-    every_ = ros::NodeHandle().subscribe<DeformedMesh>("body/deformed", 1000, on_shape);
-  }
-
-  static void put_on(double ratio) {
-    SetGarment call;
-    call.request.name = "B1";
-    call.request.lines = {"chest"};
-    call.request.ratios = {ratio};
-    ASSERT_TRUE(ros::service::call("set_garment", call));
-    ASSERT_TRUE(call.response.accepted) << call.response.message;
-  }
-
-  bool ended() const { return !shapes_.empty() && !on_its_way(shapes_.back()); }
-  bool under_way() const { return !shapes_.empty() && on_its_way(shapes_.back()); }
-
-  /// How far the skin is from rest, metres: where it is farthest.
-  static double moved(const DeformedMesh& shape) {
-    const std::vector<float>& rest = client_->bodies.back()->vertices;
-    double farthest = 0;
-    for (std::size_t i = 0; i < rest.size(); ++i)
-      farthest = std::max<double>(farthest, std::abs(shape.vertices.at(i) - rest[i]));
-    return farthest;
-  }
-
-  static std::unique_ptr<ChainClient> client_;
-  ros::Subscriber every_;
-  std::vector<DeformedMesh::ConstPtr> shapes_;  // those on the way, too
-};
-
-std::unique_ptr<ChainClient> SlowFitTest::client_;
+class SlowFitTest : public ShapesTest {};
 
 TEST_F(SlowFitTest, TheSkinIsSeenOnItsWayAndTheFitHasTheLastWord) {
   put_on(0.85);

@@ -301,6 +301,20 @@ TEST(FitTemplate, SubdivisionKeepsWhatTheTemplateSays) {
   }
 }
 
+TEST(FitTemplate, CoarseAndFineOfOneBodyAreWhatEachIsAlone) {
+  const Trunk trunk = make_trunk();
+  const control_mesh::Template bust = control_mesh::load_template(kBust);
+  const std::vector<control_mesh::Options> both{{480, 1.2}, {120, 1}};
+  const auto laid = control_mesh::fit_template(bust, trunk.mesh, trunk.measures, both);
+  ASSERT_EQ(laid.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto alone = control_mesh::fit_template(bust, trunk.mesh, trunk.measures, both[i]);
+    EXPECT_EQ(laid[i].outer, alone.outer);  // to the bit
+    EXPECT_EQ(laid[i].inner, alone.inner);
+    EXPECT_EQ(laid[i].triangles, alone.triangles);
+  }
+}
+
 TEST(FitTemplate, ArmsThatTouchTheTrunkAreNotClimbed) {
   Trunk trunk = make_trunk();
   const double side = trunk.measures.landmark("axilla_L").y();

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "control_mesh/control_mesh_handler.hpp"
 #include "fit/bind_body.hpp"
 #include "geometry/status.hpp"
 #include "reconstruction/reconstruction_handler.hpp"
@@ -111,20 +112,30 @@ TEST(Parameters, ThatANodeTakesAreNotRefusedByItsCore) {
   EXPECT_NE(refusal_of([] { TensegricHandler(parameters("{beta: 0.5}"), fit::bind_body); }), "accepted");
 }
 
+TEST(ControlMeshHandler, RefusesACoarseMeshThatIsNoCoarser) {
+  const auto said = [](const std::string& yaml) {
+    return refusal_of([&] { ControlMeshHandler{parameters(yaml)}; });
+  };
+  EXPECT_EQ(said("{control_triangles: 480, coarse_triangles: 120}"), "accepted");
+  EXPECT_EQ(said("{control_triangles: 480, coarse_triangles: 480}"),
+            "coarse_triangles is 480, not less than control_triangles (480)");
+}
+
 /// Messages of scans that all have the same bust.
 class TensegricHandlerTest : public testing::Test {
  protected:
   using Input = TensegricHandler::Input;
 
-  static TriangleMesh::ConstPtr body_of(const std::string& scan_id) {
-    const geometry::ControlMesh bust = tensegric::bust_mesh();
+  static TriangleMesh::ConstPtr body_of(const std::string& scan_id, const tensegric::BustShape& shape = {}) {
+    const geometry::ControlMesh bust = tensegric::bust_mesh(shape);
     const auto body =
         boost::make_shared<TriangleMesh>(to_message(ScanTag(), {bust.outer, bust.triangles}, {}));
     body->scan_id = scan_id;
     return body;
   }
-  static ControlMesh::ConstPtr control_of(const std::string& scan_id) {
-    const auto control = boost::make_shared<ControlMesh>(to_message(ScanTag(), tensegric::bust_mesh()));
+  static ControlMesh::ConstPtr control_of(const std::string& scan_id,
+                                          const tensegric::BustShape& shape = {}) {
+    const auto control = boost::make_shared<ControlMesh>(to_message(ScanTag(), tensegric::bust_mesh(shape)));
     control->scan_id = scan_id;
     return control;
   }
@@ -252,6 +263,111 @@ TEST_F(TensegricHandlerTest, TheSkinFollowsStatesOnTheWay) {
     }
   }
   EXPECT_NE(first, last);
+}
+
+/// The same bust with four times as many triangles, and the usual one as its coarse mesh.
+class CoarseAnswerTest : public TensegricHandlerTest {
+ protected:
+  static tensegric::BustShape times(int finer) {
+    tensegric::BustShape shape;
+    shape.columns *= finer;
+    shape.rows *= finer;
+    return shape;
+  }
+  /// On the skin: a string cuts in as far as control triangles are small.
+  static Garment band_at(double ratio) {
+    Garment garment = chest_at(ratio);
+    GarmentLine& line = garment.lines[0];
+    line.through = {"axilla_L", "bust_point_L", "sternum", "bust_point_R", "axilla_R"};
+    line.width = 0.03;
+    line.smooth = 0.02;
+    return garment;
+  }
+
+  struct Heard {
+    std::vector<FitState> on_the_way;
+    FitState::ConstPtr end;  // null where it was stopped
+  };
+  static Heard handle(TensegricHandler& stage, const Input& input, const std::function<bool()>& go_on) {
+    Heard heard;
+    const auto output =
+        stage.handle(input, go_on, [&heard](const FitState& state) { heard.on_the_way.push_back(state); });
+    if (output) heard.end = output->fit;
+    return heard;
+  }
+
+  /// A band at 0.95 on that scan.
+  std::optional<Input> input_of(TensegricHandler& stage, const std::string& scan_id,
+                                const ControlMesh::ConstPtr& coarse) {
+    stage.put_on(band_at(0.95));
+    if (coarse) stage.add_coarse(coarse);
+    stage.add(body_of(scan_id, times(8)));
+    return stage.add(control_of(scan_id, times(2)));
+  }
+
+  static double distance(const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return std::sqrt(sum);
+  }
+};
+
+TEST_F(CoarseAnswerTest, ComesFirstAndOnceOnTheNodesOfTheFineMeshNearWhereThatEnds) {
+  TensegricHandler stage = handler("progress_period: 0.001"), without = handler();
+  const auto input = input_of(stage, "A", control_of("A"));
+  ASSERT_TRUE(input && input->coarse);
+  const Heard heard = handle(stage, *input, kGoOn);
+  ASSERT_EQ(heard.on_the_way.size(), 1u);  // what the fine mesh comes through is farther from its end
+  const FitState& first = heard.on_the_way.front();
+  EXPECT_EQ(first.status, FitState::SOLVING);
+  EXPECT_EQ(first.scan_id, "A");
+  EXPECT_EQ(first.garment, heard.end->garment);
+  EXPECT_NE(first.note.find("control/coarse (120 triangles)"), std::string::npos) << first.note;
+  const ControlMesh& rest = *input->control;
+  ASSERT_EQ(first.outer.size(), rest.outer.size());
+  EXPECT_EQ(first.inner, rest.inner);
+  for (std::size_t i = 0; i < rest.outer_fixed.size(); ++i) {
+    if (!rest.outer_fixed[i]) continue;
+    for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) EXPECT_EQ(first.outer[k], rest.outer[k]);
+  }
+  EXPECT_NEAR(first.line_ratios.at(0), 0.95, 1e-4);  // of the coarse mesh
+  EXPECT_LT(distance(first.outer, heard.end->outer), 0.5 * distance(rest.outer, heard.end->outer));
+
+  const auto alone = input_of(without, "A", nullptr);
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(handle(without, *alone, kGoOn).end->outer, heard.end->outer);  // to the bit
+}
+
+TEST_F(CoarseAnswerTest, ThereIsNoneByTheMeshOfAnotherScan) {
+  TensegricHandler stage = handler();
+  const auto input = input_of(stage, "B", control_of("A"));
+  ASSERT_TRUE(input);
+  EXPECT_FALSE(input->coarse);
+  stage.add_coarse(control_of("B"));  // late: the next garment has it
+  const auto next = stage.put_on(band_at(0.97));
+  ASSERT_TRUE(next && next->coarse);
+  EXPECT_EQ(next->coarse->scan_id, next->control->scan_id);
+}
+
+TEST_F(CoarseAnswerTest, StoppedOnItsWayItIsNoneAndNeitherIsTheFineOne) {
+  TensegricHandler stage = handler();
+  const auto input = input_of(stage, "A", control_of("A"));
+  ASSERT_TRUE(input);
+  const Heard heard = handle(stage, *input, [] { return false; });
+  EXPECT_TRUE(heard.on_the_way.empty());
+  EXPECT_FALSE(heard.end);
+}
+
+TEST_F(CoarseAnswerTest, AMeshThatCannotWearTheGarmentLeavesItToTheFineOne) {
+  const auto nameless = boost::make_shared<ControlMesh>(*control_of("A"));
+  nameless->names.assign(nameless->names.size(), "");
+  TensegricHandler stage = handler();
+  const auto input = input_of(stage, "A", nameless);
+  ASSERT_TRUE(input && input->coarse);
+  const Heard heard = handle(stage, *input, kGoOn);
+  for (const FitState& state : heard.on_the_way) EXPECT_EQ(state.note, "");
+  ASSERT_TRUE(heard.end);
+  EXPECT_EQ(heard.end->status, FitState::CONVERGED);
 }
 
 TEST_F(TensegricHandlerTest, StartedAgainItWearsWhatItWore) {
