@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "body_model/array_file.hpp"
 #include "body_model/registration.hpp"
+#include "geometry/array_file.hpp"
 #include "geometry/shipped_files.hpp"
 
 namespace tensegric_fit::body_model {
@@ -12,63 +12,14 @@ namespace {
 
 using Eigen::Vector3d;
 
+using Json = nlohmann::json;
+
 constexpr char kBonesMagic[] = "tensegric_fit bones 1";
-constexpr double kByte = 255;       // definition of the format: weights are shares in 255ths
 constexpr double kMostlyArm = 0.5;  // definition: an arm carries more than half of a vertex
 constexpr double
     kLeastStep = 0.0005,
     kMostPressed =
         0.15;  // m; tolerance of the last step, a tenth of kThinnestTissue; in all: half the depth of a trunk
-
-BoneShape shape_in(const ArrayFile& file, const std::string& name, const Model& model, const Check& check) {
-  BoneShape shape;
-  shape.name = name;
-  shape.mean = points(file.numbers(name + "_mean", {0, 3}));
-  const std::size_t count = shape.mean.size(), components = static_cast<std::size_t>(model.components());
-  const std::vector<double> step = file.numbers(name + "_step", {components}),
-                            basis = file.numbers(name + "_basis", {components, count, 3});
-  shape.basis.resize(model.components(), static_cast<Eigen::Index>(3 * count));
-  for (std::size_t k = 0; k < components; ++k)
-    for (std::size_t i = 0; i < 3 * count; ++i)
-      shape.basis(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
-          static_cast<float>(step[k] * basis[k * 3 * count + i]);
-  const std::vector<double> bones = file.numbers(name + "_bones", {count, Model::kWeights}),
-                            weights = file.numbers(name + "_weights", {count, Model::kWeights});
-  shape.carriers.resize(count);
-  shape.weights.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    double sum = 0;
-    for (std::size_t j = 0; j < Model::kWeights; ++j) {
-      const std::size_t at = i * Model::kWeights + j;
-      check(bones[at] < static_cast<double>(model.bones.size()), "a point's bone");
-      shape.carriers[i][j] = static_cast<unsigned char>(bones[at]);
-      shape.weights[i][j] = static_cast<float>(weights[at] / kByte);
-      sum += weights[at];
-    }
-    check(sum == kByte, "weights of a point that do not sum to 1");
-  }
-  const std::vector<double> quads = file.numbers(name + "_quads", {0, 4});
-  for (const double corner : quads) check(corner < static_cast<double>(count), "a quad's point");
-  for (std::size_t q = 0; q < quads.size(); q += 4) {
-    const Eigen::Vector4i k = Eigen::Map<const Eigen::Vector4d>(&quads[q]).cast<int>();
-    shape.triangles.emplace_back(k[0], k[1], k[2]);
-    shape.triangles.emplace_back(k[0], k[2], k[3]);
-  }
-  return shape;
-}
-
-std::vector<Vector3d> posed(const BoneShape& shape, const Parameters& parameters, const PosedModel& model) {
-  const Eigen::VectorXf offset = shape.basis.transpose() * parameters.shape.cast<float>();
-  std::vector<Vector3d> result;
-  for (std::size_t i = 0; i < shape.mean.size(); ++i) {
-    const Vector3d rest = shape.mean[i] + offset.segment<3>(3 * static_cast<Eigen::Index>(i)).cast<double>();
-    Vector3d sum = Vector3d::Zero();
-    for (int j = 0; j < Model::kWeights; ++j)
-      if (shape.weights[i][j] > 0) sum += shape.weights[i][j] * (model.bone(shape.carriers[i][j]) * rest);
-    result.push_back(sum);
-  }
-  return result;
-}
 
 /// The skin of the trunk: arms may lie against it.
 geometry::TriangleMesh trunk_of(const RegisteredBody& body) {
@@ -116,8 +67,8 @@ class Skin {
 }  // namespace
 
 std::vector<BoneShape> load_bones(const std::string& path, const Model& model) {
-  const Check check{path};
-  const ArrayFile file(path, kBonesMagic, "file of bones");
+  const geometry::Check check{path};
+  const geometry::ArrayFile file(path, kBonesMagic, "file of bones");
   std::vector<BoneShape> shapes;
   try {
     const std::string made_for = file.header().at("model");
@@ -125,8 +76,11 @@ std::vector<BoneShape> load_bones(const std::string& path, const Model& model) {
       throw geometry::Refusal(geometry::refusal::kOtherModel, path + ": made for body model '" + made_for +
                                                                   "', not for '" + model.checksum +
                                                                   "': run tests/body_model/bones.py anew");
-    for (const Json& bone : file.header().at("bones"))
-      shapes.push_back(shape_in(file, bone.at("name"), model, check));
+    for (const Json& bone : file.header().at("bones")) {
+      const std::string name = bone.at("name");
+      shapes.push_back({skinned_in(file, name + "_", model.bones.size(), check), name});
+      check(shapes.back().basis.rows() == model.components(), "a bone of another number of components");
+    }
   } catch (const Json::exception& error) {
     check(false, error.what());
   }
@@ -145,7 +99,7 @@ std::vector<BoneSurface> bones_of(const RegisteredBody& body, const std::vector<
   const Skin skin(body);
   std::vector<BoneSurface> surfaces;
   for (const BoneShape& shape : shapes) {
-    surfaces.push_back({shape.name, {posed(shape, body.parameters, model), shape.triangles}});
+    surfaces.push_back({shape.name, {model.carried(shape), shape.triangles}});
     geometry::TriangleMesh& mesh = surfaces.back().mesh;
     const std::vector<Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
     for (std::size_t i = 0; i < normals.size(); ++i)

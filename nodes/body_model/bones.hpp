@@ -18,14 +18,8 @@ namespace tensegric_fit::body_model {
 inline constexpr double kThinnestTissue = 0.005;
 
 /// A bone of every shape at rest, as the model's skin is.
-struct BoneShape {
-  std::string name;                   ///< rib_cage, pelvis
-  std::vector<Eigen::Vector3d> mean;  ///< m
-  Eigen::MatrixXf basis;              ///< components x 3 points: what one standard deviation adds, m
-  std::vector<std::array<unsigned char, Model::kWeights>>
-      carriers;                                             ///< bones of the model that carry a point
-  std::vector<std::array<float, Model::kWeights>> weights;  ///< their shares, sum 1
-  std::vector<Eigen::Vector3i> triangles;  ///< counter-clockwise from outside; open above and below
+struct BoneShape : Skinned {  // open above and below
+  std::string name;           ///< rib_cage, pelvis
 };
 
 /// \throw Refusal broken_file: not there, another format, or contents that do not fit each other;

@@ -1,15 +1,24 @@
 #include <algorithm>
 #include <cmath>
 
-#include "body_model/array_file.hpp"
 #include "body_model/model.hpp"
+#include "geometry/array_file.hpp"
 
 namespace tensegric_fit::body_model {
 namespace {
 
+using geometry::ArrayFile;
+using geometry::Check;
+using Json = nlohmann::json;
+
 constexpr char kModelMagic[] = "tensegric_fit body model 1";
 constexpr double kRounding = 0.001;                          // that shares of a skin point are written with
 constexpr double kLeastStature = 1, kGreatestStature = 2.5;  // m
+constexpr double kByte = 255;  // definition of the format: weights are shares in 255ths
+
+bool is_index(double value, std::size_t size) {
+  return value >= 0 && value < static_cast<double>(size);
+}
 
 /// Bones, groups, parts and bone points.
 void take_header(const Json& header, const Check& check, Model& model) {
@@ -41,39 +50,15 @@ void take_arrays(const ArrayFile& file, const Check& check, Model& model) {
   const auto array = [&](const std::string& name, const std::vector<std::size_t>& shape) {
     return file.numbers(name, shape);
   };
-  model.mean = points(array("mean", {0, 3}));
-  const std::size_t vertices = model.mean.size();
-  const std::vector<double> step = array("step", {0});
-  const std::size_t components = step.size();
-  const std::vector<double> basis = array("basis", {components, vertices, 3});
-  model.basis.resize(static_cast<Eigen::Index>(components), static_cast<Eigen::Index>(3 * vertices));
-  for (std::size_t i = 0; i < 3 * vertices; ++i)
-    for (std::size_t k = 0; k < components; ++k)
-      model.basis(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
-          static_cast<float>(step[k] * basis[k * 3 * vertices + i]);
-
+  static_cast<Skinned&>(model) = skinned_in(file, "", model.bones.size(), check);
+  const std::size_t vertices = model.mean.size(), components = static_cast<std::size_t>(model.components());
   const std::size_t inner = model.bones.size() + model.bone_points.size();
-  model.inner_mean = points(array("extra_mean", {inner, 3}));
+  model.inner_mean = geometry::points(array("extra_mean", {inner, 3}));
   const std::vector<double> inner_basis = array("extra_basis", {components, inner, 3});
   model.inner_basis =
       Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
           inner_basis.data(), static_cast<Eigen::Index>(components), static_cast<Eigen::Index>(3 * inner));
 
-  const auto is_index = [](double value, std::size_t size) {
-    return value >= 0 && value < static_cast<double>(size);
-  };
-  const std::vector<double> bones = array("bones", {vertices, Model::kWeights}),
-                            weights = array("weights", {vertices, Model::kWeights});
-  model.carriers.resize(vertices);
-  model.weights.resize(vertices);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    for (int j = 0; j < Model::kWeights; ++j) {
-      const std::size_t at = v * Model::kWeights + j;
-      check(is_index(bones[at], model.bones.size()), "a vertex' bone");
-      model.carriers[v][j] = static_cast<unsigned char>(bones[at]);
-      model.weights[v][j] = static_cast<float>(weights[at] / 255);
-    }
-  }
   const auto is_arm = [&](int bone) {
     const std::string& name = model.bones[bone].name;
     return name.rfind("upperarm", 0) == 0 || name.rfind("lowerarm", 0) == 0 || name.rfind("wrist", 0) == 0;
@@ -87,17 +72,6 @@ void take_arrays(const ArrayFile& file, const Check& check, Model& model) {
   for (const double p : array("parts", {vertices})) {
     check(is_index(p, model.parts.size()), "a vertex' part");
     model.part.push_back(static_cast<unsigned char>(p));
-  }
-  const std::vector<double> quads = array("quads", {0, 4});
-  for (std::size_t q = 0; q < quads.size(); q += 4) {
-    std::array<int, 4> quad;
-    for (int c = 0; c < 4; ++c) {
-      check(is_index(quads[q + c], vertices), "a quad's vertex");
-      quad[c] = static_cast<int>(quads[q + c]);
-    }
-    model.quads.push_back(quad);
-    model.triangles.emplace_back(quad[0], quad[1], quad[2]);
-    model.triangles.emplace_back(quad[0], quad[2], quad[3]);
   }
   for (SkinPoint& point : model.skin_points) {
     double sum = 0;
@@ -126,6 +100,43 @@ int Model::group_named(const std::string& name) const {
   const auto found =
       std::find_if(groups.begin(), groups.end(), [&](const PoseGroup& g) { return g.name == name; });
   return found == groups.end() ? -1 : static_cast<int>(found - groups.begin());
+}
+
+Skinned skinned_in(const ArrayFile& file, const std::string& prefix, std::size_t bones, const Check& check) {
+  Skinned skinned;
+  skinned.mean = geometry::points(file.numbers(prefix + "mean", {0, 3}));
+  const std::size_t count = skinned.mean.size();
+  const std::vector<double> step = file.numbers(prefix + "step", {0}),
+                            basis = file.numbers(prefix + "basis", {step.size(), count, 3});
+  skinned.basis.resize(static_cast<Eigen::Index>(step.size()), static_cast<Eigen::Index>(3 * count));
+  for (std::size_t i = 0; i < 3 * count; ++i)
+    for (std::size_t k = 0; k < step.size(); ++k)
+      skinned.basis(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
+          static_cast<float>(step[k] * basis[k * 3 * count + i]);
+  const std::vector<double> carriers = file.numbers(prefix + "bones", {count, Skinned::kWeights}),
+                            weights = file.numbers(prefix + "weights", {count, Skinned::kWeights});
+  skinned.carriers.resize(count);
+  skinned.weights.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    double sum = 0;
+    for (std::size_t j = 0; j < Skinned::kWeights; ++j) {
+      const std::size_t at = i * Skinned::kWeights + j;
+      check(is_index(carriers[at], bones), "a point's bone");
+      skinned.carriers[i][j] = static_cast<unsigned char>(carriers[at]);
+      skinned.weights[i][j] = static_cast<float>(weights[at] / kByte);
+      sum += weights[at];
+    }
+    check(sum == kByte, "weights of a point that do not sum to 1");
+  }
+  const std::vector<double> quads = file.numbers(prefix + "quads", {0, 4});
+  for (const double corner : quads) check(is_index(corner, count), "a quad's point");
+  for (std::size_t q = 0; q < quads.size(); q += 4) {
+    const Eigen::Vector4i k = Eigen::Map<const Eigen::Vector4d>(&quads[q]).cast<int>();
+    skinned.quads.push_back({k[0], k[1], k[2], k[3]});
+    skinned.triangles.emplace_back(k[0], k[1], k[2]);
+    skinned.triangles.emplace_back(k[0], k[2], k[3]);
+  }
+  return skinned;
 }
 
 Model load_model(const std::string& path) {

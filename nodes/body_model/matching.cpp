@@ -45,7 +45,7 @@ Matching Matcher::match(const ModelSkin& skin, double scale, int samples) const 
   const std::size_t count = skin.points.size();
   Matching result{std::vector<Pull>(count), std::vector<double>(count), {}};
   const double sideways = kSideways * scale * scale;
-  const OrientedTree model(skin.points, skin.normals);
+  const geometry::OrientedTree model(skin.points, skin.normals);
   in_parallel(count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const int s = tree_.nearest(skin.points[i], skin.normals[i]);

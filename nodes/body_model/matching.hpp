@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "body_model/oriented_tree.hpp"
 #include "body_model/samples.hpp"
+#include "geometry/oriented_tree.hpp"
 
 namespace tensegric_fit::body_model {
 
@@ -49,7 +49,7 @@ class Matcher {
 
  private:
   const Samples& samples_;
-  OrientedTree tree_;
+  geometry::OrientedTree tree_;
 };
 
 }  // namespace tensegric_fit::body_model

@@ -1,13 +1,13 @@
 #include "body_model/parts.hpp"
 
 #include "body_model/matching.hpp"
-#include "body_model/oriented_tree.hpp"
+#include "geometry/oriented_tree.hpp"
 #include "geometry/parallel_for.hpp"
 
 namespace tensegric_fit::body_model {
 std::vector<int> nearest_skin(const geometry::TriangleMesh& mesh, const RegisteredBody& body) {
   const std::vector<Eigen::Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
-  const OrientedTree tree(body.skin, geometry::vertex_normals(body.skin, body.model->triangles));
+  const geometry::OrientedTree tree(body.skin, geometry::vertex_normals(body.skin, body.model->triangles));
   std::vector<int> nearest(mesh.vertices.size());
   geometry::parallel_for(nearest.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t v = begin; v < end; ++v) nearest[v] = tree.nearest(mesh.vertices[v], normals[v]);

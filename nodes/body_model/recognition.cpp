@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "body_model/oriented_tree.hpp"
+#include "geometry/oriented_tree.hpp"
 #include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
@@ -200,7 +200,7 @@ double share_off(const Off& off) {
 /// m, of the samples that are hers from the posed skin, along its normal.
 double misfit_of(const RegisteredBody& body, const Samples& samples, const Off& off) {
   const std::vector<Vector3d> normals = geometry::vertex_normals(body.posed, body.model->triangles);
-  const OrientedTree tree(body.posed, normals);
+  const geometry::OrientedTree tree(body.posed, normals);
   std::vector<double> distances(off.distances.size(), -1);
   geometry::parallel_for(distances.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t s = begin; s < end; ++s) {

@@ -10,6 +10,7 @@
 #include "body_model/gauss_newton.hpp"
 #include "body_model/recognition.hpp"
 #include "geometry/parallel_for.hpp"
+#include "geometry/percentile.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
@@ -42,12 +43,6 @@ constexpr int kYaws = 8;
 constexpr double kRestingArm = M_PI / 4;         // rad, how far the arms are raised at rest
 constexpr double kShoulder = 0.11, kArm = 0.40;  // statures: half the shoulders' breadth, an arm's length
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
-
 /// The mean woman in the place of the samples, facing one way, her arms as far out as the samples reach.
 Parameters start_at(const Model& model, const Samples& samples, const Stand& stand, double yaw) {
   const auto box = geometry::bounding_box(samples.points);
@@ -63,7 +58,7 @@ Parameters start_at(const Model& model, const Samples& samples, const Stand& sta
   Parameters p(model);
   p.rotation = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
   p.log_scale = std::log(stand.stature / model.stature);
-  const Vector3d left = p.rotation.col(0), middle(median(xs), median(ys), 0);
+  const Vector3d left = p.rotation.col(0), middle(geometry::median(xs), geometry::median(ys), 0);
   std::vector<double> aside;
   for (const Vector3d& q : samples.points) aside.push_back(std::abs((q - middle).dot(left)));
   const auto far =

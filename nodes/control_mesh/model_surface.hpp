@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "body_model/oriented_tree.hpp"
 #include "body_model/registered_body.hpp"
 #include "control_mesh/grid.hpp"
 #include "control_mesh/template.hpp"
+#include "geometry/oriented_tree.hpp"
 
 namespace tensegric_fit::control_mesh {
 
@@ -34,7 +34,7 @@ class ModelSurface {
   const body_model::RegisteredBody& model_;
   Eigen::Isometry3d body_from_scan_;
   std::vector<Eigen::Vector3d> normals_;
-  body_model::OrientedTree tree_;
+  geometry::OrientedTree tree_;
 };
 
 }  // namespace tensegric_fit::control_mesh

@@ -1,7 +1,9 @@
 #include "geometry/even_steps.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "geometry/points.hpp"
 #include "geometry/section.hpp"
 
 namespace tensegric_fit::geometry {
@@ -37,6 +39,43 @@ std::vector<std::pair<std::size_t, double>> even_places(const std::vector<Eigen:
     places.emplace_back(segment, length > 0 ? std::min(1.0, (wanted - at[segment]) / length) : 0);
   }
   return places;
+}
+
+std::vector<Eigen::Vector3d> even_steps(const std::vector<Eigen::Vector3d>& line, double step,
+                                        double length) {
+  std::vector<Eigen::Vector3d> even{line.front()};
+  double left = step;  // to go to the next point
+  for (std::size_t i = 1; i < line.size() && static_cast<double>(even.size()) * step < length; ++i) {
+    const Eigen::Vector3d way = line[i] - line[i - 1];
+    const double whole = way.norm();
+    double gone = 0;
+    while (whole - gone >= left) {
+      gone += left;
+      even.push_back(line[i - 1] + gone / whole * way);
+      left = step;
+    }
+    left -= whole - gone;
+  }
+  return even;
+}
+
+std::vector<Eigen::Vector3d> first_harmonics(std::vector<Eigen::Vector3d> loop, int harmonics, int count) {
+  loop.push_back(loop.front());
+  const double whole = length_of(loop, false);
+  loop = even_steps(loop, whole / count, whole);
+  count = static_cast<int>(loop.size());  // rounding may add one
+  const Eigen::Vector3d middle = mean_of(loop);
+  std::vector<Eigen::Vector3d> smooth(count, middle);
+  for (int h = 1; h <= harmonics; ++h) {
+    Eigen::Vector3d even = Eigen::Vector3d::Zero(), odd = Eigen::Vector3d::Zero();
+    for (int i = 0; i < count; ++i) {
+      even += std::cos(2 * M_PI * h * i / count) * (loop[i] - middle) * 2 / count;
+      odd += std::sin(2 * M_PI * h * i / count) * (loop[i] - middle) * 2 / count;
+    }
+    for (int i = 0; i < count; ++i)
+      smooth[i] += std::cos(2 * M_PI * h * i / count) * even + std::sin(2 * M_PI * h * i / count) * odd;
+  }
+  return smooth;
 }
 
 }  // namespace tensegric_fit::geometry

@@ -102,6 +102,14 @@ std::vector<Eigen::Vector3d> smoothed(const std::vector<Eigen::Vector3d>& line, 
   return result;
 }
 
+bool is_outline(const SectionLoop& loop, const Eigen::Vector3d& normal) {
+  Eigen::Vector3d twice_area = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d& first = loop.points.front();
+  for (std::size_t i = 1; i + 1 < loop.points.size(); ++i)
+    twice_area += area_vector(first, loop.points[i], loop.points[i + 1]);
+  return loop.closed && twice_area.dot(normal) > 0;
+}
+
 double length_of(const std::vector<Eigen::Vector3d>& points, bool closed) {
   double length = 0;
   for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();

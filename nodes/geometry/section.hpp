@@ -22,6 +22,10 @@ struct SectionLoop {
 std::vector<SectionLoop> plane_section(const TriangleMesh& mesh, const Eigen::Vector3d& origin,
                                        const Eigen::Vector3d& normal);
 
+/// Whether a closed loop runs round the mesh's interior: one that runs round a hollow within turns the other
+/// way. `normal` as for its section.
+bool is_outline(const SectionLoop& loop, const Eigen::Vector3d& normal);
+
 /// Length of a polyline, with the closing segment if closed. Metres.
 double length_of(const std::vector<Eigen::Vector3d>& points, bool closed);
 

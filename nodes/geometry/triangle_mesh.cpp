@@ -150,6 +150,43 @@ TriangleMesh submesh(const TriangleMesh& mesh, const std::vector<char>& keep) {
   return result;
 }
 
+TriangleMesh submesh(const TriangleMesh& mesh, const std::vector<int>& triangles) {
+  TriangleMesh piece;
+  std::vector<int> used;
+  for (const int t : triangles)
+    for (int k = 0; k < 3; ++k) used.push_back(mesh.triangles[t][k]);
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (const int v : used) piece.vertices.push_back(mesh.vertices[v]);
+  for (const int t : triangles) {
+    Eigen::Vector3i corners;
+    for (int k = 0; k < 3; ++k)
+      corners[k] =
+          static_cast<int>(std::lower_bound(used.begin(), used.end(), mesh.triangles[t][k]) - used.begin());
+    piece.triangles.push_back(corners);
+  }
+  return piece;
+}
+
+std::optional<Eigen::Vector3d> highest_near(const TriangleMesh& mesh, const Eigen::Vector3d& point,
+                                            double below, double above) {
+  constexpr double kFlat = 1e-15, kOnSide = 1e-9;  // m^2, shares: rounding
+  std::optional<Eigen::Vector3d> highest;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    const Eigen::Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const double det = (b - a).x() * (c - a).y() - (c - a).x() * (b - a).y();
+    if (std::abs(det) < kFlat) continue;
+    const Eigen::Vector3d d = point - a;
+    const double u = (d.x() * (c - a).y() - (c - a).x() * d.y()) / det,
+                 v = ((b - a).x() * d.y() - d.x() * (b - a).y()) / det;
+    if (u < -kOnSide || v < -kOnSide || u + v > 1 + kOnSide) continue;
+    const double z = a.z() + u * (b - a).z() + v * (c - a).z();
+    if (z > point.z() - below && z < point.z() + above && (!highest || z > highest->z()))
+      highest = Eigen::Vector3d(point.x(), point.y(), z);
+  }
+  return highest;
+}
+
 std::array<Eigen::Vector3d, 2> bounding_box(const std::vector<Eigen::Vector3d>& points) {
   std::array<Eigen::Vector3d, 2> box{points.front(), points.front()};
   for (const Eigen::Vector3d& p : points) {

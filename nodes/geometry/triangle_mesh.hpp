@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace tensegric_fit::geometry {
@@ -68,6 +69,14 @@ std::vector<int> components_of(const TriangleMesh& mesh);
 
 /// The triangles for which keep is non-zero, with the vertices that they use, in the original order.
 TriangleMesh submesh(const TriangleMesh& mesh, const std::vector<char>& keep);
+
+/// The same of the triangles with these numbers, in their order: quicker where they are few.
+TriangleMesh submesh(const TriangleMesh& mesh, const std::vector<int>& triangles);
+
+/// The highest place of the surface on the vertical through `point`, from `below` metres under it to `above`
+/// metres over it; nothing where there is none.
+std::optional<Eigen::Vector3d> highest_near(const TriangleMesh& mesh, const Eigen::Vector3d& point,
+                                            double below, double above);
 
 /// Lowest and highest corner of the box around the points. \pre not empty
 std::array<Eigen::Vector3d, 2> bounding_box(const std::vector<Eigen::Vector3d>& points);

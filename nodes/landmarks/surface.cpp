@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/even_steps.hpp"
+
 namespace tensegric_fit::landmarks {
 namespace {
 
@@ -12,25 +14,6 @@ using geometry::SectionLoop;
 constexpr double kSlab = 0.02;           // m
 constexpr double kProfileSmoothing = 4;  // steps: deviation of the Gaussian that takes noise out of a profile
 constexpr std::size_t kFewest = 8;       // points of a loop; less are slivers where an arm was cut off
-
-/// The triangles as a mesh of their own, numbered anew.
-geometry::TriangleMesh piece_of(const Surface& surface, const std::vector<int>& triangles) {
-  geometry::TriangleMesh piece;
-  std::vector<int> used;
-  for (const int t : triangles)
-    for (int k = 0; k < 3; ++k) used.push_back(surface.mesh.triangles[t][k]);
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (const int v : used) piece.vertices.push_back(surface.mesh.vertices[v]);
-  for (const int t : triangles) {
-    Eigen::Vector3i corners;
-    for (int k = 0; k < 3; ++k)
-      corners[k] = static_cast<int>(std::lower_bound(used.begin(), used.end(), surface.mesh.triangles[t][k]) -
-                                    used.begin());
-    piece.triangles.push_back(corners);
-  }
-  return piece;
-}
 
 std::vector<SectionLoop> without_slivers(std::vector<SectionLoop> loops) {
   loops.erase(std::remove_if(loops.begin(), loops.end(),
@@ -46,23 +29,6 @@ double width_of(const SectionLoop& loop) {
 
 }  // namespace
 
-std::vector<Vector3d> even_steps(const std::vector<Vector3d>& line, double step, double length) {
-  std::vector<Vector3d> even{line.front()};
-  double left = step;  // to go to the next point
-  for (std::size_t i = 1; i < line.size() && static_cast<double>(even.size()) * step < length; ++i) {
-    const Vector3d way = line[i] - line[i - 1];
-    const double whole = way.norm();
-    double gone = 0;
-    while (whole - gone >= left) {
-      gone += left;
-      even.push_back(line[i - 1] + gone / whole * way);
-      left = step;
-    }
-    left -= whole - gone;
-  }
-  return even;
-}
-
 std::vector<SectionLoop> cut(const Surface& surface, const Vector3d& origin, const Vector3d& normal,
                              const Selected& selected) {
   std::vector<double> height(surface.mesh.vertices.size());
@@ -74,7 +40,7 @@ std::vector<SectionLoop> cut(const Surface& surface, const Vector3d& origin, con
     if (((height[t[1]] >= 0) != above || (height[t[2]] >= 0) != above) && selected(t))
       through.push_back(static_cast<int>(i));
   }
-  return without_slivers(geometry::plane_section(piece_of(surface, through), origin, normal));
+  return without_slivers(geometry::plane_section(geometry::submesh(surface.mesh, through), origin, normal));
 }
 
 Trunk::Trunk(const Surface& surface) : surface_(surface) {
@@ -103,8 +69,9 @@ bool Trunk::operator()(const Eigen::Vector3i& t) const {
 std::vector<SectionLoop> Trunk::level(double height) const {
   const double slab = (height - bottom_) / slab_;
   if (!(slab >= 0 && slab < static_cast<double>(triangles_in_.size()))) return {};
-  return without_slivers(geometry::plane_section(
-      piece_of(surface_, triangles_in_[static_cast<std::size_t>(slab)]), {0, 0, height}, Vector3d::UnitZ()));
+  return without_slivers(
+      geometry::plane_section(geometry::submesh(surface_.mesh, triangles_in_[static_cast<std::size_t>(slab)]),
+                              {0, 0, height}, Vector3d::UnitZ()));
 }
 
 std::vector<Vector3d> Trunk::tape(double height) const {
@@ -153,7 +120,7 @@ Profile profile_down(const Trunk& trunk, const Vector3d& start, double length) {
   }
   Profile profile;
   if (line.size() < 3) return profile;
-  profile.points = geometry::smoothed(even_steps(line, Profile::kStep, length), kProfileSmoothing,
+  profile.points = geometry::smoothed(geometry::even_steps(line, Profile::kStep, length), kProfileSmoothing,
                                       static_cast<int>(3 * kProfileSmoothing));
   const int last = static_cast<int>(profile.points.size()) - 1;
   profile.curvature.assign(profile.points.size(), 0);

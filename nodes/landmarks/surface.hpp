@@ -53,9 +53,6 @@ class Trunk {
   std::vector<std::vector<int>> triangles_in_;  ///< of each slab: those that reach into it
 };
 
-/// A polyline in even steps of `step` metres, as far as `length`.
-std::vector<Eigen::Vector3d> even_steps(const std::vector<Eigen::Vector3d>& line, double step, double length);
-
 /// A line over the skin in even steps.
 struct Profile {
   static constexpr double kStep = 0.001;  ///< m

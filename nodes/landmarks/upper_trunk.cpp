@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/even_steps.hpp"
 #include "geometry/points.hpp"
 #include "landmarks/finders.hpp"
 
@@ -11,20 +12,11 @@ using Eigen::Vector3d;
 using geometry::mean_of;
 using geometry::SectionLoop;
 
-constexpr double kArmBeside = 0.08;                      // m from the trunk's middle to an arm's, at least
-constexpr int kHalvings = 12;                            // of the search for the highest plane: 0.1 mm
-constexpr int kHarmonics = 8, kLoopPoints = 180;         // of a neck: waves of 40 mm
-constexpr double kNeckStep = 0.005, kNeckReach = 0.040;  // m (definition)
-
-/// Whether a loop goes round the body, and not round a hollow within: a fold that the scan did not see into
-/// may go on inside the mesh.
-bool is_outline(const SectionLoop& loop, const Vector3d& normal) {
-  Vector3d twice_area = Vector3d::Zero();
-  const Vector3d& first = loop.points.front();
-  for (std::size_t i = 1; i + 1 < loop.points.size(); ++i)
-    twice_area += geometry::area_vector(first, loop.points[i], loop.points[i + 1]);
-  return loop.closed && twice_area.dot(normal) > 0;
-}
+constexpr double kArmBeside = 0.08;  // m from the trunk's middle to an arm's, at least
+constexpr double kUnderShoulder = 0.04, kOverShoulder = 0.11;  // m, of skin from the bone (definition)
+constexpr int kHalvings = 12;                                  // of the search for the highest plane: 0.1 mm
+constexpr int kHarmonics = 8, kLoopPoints = 180;               // of a neck: waves of 40 mm
+constexpr double kNeckStep = 0.005, kNeckReach = 0.040;        // m (definition)
 
 /// Middle of the gap between arm and trunk in a plane; nothing where they are one.
 std::optional<Vector3d> gap(const Surface& surface, Side side, double height, double rise) {
@@ -34,7 +26,7 @@ std::optional<Vector3d> gap(const Surface& surface, Side side, double height, do
   const SectionLoop *trunk = nullptr, *arm = nullptr;
   double widest = 0;
   for (const SectionLoop& loop : loops) {
-    if (!is_outline(loop, normal)) continue;
+    if (!geometry::is_outline(loop, normal)) continue;
     const auto box = geometry::bounding_box(loop.points);
     const bool middle = box[0].y() < 0.05 && box[1].y() > -0.05;
     const double width = box[1].y() - box[0].y() + (middle ? 10 : 0);
@@ -45,7 +37,7 @@ std::optional<Vector3d> gap(const Surface& surface, Side side, double height, do
   if (trunk == nullptr) return std::nullopt;
   const double middle = mean_of(trunk->points).y();
   for (const SectionLoop& loop : loops) {
-    if (!is_outline(loop, normal) || &loop == trunk ||
+    if (!geometry::is_outline(loop, normal) || &loop == trunk ||
         kSign[side] * (mean_of(loop.points).y() - middle) < kArmBeside)
       continue;
     if (arm == nullptr || loop.points.size() > arm->points.size()) arm = &loop;
@@ -60,28 +52,6 @@ std::optional<Vector3d> gap(const Surface& surface, Side side, double height, do
         between = (a + b) / 2;
       }
   return between;
-}
-
-/// A closed loop by its first harmonics over its length (elliptic Fourier descriptors; Kuhl and Giardina
-/// 1982): a tape round the loop itself would lie on its noise, by some 6 times what a small loop's skin is
-/// rough.
-std::vector<Vector3d> without_noise(std::vector<Vector3d> loop) {
-  loop.push_back(loop.front());
-  const double whole = geometry::length_of(loop, false);
-  loop = even_steps(loop, whole / kLoopPoints, whole);
-  const int count = static_cast<int>(loop.size());
-  const Vector3d middle = mean_of(loop);
-  std::vector<Vector3d> smooth(count, middle);
-  for (int h = 1; h <= kHarmonics; ++h) {
-    Vector3d even = Vector3d::Zero(), odd = Vector3d::Zero();
-    for (int i = 0; i < count; ++i) {
-      even += std::cos(2 * M_PI * h * i / count) * (loop[i] - middle) * 2 / count;
-      odd += std::sin(2 * M_PI * h * i / count) * (loop[i] - middle) * 2 / count;
-    }
-    for (int i = 0; i < count; ++i)
-      smooth[i] += std::cos(2 * M_PI * h * i / count) * even + std::sin(2 * M_PI * h * i / count) * odd;
-  }
-  return smooth;
 }
 
 }  // namespace
@@ -103,21 +73,7 @@ std::optional<Vector3d> find_axilla(const Surface& surface, Side side, double lo
 }
 
 std::optional<Vector3d> skin_above(const Surface& surface, const Vector3d& point) {
-  std::optional<double> highest;
-  for (const Eigen::Vector3i& t : surface.mesh.triangles) {
-    const Vector3d &a = surface.mesh.vertices[t[0]], &b = surface.mesh.vertices[t[1]],
-                   &c = surface.mesh.vertices[t[2]];
-    const double det = (b - a).head<2>().x() * (c - a).y() - (c - a).x() * (b - a).y();
-    if (std::abs(det) < 1e-15) continue;
-    const Vector3d d = point - a;
-    const double u = (d.x() * (c - a).y() - (c - a).x() * d.y()) / det,
-                 v = ((b - a).x() * d.y() - d.x() * (b - a).y()) / det;
-    if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9) continue;
-    const double z = a.z() + u * (b - a).z() + v * (c - a).z();
-    if (z > point.z() - 0.04 && z < point.z() + 0.11 && (!highest || z > *highest)) highest = z;
-  }
-  if (!highest) return std::nullopt;
-  return Vector3d(point.x(), point.y(), *highest);
+  return geometry::highest_near(surface.mesh, point, kUnderShoulder, kOverShoulder);
 }
 
 std::vector<Vector3d> find_neck(const Surface& surface, const Vector3d& base, const Vector3d& along) {
@@ -132,7 +88,8 @@ std::vector<Vector3d> find_neck(const Surface& surface, const Vector3d& base, co
                           (mean_of(loop.points) - origin).norm() < (mean_of(around->points) - origin).norm()))
         around = &loop;
     if (around == nullptr) continue;
-    std::vector<Vector3d> tape = geometry::tape(without_noise(around->points), along);
+    std::vector<Vector3d> tape =
+        geometry::tape(geometry::first_harmonics(around->points, kHarmonics, kLoopPoints), along);
     const double girth = geometry::length_of(tape, true);
     if (girth >= least || girth < 0.2) continue;
     least = girth;

@@ -36,8 +36,6 @@ class BodyShape : public Implicit {
   /// The outer edge of the shoulder blade, under the skin: it goes up with a raised arm, but not outwards
   /// with weight.
   Eigen::Vector3d acromion(bool left) const;
-  /// How far weight sets each shoulder joint outwards, so that the arm is clear of the trunk.
-  double arms_set_out() const;
   /// Where a point of the reference body is on this one, and the direction `direction` there.
   Eigen::Vector3d posed(const Eigen::Vector3d& reference) const;
   Eigen::Vector3d posed_bone(const Eigen::Vector3d& reference) const;  ///< bones do not thicken
@@ -58,6 +56,7 @@ class BodyShape : public Implicit {
   double trunk_and_arm(const Eigen::Vector3d& p) const;  // where they meet without the armpit's folds
   double armpit_folds(const Eigen::Vector3d& p) const;
   double armpit_height() const;
+  double arms_set_out() const;  // how far weight sets each shoulder joint outwards, clear of the trunk
   double head(const Eigen::Vector3d& p) const;
   double reference_value(const Eigen::Vector3d& p) const;
 

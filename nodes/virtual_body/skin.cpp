@@ -84,18 +84,7 @@ SectionLoop Skin::sagittal(const Vector3d& near, Part part) const {
 }
 
 std::optional<Vector3d> Skin::above(const Vector3d& point) const {
-  std::optional<Vector3d> highest;
-  for (const Eigen::Vector3i& t : whole_.triangles) {
-    const Vector3d &a = whole_.vertices[t[0]], u = whole_.vertices[t[1]] - a, v = whole_.vertices[t[2]] - a;
-    const Vector3d w = point - a;
-    const double area = u.x() * v.y() - u.y() * v.x();
-    const double s = w.x() * v.y() - w.y() * v.x(), r = u.x() * w.y() - u.y() * w.x();  // times the area
-    if (area == 0 || s / area < 0 || r / area < 0 || (s + r) / area > 1) continue;
-    const double z = a.z() + s / area * u.z() + r / area * v.z();
-    if (z > point.z() - kBelow && z < point.z() + kAbove && (!highest || z > highest->z()))
-      highest = Vector3d(point.x(), point.y(), z);
-  }
-  return highest;
+  return geometry::highest_near(whole_, point, kBelow, kAbove);
 }
 
 double girth(const Tape& tape) {

@@ -16,9 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-// m that weight sets an arm out from its shoulder blade: some 10 mm down the shoulder's slope, and a
-// landmark that is read from the arm is farther off than ISO 20685 allows.
-constexpr double kMostSetOut = 0.007;
 constexpr double kGridSpacing = 0.0065;  // on the reference body; scales with the stature
 
 // Legs, trunk and arms apart: closed and of one piece, V - E + F is 2 for a sphere and E is 3/2 F.
@@ -70,10 +67,10 @@ VirtualBody make_body(const BodyParameters& parameters) {
   std::vector<double> arm;
   for (const Vector3d& p : body.mesh.vertices) arm.push_back(shape.is_arm(p));
   measure_skin(Skin(body.mesh, arm), axes_of(shape, body.truth), body);
-  if (shape.arms_set_out() > kMostSetOut)
-    for (const char* name : {"point shoulder_L", "point shoulder_R"})
-      if (std::count(body.doubts.vague.begin(), body.doubts.vague.end(), name) == 0)
-        body.doubts.vague.push_back(name);
+  // Skin that is made without bones shows no acromion: where it is was chosen, and nobody could find it.
+  for (const char* name : {"point shoulder_L", "point shoulder_R"})
+    if (std::count(body.doubts.vague.begin(), body.doubts.vague.end(), name) == 0)
+      body.doubts.vague.push_back(name);
   body.parameters = {
       {"stature", parameters.stature},     {"build", parameters.build}, {"bust", parameters.bust},
       {"firmness", parameters.firmness},   {"waist", parameters.waist}, {"asymmetry", parameters.asymmetry},

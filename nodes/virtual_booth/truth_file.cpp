@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "geometry/json.hpp"
+#include "virtual_booth/hidden_figures.hpp"
 
 namespace tensegric_fit::virtual_booth {
 namespace {
@@ -56,7 +57,7 @@ void write_truth(const std::string& path, const virtual_body::VirtualBody& body,
   truth["heights"] = measures(body.truth.heights);
   truth["girths"] = measures(body.truth.girths);
   truth["vague"] = body.doubts.vague;
-  truth["hidden"] = body.doubts.hidden;
+  truth["hidden"] = doubts_in_booth(body, scanner).hidden;
   truth["loose"] = Json::object();
   for (const auto& [name, direction] : body.doubts.loose) truth["loose"][name] = json_of(direction);
   truth["extra"] = {{"waist_method", body.waist_method}};

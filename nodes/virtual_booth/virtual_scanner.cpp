@@ -214,6 +214,23 @@ VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& 
   return scan;
 }
 
+std::vector<Vector3d> seen_places(const geometry::TriangleMesh& body, const ScannerOptions& options,
+                                  double spacing) {
+  check_options(options);
+  geometry::check_option("spacing", spacing, {0.0005, 0.1});
+  geometry::check_mesh(body);
+  geometry::TriangleMesh upright = body;
+  for (Vector3d& p : upright.vertices) p = options.booth_from_scan * p;
+  ScannerOptions empty = options;  // the booth's floor and frame lie behind her
+  empty.floor = empty.frame = false;
+  std::vector<Vector3d> places;
+  for (const Sensor& sensor : sensors(options, upright, height_of(upright)))
+    for (const Hit& hit : look(sensor, upright, empty, options.distance / spacing))
+      if (return_share(hit.incidence, options.grazing) > 0)
+        places.push_back(options.booth_from_scan.inverse() * hit.point);
+  return places;
+}
+
 std::vector<DepthPicture> depth_pictures(const geometry::TriangleMesh& body, const ScannerOptions& options,
                                          const Lens& lens) {
   check_options(options);

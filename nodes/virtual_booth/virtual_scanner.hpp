@@ -80,6 +80,12 @@ struct DepthPicture {
 /// bits. \throw Refusal bad_option naming the option and its range
 VirtualScan scan_body(const geometry::TriangleMesh& body, const ScannerOptions& options);
 
+/// Places of the true skin from which rays return, `spacing` (0.0005 to 0.1 m) apart where a sensor at the
+/// columns' distance looks straight at them; in the scan's frame. Hair and cloth let some rays return, so
+/// they hide nothing. \throw Refusal as scan_body
+std::vector<Eigen::Vector3d> seen_places(const geometry::TriangleMesh& body, const ScannerOptions& options,
+                                         double spacing);
+
 /// The same points, one cloud a sensor, in the order of VirtualScan::sensors.
 std::vector<SensorScan> by_sensor(const VirtualScan& scan);
 

@@ -8,6 +8,7 @@
 #include "geometry/status.hpp"
 #include "scan_files/scan_file.hpp"
 #include "truth_reader.hpp"
+#include "virtual_booth/hidden_figures.hpp"
 #include "virtual_booth/random_body.hpp"
 
 namespace tensegric_fit::population {
@@ -51,6 +52,7 @@ class Booth : public Family {
       return subject;
     }
     const virtual_booth::ScannerOptions scanner = virtual_booth::random_scanner(seed, body);
+    subject.truth.doubts = virtual_booth::doubts_in_booth(body, scanner);
     const virtual_booth::VirtualScan scan = virtual_booth::scan_body(body.mesh, scanner);
     subject.scan = input == Input::merged_scan ? scan.cloud : assembled(scan, scanner.sensors_per_column);
     return subject;

@@ -1,4 +1,4 @@
-#include "body_model/array_file.hpp"
+#include "geometry/array_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,10 @@
 #include <iomanip>
 #include <sstream>
 
-namespace tensegric_fit::body_model {
+namespace tensegric_fit::geometry {
 namespace {
+
+using Json = nlohmann::json;
 
 constexpr std::size_t kLongestHeader = 1 << 20;  // bytes
 constexpr std::size_t kLargestArray = 1 << 26;   // bytes
@@ -109,4 +111,4 @@ std::vector<Eigen::Vector3d> points(const std::vector<double>& xyz) {
   return result;
 }
 
-}  // namespace tensegric_fit::body_model
+}  // namespace tensegric_fit::geometry

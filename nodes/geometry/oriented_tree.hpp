@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-namespace tensegric_fit::body_model {
+namespace tensegric_fit::geometry {
 
 /// A kd-tree over (point, reach * normal): a normal that is turned by 60 degrees counts like `reach` metres:
 /// skin of the other side of an arm is farther than kReach.
@@ -27,4 +27,4 @@ class OrientedTree {
   std::unique_ptr<Tree> tree_;
 };
 
-}  // namespace tensegric_fit::body_model
+}  // namespace tensegric_fit::geometry

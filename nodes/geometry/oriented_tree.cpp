@@ -1,4 +1,4 @@
-#include "body_model/oriented_tree.hpp"
+#include "geometry/oriented_tree.hpp"
 
 #include <array>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "geometry/kd_tree.hpp"
 
-namespace tensegric_fit::body_model {
+namespace tensegric_fit::geometry {
 namespace {
 
 using Place = std::array<float, 6>;
@@ -26,7 +26,7 @@ std::vector<Place> places_of(const std::vector<Eigen::Vector3d>& points,
 
 }  // namespace
 
-struct OrientedTree::Tree : geometry::KdTree<Place, float, 6> {
+struct OrientedTree::Tree : KdTree<Place, float, 6> {
   Tree(std::vector<Place> places, float r) : KdTree(std::move(places)), reach(r) {}
   float reach;
 };
@@ -46,4 +46,4 @@ double OrientedTree::distance(const Eigen::Vector3d& point, const Eigen::Vector3
   return std::sqrt(tree_->nearest(place_of(point, normal, tree_->reach).data()).second);
 }
 
-}  // namespace tensegric_fit::body_model
+}  // namespace tensegric_fit::geometry

@@ -1,4 +1,4 @@
-/// Files of a JSON header and named arrays: the body model and its bones. Format: README.
+/// Files of a JSON header and named arrays. Format: nodes/body_model/README.md.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,15 +9,13 @@
 
 #include "geometry/status.hpp"
 
-namespace tensegric_fit::body_model {
-
-using Json = nlohmann::json;
+namespace tensegric_fit::geometry {
 
 /// Refuses the file with `what`.
 struct Check {
   const std::string& path;
   void operator()(bool holds, const std::string& what) const {
-    if (!holds) throw geometry::Refusal(geometry::refusal::kBrokenFile, path + ": " + what);
+    if (!holds) throw Refusal(refusal::kBrokenFile, path + ": " + what);
   }
 };
 
@@ -27,7 +25,7 @@ class ArrayFile {
   /// \throw Refusal broken_file: not there, another first line, truncated, or not JSON
   ArrayFile(const std::string& path, const std::string& magic, const std::string& kind);
 
-  const Json& header() const { return header_; }
+  const nlohmann::json& header() const { return header_; }
   /// Of all bytes, FNV-1a of 64 bits in hexadecimal.
   const std::string& checksum() const { return checksum_; }
   /// An array's numbers, row by row; extents of 0 in `shape` may be any.
@@ -43,11 +41,11 @@ class ArrayFile {
   void read_arrays(std::istream& file);
 
   std::string path_, checksum_;
-  Json header_;
+  nlohmann::json header_;
   std::map<std::string, Array> arrays_;
 };
 
 /// Three numbers per point.
 std::vector<Eigen::Vector3d> points(const std::vector<double>& xyz);
 
-}  // namespace tensegric_fit::body_model
+}  // namespace tensegric_fit::geometry
