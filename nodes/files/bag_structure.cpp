@@ -10,50 +10,18 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <set>
-#include <string_view>
 
+#include "files/byte_reader.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::files {
 namespace {
 
-using Bytes = std::string_view;
-
 constexpr Bytes kFirstLine = "#ROSBAG V2.0\n";
 constexpr std::uint64_t kLargestChunk = 1u << 30;  // bytes unpacked; scans have some tens of millions
 enum Op : std::uint8_t { kMessage = 2, kBag = 3, kIndex = 4, kChunk = 5, kChunkInfo = 6, kConnection = 7 };
-
-struct Fault {
-  std::string what;
-};
-
-void check(bool holds, const char* what) {
-  if (!holds) throw Fault{what};
-}
-
-/// Takes from the front of what is left.
-Bytes take(Bytes& rest, std::uint64_t size) {
-  check(size <= rest.size(), "is shorter than its lengths say");
-  const Bytes taken = rest.substr(0, size);
-  rest.remove_prefix(size);
-  return taken;
-}
-
-template <typename Number>
-Number number_in(Bytes bytes) {
-  check(bytes.size() == sizeof(Number), "has a number of another size");
-  Number number;
-  std::memcpy(&number, bytes.data(), sizeof number);
-  return number;
-}
-
-Bytes take_block(Bytes& rest) {
-  const auto size = number_in<std::uint32_t>(take(rest, 4));
-  return take(rest, size);
-}
 
 /// name=value pairs.
 class Fields {

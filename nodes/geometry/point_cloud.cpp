@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "geometry/point_fields.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::geometry {
@@ -105,16 +106,21 @@ void check_size(const pcl::PCLPointCloud2& cloud) {
 
 }  // namespace
 
-PointCloud points_of(const pcl::PCLPointCloud2& cloud) {
+PointFields fields_of(const pcl::PCLPointCloud2& cloud) {
   const auto xyz = find_fields(cloud, {"x", "y", "z"});
   if (!xyz)
     throw Refusal(refusal::kWrongFields, "the cloud has no fields x, y, z of type float32 or float64");
   check_size(cloud);
   auto normals = find_fields(cloud, {"normal_x", "normal_y", "normal_z"});
   if (!normals) normals = find_fields(cloud, {"nx", "ny", "nz"});
+  return {*xyz, normals};
+}
+
+PointCloud points_of(const pcl::PCLPointCloud2& cloud) {
+  const PointFields fields = fields_of(cloud);
   PointCloud result;
-  result.points = triples(cloud, *xyz);
-  if (normals) result.normals = triples(cloud, *normals);
+  result.points = triples(cloud, fields.position);
+  if (fields.normal) result.normals = triples(cloud, *fields.normal);
   if (const Field* sensor = find_sensor(cloud)) result.sensor = bytes(cloud, *sensor);
   return result;
 }

@@ -1,9 +1,9 @@
 #include "inspect/garment_titles.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <filesystem>
+
+#include "geometry/checked_yaml.hpp"
 
 namespace tensegric_fit::inspect {
 namespace {
@@ -11,9 +11,9 @@ namespace {
 // A file that is broken is refused when it is put on, in words; here it only has no title.
 std::string text_in(const std::string& path, const char* key) {
   try {
-    const YAML::Node value = YAML::LoadFile(path)[key];
+    const YAML::Node value = geometry::load_yaml_map(path, geometry::refusal::kBadGarment)[key];
     return value && value.IsScalar() ? value.Scalar() : "";
-  } catch (const YAML::Exception&) {
+  } catch (const geometry::Refusal&) {
     return "";
   }
 }

@@ -16,6 +16,7 @@
 #include <set>
 
 #include "files/bag_structure.hpp"
+#include "files/checked_message.hpp"
 #include "ros/bag_scans.hpp"
 #include "ros/body_messages.hpp"
 
@@ -100,10 +101,11 @@ class BagReader {
 
   // What a chain has written belongs together: a latched topic that was published before a split is missing.
   void look_for_outputs(const rosbag::MessageInstance& message) {
-    if (const auto body = message.instantiate<TriangleMesh>()) bodies_.insert(body->scan_id);
-    if (const auto model = message.instantiate<BodyModel>()) modelled_.insert(model->scan_id);
-    if (const auto fit = message.instantiate<FitState>()) dressed_[fit->scan_id] = message.getTopic();
-    if (const auto deformed = message.instantiate<DeformedMesh>())
+    if (const auto body = files::checked_message<TriangleMesh>(message)) bodies_.insert(body->scan_id);
+    if (const auto model = files::checked_message<BodyModel>(message)) modelled_.insert(model->scan_id);
+    if (const auto fit = files::checked_message<FitState>(message))
+      dressed_[fit->scan_id] = message.getTopic();
+    if (const auto deformed = files::checked_message<DeformedMesh>(message))
       dressed_[deformed->scan_id] = message.getTopic();
   }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "files/bag_structure.hpp"
+#include "files/checked_message.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/status.hpp"
 #include "ros/scan_tag.hpp"
@@ -26,11 +27,11 @@ void ScanChecker::find(bool hinders, const std::string& name, const std::string&
 }
 
 void ScanChecker::look_at(const rosbag::MessageInstance& message) {
-  if (const auto transforms = message.instantiate<tf2_msgs::TFMessage>())
+  if (const auto transforms = files::checked_message<tf2_msgs::TFMessage>(message))
     for (const geometry_msgs::TransformStamped& transform : transforms->transforms)
       parent_of_[transform.child_frame_id] = transform.header.frame_id;
   const std::string& topic = message.getTopic();
-  const auto scan = message.instantiate<sensor_msgs::PointCloud2>();
+  const auto scan = files::checked_message<sensor_msgs::PointCloud2>(message);
   if (scan)
     look_at(topic, *scan);
   else if (files::is_scan_topic(topic) && said_.insert(topic + " type").second)

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "files/bag_structure.hpp"
+#include "files/checked_message.hpp"
 #include "files/owner_only.hpp"
 #include "geometry/status.hpp"
 #include "ros/parameters.hpp"
@@ -50,13 +51,14 @@ int run(const Setup& setup) {
 
   int sent = 0, lost = 0;
   for (const rosbag::MessageInstance& message : view) {
-    const auto scan = message.instantiate<sensor_msgs::PointCloud2>();
+    const auto scan = files::checked_message<sensor_msgs::PointCloud2>(message);
     if (scan && files::is_scan_topic(message.getTopic())) {
       ++sent;
       lost += !replay.send(*scan, message.getTime(), out);
     }
-    if (const auto label = message.instantiate<ScanLabel>()) replay.send(*label, message.getTime(), out);
-    if (const auto garment = message.instantiate<Garment>())
+    if (const auto label = files::checked_message<ScanLabel>(message))
+      replay.send(*label, message.getTime(), out);
+    if (const auto garment = files::checked_message<Garment>(message))
       lost += !replay.send(*garment, message.getTime(), out);
   }
   if (sent == 0)

@@ -12,6 +12,7 @@
 #include "geometry/status.hpp"
 #include "ros/forgetter.hpp"
 #include "ros/held_scan.hpp"
+#include "ros/memory_limit.hpp"
 
 namespace tensegric_fit::node {
 
@@ -43,6 +44,7 @@ bool serve_node(Forgetter& forgetter) {
 template <typename Node>
 int run_node(int argc, char** argv, const std::string& name) {
   files::owner_only();
+  limit_memory();
   ros::init(argc, argv, name);
   try {
     const ros::NodeHandle running;  // ROS shuts down with the last one

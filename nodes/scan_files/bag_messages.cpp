@@ -5,6 +5,7 @@
 #include <set>
 
 #include "files/bag_structure.hpp"
+#include "files/checked_message.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::scan_files {
@@ -37,7 +38,8 @@ std::vector<sensor_msgs::PointCloud2::ConstPtr> read_bag_scans(const std::string
     rosbag::View view(bag, rosbag::TopicQuery(scan_topic(bag)));
     for (const rosbag::MessageInstance& message : view) {
       if (scans.size() == most) break;
-      if (const auto cloud = message.instantiate<sensor_msgs::PointCloud2>()) scans.push_back(cloud);
+      if (const auto cloud = files::checked_message<sensor_msgs::PointCloud2>(message))
+        scans.push_back(cloud);
     }
     if (scans.empty()) throw geometry::Refusal(geometry::refusal::kBrokenFile, "its scans cannot be read");
   } catch (const geometry::Refusal& refusal) {

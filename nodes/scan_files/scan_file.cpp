@@ -10,9 +10,9 @@
 
 #include "geometry/ply.hpp"
 #include "geometry/point_cloud.hpp"
+#include "geometry/point_fields.hpp"
 #include "geometry/status.hpp"
 #include "mesh_files/read_mesh.hpp"
-#include "mesh_files/samples.hpp"
 #include "scan_files/pcd_file.hpp"
 #include "scan_files/scan_bag.hpp"
 
@@ -40,7 +40,7 @@ pcl::PCLPointCloud2 message_of(const geometry::PointCloud& cloud) {
 }
 
 // A mesh by its faces, where they hold most of the vertices; a cloud with a few faces stays a cloud.
-void take_faces(const std::string& path, const pcl::PolygonMesh& file, ScanFile& scan) {
+void take_faces(const std::string& path, const pcl::PolygonMesh& file, int samples, ScanFile& scan) {
   if (file.polygons.empty()) return;
   TriangleMesh mesh{geometry::points_of(file.cloud).points, {}};
   std::vector<char> used(mesh.vertices.size(), 0);
@@ -57,7 +57,7 @@ void take_faces(const std::string& path, const pcl::PolygonMesh& file, ScanFile&
     }
   }
   if (2 * static_cast<std::size_t>(std::count(used.begin(), used.end(), 1)) < used.size()) return;
-  scan.cloud = message_of(mesh_files::surface_samples(mesh_files::tidy(mesh)));
+  scan.cloud = message_of(mesh_files::surface_samples(mesh_files::tidy(mesh), samples));
   scan.kind.surface = true;
 }
 
@@ -79,13 +79,13 @@ bool is_companion_name(const std::string& path) {
   return ending == ".mtl" || ending == ".png" || ending == ".jpg" || ending == ".jpeg";
 }
 
-ScanFile read_scan_file(const std::string& path) {
+ScanFile read_scan_file(const std::string& path, int samples) {
   const std::string ending = mesh_files::ending_of(path);
   ScanFile scan;
   if (ending == ".ply") {
     pcl::PolygonMesh file;
     geometry::read_ply(path, file);
-    take_faces(path, file, scan);
+    take_faces(path, file, samples, scan);
     if (!scan.kind.surface) scan.cloud = std::move(file.cloud);
   } else if (ending == ".pcd") {
     scan.cloud = read_pcd(path);
@@ -95,7 +95,7 @@ ScanFile read_scan_file(const std::string& path) {
     scan.cloud = read_bag_scan(path);
     scan.is_message = true;
   } else if (mesh_files::is_mesh_name(path)) {
-    scan.cloud = message_of(mesh_files::surface_samples(mesh_files::read_mesh(path)));
+    scan.cloud = message_of(mesh_files::surface_samples(mesh_files::read_mesh(path), samples));
     scan.kind = kind_of(ending);
   } else {
     throw geometry::Refusal(geometry::refusal::kBadOption,
@@ -126,27 +126,22 @@ void apply(const mesh_files::Reading& reading, pcl::PCLPointCloud2& cloud) {
   if (reading.is_identity()) return;
   const geometry::PointCloud read = geometry::points_of(cloud);
   if (cloud.is_bigendian != pcl::PCLPointCloud2().is_bigendian) cloud = message_of(read);
-  const auto write = [&cloud](const std::array<const char*, 3>& names, std::size_t i,
+  const geometry::PointFields fields = geometry::fields_of(cloud);
+  const auto write = [&cloud](const std::array<const pcl::PCLPointField*, 3>& axes, std::size_t i,
                               const Eigen::Vector3d& value) {
     for (int axis = 0; axis < 3; ++axis) {
-      for (const pcl::PCLPointField& field : cloud.fields) {
-        if (field.name != names[axis]) continue;
-        std::uint8_t* at = cloud.data.data() + i / cloud.width * cloud.row_step +
-                           i % cloud.width * cloud.point_step + field.offset;
-        const auto single = static_cast<float>(value[axis]);
-        if (field.datatype == pcl::PCLPointField::FLOAT64)
-          std::memcpy(at, &value[axis], sizeof(double));
-        else
-          std::memcpy(at, &single, sizeof single);
-      }
+      std::uint8_t* at = cloud.data.data() + i / cloud.width * cloud.row_step +
+                         i % cloud.width * cloud.point_step + axes[axis]->offset;
+      const auto single = static_cast<float>(value[axis]);
+      if (axes[axis]->datatype == pcl::PCLPointField::FLOAT64)
+        std::memcpy(at, &value[axis], sizeof(double));
+      else
+        std::memcpy(at, &single, sizeof single);
     }
   };
   for (std::size_t i = 0; i < read.points.size(); ++i) {
-    write({"x", "y", "z"}, i, reading(read.points[i]));
-    if (read.normals.empty()) continue;
-    const Eigen::Vector3d normal = reading.turn() * read.normals[i];
-    write({"normal_x", "normal_y", "normal_z"}, i, normal);
-    write({"nx", "ny", "nz"}, i, normal);
+    write(fields.position, i, reading(read.points[i]));
+    if (fields.normal) write(*fields.normal, i, reading.turn() * read.normals[i]);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "geometry/triangle_mesh.hpp"
 #include "mesh_files/reading.hpp"
+#include "mesh_files/samples.hpp"
 
 namespace tensegric_fit::scan_files {
 
@@ -26,8 +27,9 @@ struct ScanFile {
   bool is_message = false;  ///< from a bag: metres, z up
 };
 
-/// By the file's ending. \throw Refusal broken_file, bad_mesh, too_many_points, bad_option (another ending)
-ScanFile read_scan_file(const std::string& path);
+/// By the file's ending; a mesh becomes so many points. \throw Refusal broken_file, bad_mesh,
+/// too_many_points, bad_option (another ending)
+ScanFile read_scan_file(const std::string& path, int samples = mesh_files::kSamples);
 
 /// How files of one person in one frame are read: as asked for, or inferred from all their points (metres and
 /// z up where they have none). \throw Refusal as mesh_files::infer_reading

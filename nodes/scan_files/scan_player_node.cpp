@@ -13,6 +13,7 @@
 #include <map>
 #include <optional>
 
+#include "files/checked_message.hpp"
 #include "ros/parameters.hpp"
 #include "ros/run_node.hpp"
 #include "ros/scan_labels.hpp"
@@ -69,7 +70,7 @@ std::vector<FileScan> scans_in_bag(const std::string& path, const ScanLabel& lab
   const rosbag::Bag bag(path);
   for (const rosbag::MessageInstance& message :
        rosbag::View(bag, rosbag::TypeQuery(ros::message_traits::datatype<ScanLabel>())))
-    if (const auto known = message.instantiate<ScanLabel>()) labels.add(*known);
+    if (const auto known = files::checked_message<ScanLabel>(message)) labels.add(*known);
   std::vector<FileScan> scans;
   for (const PointCloud2::ConstPtr& points : clouds) {
     ScanLabel own = labels.of(tag_of(*points).scan_id);

@@ -41,5 +41,18 @@ TEST(GarmentTitlesTest, ABrokenFileIsListedWithoutATitleAndAMissingFolderIsEmpty
   EXPECT_TRUE(garments_in(folder).empty());
 }
 
+TEST(GarmentTitlesTest, AFileThatWasMadeToHarmHasNoTitleEither) {
+  const fs::path folder = fs::temp_directory_path() / ("garment_bombs_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "large.yaml") << "title: large\n";
+  fs::resize_file(folder / "large.yaml", std::uintmax_t{1} << 40);  // zeros, of no blocks
+  std::ofstream(folder / "own.yaml") << "title: &a [*a]";
+  const auto garments = garments_in(folder);
+  fs::remove_all(folder);
+  ASSERT_EQ(garments.size(), 2u);
+  EXPECT_EQ(garments[0].title, "");
+  EXPECT_EQ(garments[1].title, "");
+}
+
 }  // namespace
 }  // namespace tensegric_fit::inspect

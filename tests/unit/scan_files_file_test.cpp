@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -235,6 +236,32 @@ TEST_F(ScanFileTest, OtherFilesAreRefusedByName) {
     EXPECT_EQ(refusal_of(text_file(name, "this is no scan\n")), geometry::refusal::kBrokenFile) << name;
   for (const char* name : {"absent.ply", "absent.pcd", "absent.bag", "absent.xyz", "absent.obj"})
     EXPECT_EQ(refusal_of(file(name)), geometry::refusal::kBrokenFile) << name;
+}
+
+/// A second field of that name is not read, nor is it written to: it may lie across others, or end beyond the
+/// points.
+TEST(ScanFileUnit, ChangesTheFieldsThatAreReadAndNoOther) {
+  pcl::PCLPointCloud2 cloud;
+  const auto add = [&cloud](const char* name, std::uint32_t offset, std::uint8_t type) {
+    pcl::PCLPointField field;
+    field.name = name;
+    field.offset = offset;
+    field.datatype = type;
+    field.count = 1;
+    cloud.fields.push_back(field);
+  };
+  add("x", 0, pcl::PCLPointField::FLOAT32);
+  add("y", 4, pcl::PCLPointField::FLOAT32);
+  add("z", 8, pcl::PCLPointField::FLOAT32);
+  add("x", 12, pcl::PCLPointField::UINT8);
+  cloud.width = cloud.height = 1;
+  cloud.point_step = cloud.row_step = 16;
+  cloud.data.assign(16, 7);
+  const float x = 1500;
+  std::memcpy(cloud.data.data(), &x, sizeof x);
+  scan_files::apply({"mm", "z"}, cloud);
+  EXPECT_NEAR(geometry::points_of(cloud).points[0].x(), 1.5, 1e-6);
+  for (std::size_t i = 12; i < 16; ++i) EXPECT_EQ(cloud.data[i], 7) << i;
 }
 
 }  // namespace
