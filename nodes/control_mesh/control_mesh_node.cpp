@@ -17,12 +17,13 @@ class ControlMeshNode {
         control_(node.advertise<ControlMesh>("control/mesh", 1, true)),
         coarse_(node.advertise<ControlMesh>("control/coarse", 1, true)),
         display_(private_node),
-        inputs_(node),
+        inputs_(node, [this](const std::string& scan_id,
+                             const geometry::Refusal& why) { stage_.refuse(scan_id, why); }),
         stage_("control_mesh", node) {
     const ros::TransportHints prompt = ros::TransportHints().tcpNoDelay();
-    inputs_.subscribe("body/model", 2, &ControlMeshNode::on_model, this, prompt);
-    inputs_.subscribe("body/mesh", 2, &ControlMeshNode::on_mesh, this, prompt);
-    inputs_.subscribe("body/landmarks", 2, &ControlMeshNode::on_landmarks, this, prompt);
+    inputs_.subscribe_from("reconstruction", "body/model", 2, &ControlMeshNode::on_model, this, prompt);
+    inputs_.subscribe_from("reconstruction", "body/mesh", 2, &ControlMeshNode::on_mesh, this, prompt);
+    inputs_.subscribe_from("landmarks", "body/landmarks", 2, &ControlMeshNode::on_landmarks, this, prompt);
   }
 
  private:

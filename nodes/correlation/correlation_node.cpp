@@ -35,12 +35,13 @@ class CorrelationNode {
       : handler_(handler_of(private_node)),
         correlation_(node.advertise<Correlation>("worn/correlation", 1, true)),
         display_(private_node),
-        inputs_(node),
+        inputs_(node, [this](const std::string& scan_id,
+                             const geometry::Refusal& why) { stage_.refuse(scan_id, why); }),
         stage_("correlation", node) {
-    inputs_.subscribe("body/mesh", 2, &CorrelationNode::on_body, this);
-    inputs_.subscribe("body/landmarks", 2, &CorrelationNode::on<Landmarks>, this);
-    inputs_.subscribe("control/mesh", 2, &CorrelationNode::on<ControlMesh>, this);
-    inputs_.subscribe("body/deformed", 8, &CorrelationNode::on<DeformedMesh>, this);
+    inputs_.subscribe_from("reconstruction", "body/mesh", 2, &CorrelationNode::on_body, this);
+    inputs_.subscribe_from("landmarks", "body/landmarks", 2, &CorrelationNode::on<Landmarks>, this);
+    inputs_.subscribe_from("control_mesh", "control/mesh", 2, &CorrelationNode::on<ControlMesh>, this);
+    inputs_.subscribe_from("tffd", "body/deformed", 8, &CorrelationNode::on<DeformedMesh>, this);
     inputs_.subscribe("worn/points", 2, &CorrelationNode::on_worn, this);
   }
 

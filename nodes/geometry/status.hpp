@@ -47,7 +47,9 @@ inline constexpr char kOtherModel[] =
 inline constexpr char kTriggerFailed[] = "trigger_failed";  ///< the booth could not be triggered
 inline constexpr char kTimedOut[] = "timed_out";            ///< a capture that did not finish in time
 inline constexpr char kDeadStage[] = "dead_stage";          ///< a node that a capture needs does not run
-inline constexpr char kSuperseded[] = "superseded";   ///< a newer scan arrived before this one was finished
+inline constexpr char kSuperseded[] = "superseded";  ///< a newer scan arrived before this one was finished
+inline constexpr char kLostMessage[] =
+    "lost_message";                                   ///< the stage before published it, and it did not come
 inline constexpr char kNothingYet[] = "nothing_yet";  ///< asked for a result before there is one
 }  // namespace refusal
 

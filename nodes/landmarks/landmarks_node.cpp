@@ -16,15 +16,16 @@ class LandmarksNode {
         landmarks_(node.advertise<Landmarks>("body/landmarks", 1, true)),
         body_frame_(node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true)),
         display_(private_node),
-        inputs_(node),
+        inputs_(node, [this](const std::string& scan_id,
+                             const geometry::Refusal& why) { stage_.refuse(scan_id, why); }),
         stage_("landmarks", node) {
     const ros::TransportHints prompt = ros::TransportHints().tcpNoDelay();
     constexpr bool kOnce = true, kStarted = false;
     patience_ = node.createWallTimer(
         ros::WallDuration(LandmarksHandler::kPatience),
         [this](const ros::WallTimerEvent&) { find(handler_.alone()); }, kOnce, kStarted);
-    inputs_.subscribe("body/model", 2, &LandmarksNode::on_model, this, prompt);
-    inputs_.subscribe("body/mesh", 2, &LandmarksNode::on_mesh, this, prompt);
+    inputs_.subscribe_from("reconstruction", "body/model", 2, &LandmarksNode::on_model, this, prompt);
+    inputs_.subscribe_from("reconstruction", "body/mesh", 2, &LandmarksNode::on_mesh, this, prompt);
   }
 
  private:

@@ -74,7 +74,7 @@ void ForgetDesk::delete_old() const {
   std::vector<std::string> left;
   std::size_t gone = 0;
   for (const std::string& folder : options_.folders)
-    if (std::filesystem::exists(folder))
+    if (std::error_code unknown; std::filesystem::exists(folder, unknown))
       gone += delete_old_exports(folder, options_.retention_days, left).size();
   if (gone > 0) ROS_INFO("vault: exports were deleted, as they were old");
   if (!left.empty())
@@ -110,12 +110,17 @@ Names ForgetDesk::order(std::uint8_t step, const Forget::Request& request, Forge
 void ForgetDesk::delete_exports_of(const std::string& scan_id, const std::vector<std::string>& folders,
                                    Forget::Response& response) const {
   for (const std::string& folder : folders) {
-    if (!std::filesystem::exists(folder)) continue;  // there was no export so far
+    std::error_code unknown;
+    const bool is_there = std::filesystem::exists(folder, unknown);
+    if (unknown) response.not_reached.push_back(folder + ": " + unknown.message());
+    if (!is_there) continue;  // there was no export so far
     try {
       for (const std::string& gone : delete_exports(folder, scan_id))
         response.removed.push_back("export " + gone);
     } catch (const geometry::Refusal& refusal) {
       if (refusal.code() != geometry::refusal::kNothingYet) response.not_reached.emplace_back(refusal.what());
+    } catch (const std::filesystem::filesystem_error& error) {
+      response.not_reached.push_back(folder + ": " + error.code().message());
     }
   }
 }

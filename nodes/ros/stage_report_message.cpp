@@ -1,10 +1,16 @@
 #include "ros/stage_report_message.hpp"
 
+#include <cmath>
 #include <cstdlib>
 
 #include "ros/status_fact.hpp"
 
 namespace tensegric_fit::node {
+namespace {
+
+constexpr char kUnnamed[] = "internal_error";  // as a stage calls what nobody foresaw
+
+}  // namespace
 
 std::optional<geometry::StageReport> stage_report_in(const diagnostic_msgs::DiagnosticStatus& status,
                                                      const std::string& name_space) {
@@ -25,7 +31,9 @@ std::optional<geometry::StageReport> stage_report_in(const diagnostic_msgs::Diag
   report.warns = report.state == "done" && status.level == diagnostic_msgs::DiagnosticStatus::WARN;
   report.last_error = fact(status, "last_error_message");
   report.code = fact(status, "last_error");
-  report.working_seconds = std::strtod(fact(status, "working_seconds").c_str(), nullptr);
+  if (report.refused() && report.code.empty()) report.code = kUnnamed;  // not one of our stages
+  const double working = std::strtod(fact(status, "working_seconds").c_str(), nullptr);
+  if (std::isfinite(working) && working > 0) report.working_seconds = working;
   return report;
 }
 

@@ -1,14 +1,21 @@
-/// Subscriptions that are made anew where they do not come about.
+/// Subscriptions that are made anew where they do not come about, or where a message was lost.
 #pragma once
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/ros.h>
+#include <tensegric_fit/FitState.h>
 
 #include <atomic>
 #include <functional>
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "geometry/status.hpp"
+#include "ros/lost_messages.hpp"
+#include "ros/stage_report_message.hpp"
 
 namespace tensegric_fit::node {
 
@@ -18,10 +25,19 @@ namespace tensegric_fit::node {
 /// (tests/faults/silent_publisher.py). So where a publisher is announced and none is connected, at two looks
 /// in a row, the subscription is made anew; and once where one is connected and nothing has come: what is
 /// latched comes with a connection. So in an idle shop each input connects again once after its start.
+///
+/// A message can also be lost between two stages, by a proxy or a bridge in between: the stage before says on
+/// /diagnostics that it is done with a scan, and nothing of that scan comes. Then, too, the subscription is
+/// made anew, and if that does not help either, the scan is refused by name (`lost_message`). A message that
+/// the next scan's has overtaken there is not taken.
 class WatchedInputs {
  public:
-  explicit WatchedInputs(const ros::NodeHandle& node)
+  using OnLost = std::function<void(const std::string& scan_id, const geometry::Refusal& refusal)>;
+
+  explicit WatchedInputs(const ros::NodeHandle& node, OnLost on_lost = {})
       : node_(node),
+        on_lost_(std::move(on_lost)),
+        reports_(node_.subscribe("/diagnostics", 100, &WatchedInputs::hear_reports, this)),
         watch_(node.createWallTimer(ros::WallDuration(kSeconds),
                                     [this](const ros::WallTimerEvent&) { look(); })) {}
   WatchedInputs(const WatchedInputs&) = delete;
@@ -31,27 +47,106 @@ class WatchedInputs {
   template <typename Argument, typename Node>
   void subscribe(const std::string& topic, std::uint32_t queue, void (Node::*method)(Argument), Node* node,
                  const ros::TransportHints& hints = {}) {
-    const auto heard = std::make_shared<std::atomic<bool>>(false);
-    const boost::function<void(Argument)> hear = [heard, method, node](Argument message) {
-      *heard = true;
-      (node->*method)(message);
+    const auto take = [method, node](Argument message) { (node->*method)(message); };
+    add<Argument>("", topic, queue, take, hints);
+  }
+
+  /// The same for what stage `from` publishes of each scan.
+  template <typename Message, typename Node>
+  void subscribe_from(const std::string& from, const std::string& topic, std::uint32_t queue,
+                      void (Node::*method)(const boost::shared_ptr<const Message>&), Node* node,
+                      const ros::TransportHints& hints = {}) {
+    const auto losses = std::make_shared<LostMessages>();
+    const auto late = std::make_shared<Late>();
+    const auto take = [losses, late, method, node](const boost::shared_ptr<const Message>& message) {
+      const auto give = [losses, method, node, message] {
+        if (!is_passing(*message, 0)) losses->heard(message->scan_id);
+        (node->*method)(message);
+      };
+      if (losses->is_overtaken(message->scan_id))
+        *late = {message->scan_id, give};
+      else
+        give();
     };
-    const auto subscribe = [this, topic, queue, hear, hints] {
-      return node_.subscribe<Argument>(topic, queue, hear, ros::VoidConstPtr(), hints);
-    };
-    inputs_.push_back({subscribe, subscribe(), heard});
+    add<const boost::shared_ptr<const Message>&>(from, topic, queue, take, hints);
+    inputs_.back().losses = losses;
+    inputs_.back().late = late;
   }
 
  private:
   static constexpr double kSeconds = 3;  // a negotiation takes milliseconds
 
+  /// A message that was overtaken by that of the next scan. It waits: its stage may do a scan once more.
+  struct Late {
+    std::string scan_id;
+    std::function<void()> give;
+  };
+
   struct Input {
+    std::string from;  // a stage; empty: losses are not looked for
     std::function<ros::Subscriber()> subscribe;
     ros::Subscriber subscriber;
     std::shared_ptr<std::atomic<bool>> heard;
+    std::shared_ptr<LostMessages> losses;
+    std::shared_ptr<Late> late;
     bool lacked = false;          // at the last look
     bool connected_anew = false;  // though one was connected
+
+    void subscribe_anew() {
+      subscriber.shutdown();
+      subscriber = subscribe();
+    }
   };
+
+  template <typename Argument>
+  void add(const std::string& from, const std::string& topic, std::uint32_t queue,
+           const std::function<void(Argument)>& take, const ros::TransportHints& hints) {
+    const auto heard = std::make_shared<std::atomic<bool>>(false);
+    const boost::function<void(Argument)> hear = [heard, take](Argument message) {
+      *heard = true;
+      take(message);
+    };
+    const auto subscribe = [this, topic, queue, hear, hints] {
+      return node_.subscribe<Argument>(topic, queue, hear, ros::VoidConstPtr(), hints);
+    };
+    inputs_.push_back({from, subscribe, subscribe(), heard, nullptr, nullptr});
+  }
+
+  /// A state of the solver, on the way to a fit.
+  template <typename Message>
+  static auto is_passing(const Message& message, int) -> decltype(message.status == FitState::SOLVING) {
+    return message.status == FitState::SOLVING;
+  }
+  template <typename Message>
+  static bool is_passing(const Message&, long) {
+    return false;
+  }
+
+  void hear_reports(const diagnostic_msgs::DiagnosticArray::ConstPtr& array) {
+    for (const diagnostic_msgs::DiagnosticStatus& status : array->status) {
+      const auto report = stage_report_in(status, node_.getNamespace());
+      if (!report || report->state != "done") continue;
+      for (Input& input : inputs_)
+        if (input.losses && input.from == report->stage) look_for_loss(input, report->scan_id);
+    }
+  }
+
+  void look_for_loss(Input& input, const std::string& scan_id) {
+    const double now = ros::SteadyTime::now().toSec();
+    input.losses->sent(scan_id, now);
+    if (input.late->give && input.late->scan_id == scan_id) std::exchange(*input.late, Late()).give();
+    switch (input.losses->advice(now)) {
+      case LostMessages::Advice::wait:
+        break;
+      case LostMessages::Advice::connect_anew:
+        input.subscribe_anew();
+        break;
+      case LostMessages::Advice::give_up:
+        on_lost_(scan_id, geometry::Refusal(geometry::refusal::kLostMessage,
+                                            input.from + " is done with it, but nothing of it came on " +
+                                                input.subscriber.getTopic()));
+    }
+  }
 
   void look() {
     bool any = false;
@@ -70,8 +165,7 @@ class WatchedInputs {
       input.connected_anew = input.subscriber.getNumPublishers() > 0;
       if (!input.connected_anew)
         ROS_WARN("%s: a publisher is announced and not connected; subscribed anew", topic.c_str());
-      input.subscriber.shutdown();
-      input.subscriber = input.subscribe();
+      input.subscribe_anew();
     }
   }
 
@@ -91,7 +185,9 @@ class WatchedInputs {
   }
 
   ros::NodeHandle node_;
+  OnLost on_lost_;
   std::vector<Input> inputs_;
+  ros::Subscriber reports_;
   ros::WallTimer watch_;
 };
 

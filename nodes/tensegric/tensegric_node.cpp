@@ -24,15 +24,16 @@ class TensegricNode {
         display_(private_node),
         members_(private_node, "members"),
         bands_(node, "control/bands"),
-        inputs_(node),
+        inputs_(node, [this](const std::string& scan_id,
+                             const geometry::Refusal& why) { stage_.refuse(scan_id, why); }),
         stage_("tensegric", node) {
     announce();
-    inputs_.subscribe("control/mesh", 2, &TensegricNode::on<ControlMesh>, this, kPrompt);
+    inputs_.subscribe_from("control_mesh", "control/mesh", 2, &TensegricNode::on<ControlMesh>, this, kPrompt);
     inputs_.subscribe("control/coarse", 2, &TensegricNode::on_coarse, this, kPrompt);
-    inputs_.subscribe("body/mesh", 2, &TensegricNode::on_body, this, kPrompt);
+    inputs_.subscribe_from("reconstruction", "body/mesh", 2, &TensegricNode::on_body, this, kPrompt);
     inputs_.subscribe("garment", 8, &TensegricNode::on_garment, this, kPrompt);
     if (handler_.needs_landmarks())
-      inputs_.subscribe("body/landmarks", 2, &TensegricNode::on<Landmarks>, this, kPrompt);
+      inputs_.subscribe_from("landmarks", "body/landmarks", 2, &TensegricNode::on<Landmarks>, this, kPrompt);
     services_ = {node.advertiseService("set_garment", &TensegricNode::on_set_garment, this),
                  node.advertiseService("reset", &TensegricNode::on_reset, this)};
   }

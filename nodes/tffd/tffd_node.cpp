@@ -20,12 +20,13 @@ class TffdNode {
         warnings_(node.advertise<FitWarnings>("body/warnings", 1, true)),
         display_(private_node),
         exports_(node, handler_.exports()),
-        inputs_(node),
+        inputs_(node, [this](const std::string& scan_id,
+                             const geometry::Refusal& why) { stage_.refuse(scan_id, why); }),
         stage_("tffd", node) {
-    inputs_.subscribe("body/mesh", 2, &TffdNode::on_body, this, kPrompt);
-    inputs_.subscribe("body/landmarks", 2, &TffdNode::on<Landmarks>, this, kPrompt);
-    inputs_.subscribe("control/mesh", 2, &TffdNode::on<ControlMesh>, this, kPrompt);
-    inputs_.subscribe("control/deformed", 8, &TffdNode::on<FitState>, this, kPrompt);
+    inputs_.subscribe_from("reconstruction", "body/mesh", 2, &TffdNode::on_body, this, kPrompt);
+    inputs_.subscribe_from("landmarks", "body/landmarks", 2, &TffdNode::on<Landmarks>, this, kPrompt);
+    inputs_.subscribe_from("control_mesh", "control/mesh", 2, &TffdNode::on<ControlMesh>, this, kPrompt);
+    inputs_.subscribe_from("tensegric", "control/deformed", 8, &TffdNode::on<FitState>, this, kPrompt);
     inputs_.subscribe("control/forces", 4, &TffdNode::on_forces, this, kPrompt);
     inputs_.subscribe("scan/label", 16, &TffdNode::on_label, this);
   }

@@ -77,11 +77,11 @@ class Shop:
 class Graph:
     """The launched chains. Context manager."""
 
-    def __init__(self, work, bodies, own_clock, soon):
+    def __init__(self, work, bodies, own_clock, soon, exports=None):
         self.port, self.work, self.bodies, self.own_clock = free_port(), work, bodies, own_clock
         self.log = open(work / "launch.log", "a", encoding="utf-8")
         self.keeper = subprocess.Popen([sys.executable, ROOT / "launch/keep_running.py", "--port", str(self.port),
-                                        HERE / "two_booths.launch", f"exports:={work / 'exports'}",
+                                        HERE / "two_booths.launch", f"exports:={exports or work / 'exports'}",
                                         f"sim_time:={str(own_clock).lower()}"], stdout=self.log, stderr=self.log,
                                        env=dict(os.environ, ROS_HOSTNAME="localhost"))
         self.soon, self.shop = soon, None

@@ -8,6 +8,8 @@ line of JSON each.
     reports           newest report of each node: state, scan_id, last_error, last_error_scan_id, seconds
     export BOOTH DIR  calls export_fit
     deaf BOOTH TOPIC  subscribes, and never reads
+    reset BOOTH       puts the first garment on again
+    clear             forgets the results so far
     clock SECONDS     the clock goes on from there (use_sim_time)
 """
 import hashlib
@@ -27,6 +29,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs import point_cloud2
 from sensor_msgs.msg import PointCloud2
 from std_msgs.msg import Header
+from std_srvs.srv import Trigger
 from tensegric_fit.msg import DeformedMesh
 from tensegric_fit.srv import ExportFit
 
@@ -77,6 +80,14 @@ class Shop:
     def export(booth, folder):
         answer = rospy.ServiceProxy(f"/{booth}/export_fit", ExportFit)(directory=folder)
         return {"exported": answer.exported, "code": answer.code, "files": list(answer.files)}
+
+    @staticmethod
+    def reset(booth):
+        return rospy.ServiceProxy(f"/{booth}/reset", Trigger)().message
+
+    def clear(self):
+        self.found.clear()
+        return "cleared"
 
     def deaf(self, booth, topic):
         """The handshake of TCPROS, and no more."""
