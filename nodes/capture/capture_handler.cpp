@@ -5,20 +5,22 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/range.hpp"
 #include "ros/scan_tag.hpp"
 #include "ros/stage_report_message.hpp"
 
 namespace tensegric_fit::node {
 namespace {
 
-constexpr std::size_t kRemembered = 64;  // scans
+constexpr std::size_t kRemembered = 64;     // scans
+const geometry::Range kTimeout{0.1, 3600};  // s
 constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 
 }  // namespace
 
 CaptureHandler::Setup CaptureHandler::setup_from(Parameters& parameters) {
   Setup setup;
-  setup.timeout = parameters.number("timeout", setup.timeout, {0.1, 3600});
+  setup.timeout = parameters.number("timeout", setup.timeout, kTimeout);
   setup.slop = parameters.number("slop", setup.slop, geometry::kSlop);
   setup.trigger = parameters.text("trigger", setup.trigger);
   parameters.check_all_known();
@@ -29,6 +31,7 @@ CaptureHandler::CaptureHandler(Parameters parameters, std::string name_space)
     : setup_(setup_from(parameters)), name_space_(std::move(name_space)) {}
 
 void CaptureHandler::begin(const CaptureGoal& goal, double now) {
+  if (goal.timeout != 0) geometry::check_option("timeout", goal.timeout, kTimeout);
   goal_ = goal;
   begun_ = now;
   landmarks_.clear();

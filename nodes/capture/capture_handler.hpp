@@ -30,6 +30,7 @@ class CaptureHandler {
   const std::string& trigger() const { return setup_.trigger; }
 
   /// Replaces the current goal. Where there is a trigger, no scan counts until it was pulled.
+  /// \throw Refusal bad_option: a timeout out of range
   void begin(const CaptureGoal& goal, double now);
   void stop() { watch_.reset(); }
   bool is_busy() const { return watch_ != nullptr; }

@@ -1,5 +1,6 @@
 /// capture: the action that a shop's programs call for each customer.
 #include <actionlib/server/simple_action_server.h>
+#include <fmt/format.h>
 #include <std_srvs/Trigger.h>
 #include <tensegric_fit/CaptureAction.h>
 
@@ -81,8 +82,13 @@ class CaptureNode {
     goal_ = server_.acceptNewGoal();
     HeldScan::of_process().clear();  // with the customer before
     HeldScan::of_process().work(true);
-    handler_.begin(*goal_, now());
-    for (const std::string& sensor : goal_->sensors) listen_to(sensor);
+    try {
+      handler_.begin(*goal_, now());
+      for (const std::string& sensor : goal_->sensors) listen_to(sensor);
+    } catch (const geometry::Refusal& refusal) {
+      handler_.stop();
+      return finish(refused(refusal.code(), refusal.what()));
+    }
     deformed_ = goal_->with_fit ? node_.subscribe("body/deformed", 4, &CaptureNode::on_deformed, this)
                                 : ros::Subscriber();
   }
@@ -93,12 +99,25 @@ class CaptureNode {
     if (!server_.isNewGoalAvailable()) server_.setPreempted();  // else the new goal takes its place
   }
 
+  static CaptureResult refused(const std::string& code, const std::string& message) {
+    CaptureResult result;
+    result.code = code;
+    result.message = message;
+    return result;
+  }
+
   /// For good: later goals may come faster than sensors can be connected to.
   void listen_to(const std::string& sensor) {
     if (sensors_.count(sensor) != 0) return;
     const boost::function<void(const PointCloud2::ConstPtr&)> on_cloud =
         [this, sensor](const PointCloud2::ConstPtr& cloud) { handler_.add(sensor, *cloud); };
-    sensors_[sensor] = node_.subscribe<PointCloud2>(sensor, 4, on_cloud);
+    try {
+      sensors_[sensor] = node_.subscribe<PointCloud2>(sensor, 4, on_cloud);
+    } catch (const ros::Exception& error) {  // no name of a topic, or a topic of another type
+      sensors_.erase(sensor);
+      throw geometry::Refusal(geometry::refusal::kBadOption,
+                              fmt::format("sensor '{}': {}", sensor, error.what()));
+    }
   }
 
   void on_scan(const PointCloud2::ConstPtr& scan) { handler_.add(*scan); }
