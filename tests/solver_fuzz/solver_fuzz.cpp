@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
   std::string out;
   app.add_option("--first-seed", first, "of the cases");
   app.add_option("--seeds", seeds, "cases, each under three solvers");
-  app.add_option("--cap", cap, "s, for each solve");
+  app.add_option("--cap", cap, "s of the processor, for each solve");
   app.add_option("--most-iterations", most_iterations, "of relaxation and adaptive; 0: their own");
   app.add_option("--out", out, "file of JSON lines, which a later run goes on with");
   CLI11_PARSE(app, argc, argv);
@@ -79,17 +79,25 @@ int main(int argc, char** argv) {
     file.open(out, std::ios::trunc);
     for (const auto& [key, row] : done) file << row.dump() << "\n";
   }
+  const auto keep = [&](unsigned seed, const char* solver, const solver_fuzz::Finding& found) {
+    const json row = row_of(seed, solver, found);
+    done[{seed, solver}] = row;
+    if (file.is_open()) file << row.dump() << "\n" << std::flush;
+    if (!found.faults.empty()) std::cout << row.dump() << "\n" << std::flush;
+  };
   for (unsigned seed = first; seed < first + seeds; ++seed) {
+    std::vector<const char*> left;
+    for (const char* solver : {"equilibrium", "adaptive", "relaxation"})
+      if (done.count({seed, solver}) == 0) left.push_back(solver);
+    if (left.empty()) continue;
     const stability::Case drawn = solver_fuzz::random_case(seed);
-    for (const char* solver : {"equilibrium", "adaptive", "relaxation"}) {
-      if (done.count({seed, solver}) != 0) continue;
-      const auto found =
-          solver_fuzz::solve_and_check(drawn, tensegric::solver_from(solver), cap, most_iterations);
-      const json row = row_of(seed, solver, found);
-      done[{seed, solver}] = row;
-      if (file.is_open()) file << row.dump() << "\n" << std::flush;
-      if (!found.faults.empty()) std::cout << row.dump() << "\n" << std::flush;
-    }
+    solver_fuzz::Finding refused;
+    const auto model = solver_fuzz::model_of(drawn, refused);
+    for (const char* solver : left)
+      keep(seed, solver,
+           model ? solver_fuzz::solve_and_check(drawn, *model, tensegric::solver_from(solver), cap,
+                                                most_iterations)
+                 : refused);
   }
   return summary(done) == 0 ? 0 : 1;
 }
