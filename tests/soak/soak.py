@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Many scans through one launched chain: does a node grow, keep descriptors or threads, or get slower?
 
-Usage: build/devel/env.sh python3 tests/soak/soak.py [--scans N] [--out FILE.csv]
+Usage: build/devel/env.sh python3 tests/soak/soak.py [--scans N] [--points N] [--out FILE.csv]
 
 The same few scans come again and again, each when the one before is through. After each a row: seconds from scan to deformed body, and
-of each node anonymous memory (kB, /proc/PID/smaps_rollup), descriptors and threads. The verdict leaves out the first scans, while heaps
-fill up, and compares medians of the first and the last rows after them. Exit: 0 all constant, 1 something grew, 2 no answer."""
+of each node anonymous memory (kB, /proc/PID/smaps_rollup), descriptors and threads. A run that was stopped goes on where it was: with the
+same chain where that still runs (the chain outlives a run that is killed), else with a new one, whose rows are another part. The verdict
+is by part; it leaves out the first scans of it, while heaps fill up, and compares medians of the first and the last rows after them.
+Exit: 0 all constant, 1 something grew, 2 no answer."""
 import argparse
 import csv
 import os
@@ -20,9 +22,9 @@ import time
 
 sys.dont_write_bytecode = True  # not into the sources
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from launched import free_port, points_of, program, wait_until
+from launched import free_port, nodes_at, points_of, program, wait_until
 
-NODES = ("reconstruction", "landmarks", "control_mesh", "tensegric", "tffd")
+NODES = ("reconstruction", "landmarks", "control_mesh", "tensegric", "tffd", "vault")
 POINTS, BODIES = 9000, 4
 MEMORY = 0.01  # a node may have so much more at the end
 SLOWER = 0.25  # and a scan take so much longer: machines are shared
@@ -31,22 +33,43 @@ SLOWER = 0.25  # and a scan take so much longer: machines are shared
 class Chain:
     """roslaunch with a master of its own, and a client that sends scans and waits for the deformed body."""
 
-    def __init__(self, log):
-        port = free_port()
-        os.environ["ROS_MASTER_URI"] = f"http://127.0.0.1:{port}"
-        os.environ["ROS_HOSTNAME"] = "127.0.0.1"
-        self.launch = subprocess.Popen(["roslaunch", "-p", str(port), "tensegric_fit", "pipeline.launch"], stdout=log, stderr=log,
-                                       start_new_session=True)
+    def __init__(self, out):
+        self.note, self.is_new = out.with_suffix(".chain"), False  # where it runs
+        port, self.pid = self.running() or self.launch(out.with_suffix(".log"))
+        self.address(port)
         import rospy  # after the master's address is set
         from sensor_msgs.msg import PointCloud2
         from tensegric_fit.msg import DeformedMesh
         self.rospy, self.cloud_type = rospy, PointCloud2
         wait_until(self.has_master, "the master", 30)
-        rospy.init_node("soak", disable_signals=True)
+        rospy.init_node("soak", anonymous=True, disable_signals=True)
         self.done, self.stamp = threading.Event(), None
         self.publisher = rospy.Publisher("scan/points", PointCloud2, queue_size=1)
         rospy.Subscriber("body/deformed", DeformedMesh, self.take)
         wait_until(lambda: self.publisher.get_num_connections() > 0 and len(self.processes()) == len(NODES), "the nodes", 60)
+
+    @staticmethod
+    def address(port):
+        os.environ["ROS_MASTER_URI"] = f"http://127.0.0.1:{port}"
+        os.environ["ROS_HOSTNAME"] = "127.0.0.1"
+
+    def running(self):
+        """Port and process of the chain of an earlier run, where all its nodes live."""
+        try:
+            port, process = map(int, self.note.read_text().split())
+            self.address(port)
+            return (port, process) if "roslaunch" in pathlib.Path(f"/proc/{process}/cmdline").read_text() and len(self.processes()) == len(NODES) else None
+        except (OSError, ValueError):
+            return None
+
+    def launch(self, log_path):
+        port = free_port()
+        self.address(port)
+        with open(log_path, "a", encoding="utf-8") as log:
+            process = subprocess.Popen(["roslaunch", "-p", str(port), "tensegric_fit", "pipeline.launch"], stdout=log, stderr=log, start_new_session=True)
+        self.note.write_text(f"{port} {process.pid}")
+        self.is_new = True
+        return port, process.pid
 
     @staticmethod
     def has_master():
@@ -56,27 +79,10 @@ class Chain:
         if message.header.stamp == self.stamp:
             self.done.set()
 
-    def processes(self):
+    @staticmethod
+    def processes():
         """Node -> process."""
-        found = {}
-        for comm in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
-            try:
-                words = comm.read_bytes().split(b"\0")
-                session = os.getsid(int(comm.parent.name))
-            except (OSError, ValueError):
-                continue
-            name = pathlib.Path(words[0].decode(errors="replace")).name
-            if name.endswith("_node") and name[:-5] in NODES and self.is_ours(comm.parent, session):
-                found[name[:-5]] = int(comm.parent.name)
-        return found
-
-    def is_ours(self, process, session):
-        if session == self.launch.pid:
-            return True
-        try:  # roslaunch gives each node a session of its own
-            return f"ROS_MASTER_URI={os.environ['ROS_MASTER_URI']}".encode() in (process / "environ").read_bytes()
-        except OSError:
-            return False
+        return {name.strip("/"): process for name, process in nodes_at(os.environ["ROS_MASTER_URI"], NODES).items()}
 
     def scan(self, points, seconds):
         from sensor_msgs import point_cloud2
@@ -90,11 +96,12 @@ class Chain:
         return time.monotonic() - begin
 
     def stop(self):
-        self.launch.send_signal(signal.SIGINT)
+        os.kill(self.pid, signal.SIGINT)
         try:
-            self.launch.wait(20)
-        except subprocess.TimeoutExpired:
-            os.killpg(self.launch.pid, signal.SIGKILL)
+            wait_until(lambda: not self.processes(), "the end of the nodes", 30)
+        except TimeoutError:
+            os.killpg(self.pid, signal.SIGKILL)
+        self.note.unlink()
 
 
 def costs_of(process):
@@ -105,63 +112,80 @@ def costs_of(process):
 
 
 def columns():
-    return ["scan", "seconds"] + [f"{node}_{what}" for node in NODES for what in ("kB", "descriptors", "threads")]
+    return ["part", "scan", "seconds"] + [f"{node}_{what}" for node in NODES for what in ("kB", "descriptors", "threads")]
 
 
-def record(chain, clouds, scans, file):
-    writer = csv.writer(file)
-    writer.writerow(columns())
-    processes = chain.processes()
-    for i in range(scans):
-        seconds = chain.scan(clouds[i % len(clouds)], 120)
-        writer.writerow([i, f"{seconds:.3f}"] + [value for node in NODES for value in costs_of(processes[node])])
-        file.flush()
-    if chain.processes() != processes:
-        raise RuntimeError("a node died")
+def rows_of(path):
+    """What was done so far, without a last row that was cut off."""
+    if not path.exists():
+        return []
+    with open(path, encoding="utf-8", newline="") as file:
+        return [row for row in csv.DictReader(file) if all(row.get(column) for column in columns())]
 
 
-def verdict(rows):
-    """Prints the table; whether nothing grew."""
-    settled = rows[min(100, len(rows) // 3):]
-    part = max(len(clouds_of_one_round()), min(500, len(settled) // 4))
-    first, last = settled[:part], settled[-part:]
+def record(chain, clouds, scans, path):
+    rows = rows_of(path)
+    part = int(rows[-1]["part"]) + chain.is_new if rows else 1
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, columns())
+        writer.writeheader()
+        writer.writerows(rows)
+        processes = chain.processes()
+        for i in range(len(rows), scans):
+            seconds = chain.scan(clouds[i % len(clouds)], 120)
+            costs = [value for node in NODES for value in costs_of(processes[node])]
+            writer.writerow(dict(zip(columns(), [part, i, f"{seconds:.3f}"] + costs)))
+            file.flush()
+        if chain.processes() != processes:
+            raise RuntimeError("a node died")
+
+
+def verdict(rows, out):
+    """Prints a table per part; whether nothing grew."""
     fine = True
-    print(f"{len(rows)} scans; medians of {part} rows, after {len(rows) - len(settled)} and at the end")
-    for column in columns()[1:]:
+    for part in sorted({int(row["part"]) for row in rows}):
+        fine = constant([row for row in rows if int(row["part"]) == part], part, out) and fine
+    return fine
+
+
+def constant(rows, part, out):
+    settled = rows[min(100, len(rows) // 3):]
+    count = max(1, min(500, len(settled) // 4) // BODIES) * BODIES
+    first, last = settled[:count], settled[-count:]
+    fine = True
+    print(f"part {part}: {len(rows)} scans; medians of {count} rows, after {len(rows) - len(settled)} and at the end", file=out)
+    for column in columns()[2:]:
         before, after = (statistics.median(float(row[column]) for row in part_of) for part_of in (first, last))
         allowed = SLOWER if column == "seconds" else MEMORY if column.endswith("_kB") else 0
         grew = after > before * (1 + allowed)
         fine = fine and not grew
-        print(f"| {column} | {before:g} | {after:g} | {100 * (after / before - 1):+.2f} % |{' GREW' if grew else ''}")
+        print(f"| {column} | {before:g} | {after:g} | {100 * (after / before - 1):+.2f} % |{' GREW' if grew else ''}", file=out)
     return fine
-
-
-def clouds_of_one_round():
-    return range(BODIES)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--scans", type=int, default=10000)
+    parser.add_argument("--scans", type=int, default=10000, help="rows of the file in all")
+    parser.add_argument("--points", type=int, default=POINTS, help="of a scan")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("soak.csv"))
+    parser.add_argument("--verdict", action="store_true", help="of the rows that are there, and no scan")
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory(prefix="soak_") as folder, open(arguments.out, "w", encoding="utf-8", newline="") as file:
-        clouds = []
-        for n in clouds_of_one_round():
-            subprocess.run([program("virtual_booth"), "--seed", str(n + 1), "--points", str(POINTS), "--out", f"{folder}/{n}"],
-                           check=True, stdout=subprocess.DEVNULL)
-            clouds.append(points_of(pathlib.Path(folder) / f"{n}/scan.ply"))
-        with open(f"{folder}/log", "w", encoding="utf-8") as log:
-            chain = Chain(log)
-            try:
-                record(chain, clouds, arguments.scans, file)
-            except (TimeoutError, RuntimeError) as error:
-                print(error, file=sys.stderr)
-                return 2
-            finally:
-                chain.stop()
-    with open(arguments.out, encoding="utf-8", newline="") as file:
-        return 0 if verdict(list(csv.DictReader(file))) else 1
+    if not arguments.verdict:
+        with tempfile.TemporaryDirectory(prefix="soak_") as folder:
+            clouds = []
+            for n in range(BODIES):
+                subprocess.run([program("virtual_booth"), "--seed", str(n + 1), "--points", str(arguments.points), "--out", f"{folder}/{n}"],
+                               check=True, stdout=subprocess.DEVNULL)
+                clouds.append(points_of(pathlib.Path(folder) / f"{n}/scan.ply"))
+        chain = Chain(arguments.out)
+        try:
+            record(chain, clouds, arguments.scans, arguments.out)
+        except (TimeoutError, RuntimeError) as error:
+            print(error, file=sys.stderr)
+            return 2
+        finally:
+            chain.stop()
+    return 0 if verdict(rows_of(arguments.out), sys.stdout) else 1
 
 
 if __name__ == "__main__":
