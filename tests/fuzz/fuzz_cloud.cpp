@@ -4,11 +4,17 @@
 #include "fuzz_target.hpp"
 #include "geometry/point_cloud.hpp"
 #include "input.hpp"
+#include "scan_files/scan_file.hpp"
 
 namespace {
 
 constexpr std::array<const char*, 12> kNames{"x",  "y",  "z",  "normal_x", "normal_y", "normal_z",
                                              "nx", "ny", "nz", "sensor",   "rgb",      ""};
+
+void check(const tensegric_fit::geometry::PointCloud& cloud) {
+  tensegric_fit::fuzz::require(cloud.normals.empty() || cloud.normals.size() == cloud.points.size());
+  tensegric_fit::fuzz::require(cloud.sensor.empty() || cloud.sensor.size() == cloud.points.size());
+}
 
 }  // namespace
 
@@ -32,8 +38,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   cloud.data = input.rest();
   fuzz::refused_or_done([&cloud] {
     const geometry::PointCloud points = geometry::points_of(cloud);
-    fuzz::require(points.normals.empty() || points.normals.size() == points.points.size());
-    fuzz::require(points.sensor.empty() || points.sensor.size() == points.points.size());
+    check(points);
+    geometry::PointCloud without_normals = points, without_sensors = points;
+    without_normals.normals.clear();
+    without_sensors.sensor.clear();
+    check(geometry::joined({points, without_normals, without_sensors}));
+    scan_files::apply({"mm", "y"}, cloud);  // a file of another unit
+    fuzz::require(geometry::points_of(cloud).points.size() == points.points.size());
   });
   return 0;
 }

@@ -5,10 +5,13 @@
 #include "body_model/model_message.hpp"
 #include "body_model/parts.hpp"
 #include "body_model/registration.hpp"
+#include "control_mesh/control_mesh_handler.hpp"
+#include "correlation/correlation_handler.hpp"
 #include "fit/bind_body.hpp"
 #include "fuzz_target.hpp"
 #include "geometry/shipped_files.hpp"
 #include "input.hpp"
+#include "landmarks/landmarks_handler.hpp"
 #include "ros/body_messages.hpp"
 #include "tensegric/kept_garment_message.hpp"
 #include "tensegric/tensegric_handler.hpp"
@@ -91,6 +94,17 @@ void change(fuzz::Input& input, FitState& message) {
   }
 }
 
+void change(fuzz::Input& input, DeformedMesh& message) {
+  change_all(input, message.vertices, message.distortion);
+  if (input.number(1) % 8 == 0) message.status = FitState::SOLVING;
+}
+
+void change(fuzz::Input& input, sensor_msgs::PointCloud2& message) {
+  draw_some(input, message.width, message.height, message.point_step, message.row_step,
+            message.header.stamp.sec);
+  change_all(input, message.fields, message.data);
+}
+
 geometry::BodyMeasures measures() {
   geometry::BodyMeasures measures;
   measures.heights = {{"hip", 0.9, 1, ""}, {"underbust", 1.12, 1, ""}};
@@ -149,11 +163,15 @@ void read_landmarks(fuzz::Input& input) {
   fuzz::require(read.body_from_scan.matrix().allFinite());
 }
 
-void read_model(fuzz::Input& input) {
+const BodyModel& sound_model() {
   static const BodyModel sound =
       to_message(ScanTag(), mean_woman(),
                  body_model::parts_of({mean_woman().skin, mean_woman().model->triangles}, mean_woman()));
-  BodyModel message = sound;
+  return sound;
+}
+
+void read_model(fuzz::Input& input) {
+  BodyModel message = sound_model();
   change(input, message);
   check_mesh_parts(message, mean_woman().skin.size());
   const body_model::RegisteredBody read = registered_in(message, mean_woman().model);
@@ -167,9 +185,13 @@ TensegricHandler tensegric_stage() {
 const auto kSilent = [](const FitState&) {};
 const auto kGoOn = [] { return true; };
 
-/// What a fit's figures are where the stage let them out.
+/// What a fit's figures are where the stage let them out; and what viewers are sent of it.
 void check_fit(const std::optional<TensegricHandler::Output>& output) {
   if (!output) return;
+  for (const double x :
+       to_message(tag_in(*output->fit), output->fit->garment, *output->model, output->solution).forces)
+    fuzz::require(std::isfinite(x));
+  bands_message(output->name, output->solution);
   for (const double x : output->fit->outer) fuzz::require(std::isfinite(x));
   for (const LineResult& line : output->fit->lines) fuzz::require(std::isfinite(line.tension));
 }
@@ -190,6 +212,7 @@ void fit_garment(fuzz::Input& input) {
   kept_garment(stage.kept(), "B1");
   if (const auto task = stage.add(ControlMesh::ConstPtr(control)))
     check_fit(stage.handle(*task, kGoOn, kSilent));
+  if (const auto task = stage.reset()) check_fit(stage.handle(*task, kGoOn, kSilent));
 }
 
 /// The fit of the unchanged bust: what a changed message is made of.
@@ -225,12 +248,94 @@ void carry_skin(fuzz::Input& input) {
   for (const float x : output.scan.deformed->distortion) fuzz::require(std::isfinite(x));
 }
 
+/// A mesh that comes with its model, or whose model fits nothing of it.
+void find_landmarks(fuzz::Input& input) {
+  static const LandmarksHandler fresh(Parameters(YAML::Load("{}"), "landmarks"));
+  LandmarksHandler stage = fresh;
+  const auto mesh = boost::make_shared<TriangleMesh>(body());
+  const auto model = boost::make_shared<BodyModel>(sound_model());
+  change(input, *mesh);
+  change(input, *model);
+  stage.add(BodyModel::ConstPtr(model));
+  const auto task = stage.add(TriangleMesh::ConstPtr(mesh));
+  if (!task) return;
+  const LandmarksHandler::Output output = stage.handle(*task);
+  for (const Landmark& point : output.landmarks->points)
+    for (const double x : point.position) fuzz::require(std::isfinite(x));
+}
+
+void lay_control(fuzz::Input& input) {
+  static const ControlMeshHandler fresh(Parameters(YAML::Load("{}"), "control_mesh"));
+  ControlMeshHandler stage = fresh;
+  const auto mesh = boost::make_shared<TriangleMesh>(body());
+  const auto landmarks = boost::make_shared<Landmarks>(to_message(ScanTag(), measures()));
+  const auto model = boost::make_shared<BodyModel>(sound_model());
+  change(input, *mesh);
+  change(input, *landmarks);
+  change(input, *model);
+  stage.add(BodyModel::ConstPtr(model));
+  stage.add(TriangleMesh::ConstPtr(mesh));
+  const auto task = stage.add(Landmarks::ConstPtr(landmarks));
+  if (!task) return;
+  for (const float x : stage.handle(*task).control->outer) fuzz::require(std::isfinite(x));
+}
+
+/// The bust as a second scan of itself; how a scan is measured is not this stage's.
+MeasuredScan measured_worn(const geometry::PointCloud& cloud) {
+  if (cloud.points.empty()) throw geometry::Refusal(geometry::refusal::kEmptyCloud, "no points");
+  const geometry::ControlMesh bust = tensegric::bust_mesh();
+  return {{bust.outer, bust.triangles}, std::vector<char>(bust.outer.size(), 0), measures()};
+}
+
+sensor_msgs::PointCloud2 worn_scan() {
+  sensor_msgs::PointCloud2 scan;
+  scan.width = scan.height = 1;
+  scan.point_step = scan.row_step = 12;
+  for (const char* name : {"x", "y", "z"}) {
+    sensor_msgs::PointField field;
+    field.name = name;
+    field.offset = static_cast<std::uint32_t>(4 * scan.fields.size());
+    field.datatype = sensor_msgs::PointField::FLOAT32;
+    field.count = 1;
+    scan.fields.push_back(field);
+  }
+  scan.data.assign(12, 0);
+  return scan;
+}
+
+void correlate_worn(fuzz::Input& input) {
+  CorrelationHandler stage(Parameters(YAML::Load("{}"), "correlation"), measured_worn);
+  const auto mesh = boost::make_shared<TriangleMesh>(body());
+  const auto landmarks = boost::make_shared<Landmarks>(to_message(ScanTag(), measures()));
+  const auto control = boost::make_shared<ControlMesh>(to_message(ScanTag(), tensegric::bust_mesh()));
+  const auto deformed = boost::make_shared<DeformedMesh>();
+  const auto worn = boost::make_shared<sensor_msgs::PointCloud2>(worn_scan());
+  mesh->scan_id = landmarks->scan_id = control->scan_id = deformed->scan_id = "bare";
+  deformed->vertices = mesh->vertices;
+  deformed->distortion.assign(mesh->vertices.size() / 3, 1);
+  change(input, *deformed);
+  change(input, *worn);
+  if (input.number(1) % 4 == 0) change(input, *mesh);
+  if (input.number(1) % 4 == 0) change(input, *landmarks);
+  if (input.number(1) % 4 == 0) change(input, *control);
+  if (input.number(1) % 8 == 0)
+    stage.add(sensor_msgs::PointCloud2::ConstPtr(worn), tag_of(*worn));  // too early
+  stage.add(TriangleMesh::ConstPtr(mesh));
+  stage.add(Landmarks::ConstPtr(landmarks));
+  stage.add(ControlMesh::ConstPtr(control));
+  stage.add(DeformedMesh::ConstPtr(deformed));
+  const auto task = stage.add(sensor_msgs::PointCloud2::ConstPtr(worn), tag_of(*worn));
+  if (!task) return;
+  const CorrelationHandler::Output output = stage.handle(*task);
+  for (const float x : output.correlation->distance) fuzz::require(std::isfinite(x));
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input(data, size);
-  const auto read =
-      std::array{read_mesh, read_landmarks, read_model, fit_garment, carry_skin}[input.number(1) % 5];
+  const auto read = std::array{read_mesh,  read_landmarks, read_model,  fit_garment,
+                               carry_skin, find_landmarks, lay_control, correlate_worn}[input.number(1) % 8];
   fuzz::refused_or_done([&] { read(input); });
   return 0;
 }

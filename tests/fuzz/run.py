@@ -1,38 +1,50 @@
 #!/usr/bin/env python3
 """Fuzzing with clang, libFuzzer, AddressSanitizer and UBSan: builds the targets in a folder of their own and runs each until its coverage
-has stood still. Resumable: the corpus that was found stays in --work.
+has stood still. Resumable: the corpus that was found, and how far each target is, stay in --work.
 
-Usage: tests/fuzz/run.py --work DIR [--still SECONDS] [--targets meshes,yaml,...]
+Usage: tests/fuzz/run.py --work DIR [--still SECONDS] [--targets meshes,yaml,...] [--results FILE] [--uncovered] [--no-build]
 
-Prints a line of JSON per target: executions, coverage of lines of what it tests, crashes (their inputs are in DIR/crashes)."""
+Prints a line of JSON per target: executions, coverage of lines of what it tests, crashes (their inputs are in DIR/crashes). Seconds
+are the processor's, so that other work on the machine does not make coverage stand still."""
 import argparse
 import json
 import os
 import pathlib
 import re
+import resource
 import subprocess
 import sys
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-CORPUS = ROOT / "tests/fuzz/corpus"
+CORPUS, DICTIONARIES = ROOT / "tests/fuzz/corpus", ROOT / "tests/fuzz/dictionaries"
 FLAGS = ("-g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined "
          "-fprofile-instr-generate -fcoverage-mapping")
 TESTED = {  # whose lines count
-    "meshes": ["nodes/mesh_files/obj.cpp", "nodes/mesh_files/stl.cpp", "nodes/mesh_files/gltf.cpp", "nodes/mesh_files/glb.cpp",
-               "nodes/mesh_files/read_mesh.cpp", "nodes/mesh_files/samples.cpp", "nodes/geometry/ply.cpp",
-               "nodes/scan_files/scan_file.cpp"],
-    "yaml": ["nodes/geometry/checked_yaml.cpp", "nodes/tensegric/garment.cpp", "nodes/control_mesh/load_template.cpp",
-             "nodes/control_mesh/shape_control.cpp", "nodes/fit/tissue_file.cpp"],
+    "bag": ["nodes/files/bag_structure.cpp", "nodes/files/message_layout.cpp", "nodes/ros/bag_check.cpp", "nodes/ros/bag_scans.cpp", "nodes/scan_files/bag_messages.cpp",
+            "nodes/scan_files/scan_bag.cpp"],
+    "capture": ["nodes/capture/capture_handler.cpp", "nodes/capture/capture_watch.cpp", "nodes/capture/stage_board.cpp",
+                "nodes/ros/stage_report_message.cpp"],
     "cloud": ["nodes/geometry/point_cloud.cpp"],
+    "manifest": ["nodes/batch/manifest.cpp", "nodes/files/csv.cpp", "nodes/fit/command_line.cpp"],
+    "meshes": ["nodes/mesh_files/obj.cpp", "nodes/mesh_files/stl.cpp", "nodes/mesh_files/gltf.cpp", "nodes/mesh_files/read_mesh.cpp",
+               "nodes/mesh_files/samples.cpp", "nodes/mesh_files/reading.cpp", "nodes/geometry/ply.cpp", "nodes/scan_files/pcd_file.cpp",
+               "nodes/scan_files/scan_file.cpp"],
     "messages": ["nodes/ros/body_messages.cpp", "nodes/ros/flat.hpp", "nodes/body_model/model_message.cpp", "nodes/tensegric/fit_messages.cpp",
-                 "nodes/tensegric/kept_garment_message.cpp", "nodes/tensegric/tensegric_handler.cpp",
-                 "nodes/tffd/tffd_handler.cpp"],
-    "bag": ["nodes/ros/bag_check.cpp", "nodes/ros/bag_scans.cpp", "nodes/scan_files/bag_messages.cpp", "nodes/scan_files/scan_bag.cpp"],
-    "manifest": ["nodes/batch/manifest.cpp", "nodes/files/csv.cpp"],
+                 "nodes/tensegric/kept_garment_message.cpp", "nodes/tensegric/tensegric_handler.cpp", "nodes/tffd/tffd_handler.cpp",
+                 "nodes/landmarks/landmarks_handler.cpp", "nodes/control_mesh/control_mesh_handler.cpp",
+                 "nodes/correlation/correlation_handler.cpp"],
+    "parameters": ["nodes/ros/parameters.cpp"],
+    "yaml": ["nodes/geometry/checked_yaml.cpp", "nodes/tensegric/garment.cpp", "nodes/control_mesh/load_template.cpp",
+             "nodes/control_mesh/shape_control.cpp", "nodes/fit/tissue_file.cpp", "nodes/depth_cameras/camera_poses.cpp"],
 }
 
 
-LONGEST = {"bag": 16384}  # bytes of an input: an empty bag has 4 kB
+LONGEST = {"bag": 16384, "yaml": 8192}  # bytes of an input: an empty bag has 4 kB, a template 4
+LEFT_OUT = {  # target -> source -> functions that no input of it can reach
+    "bag": {"nodes/scan_files/scan_bag.cpp": ["write_bag_scan"]},  # writes
+    "meshes": {"nodes/geometry/ply.cpp": ["ply_bytes", "write_ply_mesh"]},  # write
+}
 
 
 def build(folder, targets):
@@ -47,64 +59,115 @@ def program_of(folder, target):
 
 
 def run_round(program, target, work, seconds):
-    """One stretch of fuzzing: executions, edges covered, crashed."""
+    """One stretch of fuzzing: executions, edges covered, seconds of the processor, crashed."""
     found, crashes = work / "corpus" / target, work / "crashes"
     found.mkdir(parents=True, exist_ok=True)
     crashes.mkdir(exist_ok=True)
-    environment = dict(os.environ, LLVM_PROFILE_FILE=str(work / f"{target}.profraw"),
-                       ASAN_OPTIONS="detect_leaks=1:allocator_may_return_null=1", UBSAN_OPTIONS="print_stacktrace=1")
-    log = subprocess.run([program, found, CORPUS / target, f"-max_total_time={seconds}", "-timeout=10", "-rss_limit_mb=2048", "-malloc_limit_mb=1024",
-                          f"-max_len={LONGEST.get(target, 4096)}", "-print_final_stats=1", f"-artifact_prefix={crashes}/{target}-"], env=environment,
-                         capture_output=True, text=True, errors="replace", check=False)
+    environment = dict(os.environ, LLVM_PROFILE_FILE="/dev/null", ASAN_OPTIONS="detect_leaks=1:allocator_may_return_null=1",
+                       UBSAN_OPTIONS="print_stacktrace=1")
+    words = DICTIONARIES / f"{target}.dict"
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    log = subprocess.run([program, found, CORPUS / target, f"-max_total_time={seconds}", "-timeout=60", "-rss_limit_mb=2048", "-malloc_limit_mb=1024",
+                          f"-max_len={LONGEST.get(target, 4096)}", "-print_final_stats=1", "-reload=0", *([f"-dict={words}"] if words.exists() else []),
+                          f"-artifact_prefix={crashes}/{target}-"], env=environment, capture_output=True, text=True, errors="replace", check=False)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
     executions = int(re.search(r"number_of_executed_units: (\d+)", log.stderr)[1]) if "number_of_executed" in log.stderr else 0
     covered = [int(n) for n in re.findall(r" cov: (\d+)", log.stderr)]
     if log.returncode != 0:
         (crashes / f"{target}.log").write_text(log.stderr)
-    return executions, max(covered, default=0), log.returncode != 0
+    return executions, max(covered, default=0), after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, log.returncode != 0
 
 
-def line_coverage(program, target, work):
-    """Percent of the lines of what is tested, of the whole corpus."""
-    raw, data = work / f"{target}.profraw", work / f"{target}.profdata"
-    environment = dict(os.environ, LLVM_PROFILE_FILE=str(raw))
-    subprocess.run([program, "-runs=0", work / "corpus" / target, CORPUS / target], env=environment, capture_output=True, check=False)
-    subprocess.run(["llvm-profdata", "merge", "-sparse", raw, "-o", data], check=True)
+def lines_of(program, target, work):
+    """Of each file that is tested: line -> executions, with the whole corpus."""
+    found = work / "corpus" / target
+    found.mkdir(parents=True, exist_ok=True)
+    pattern, data = work / f"{target}-%m.profraw", work / f"{target}.profdata"
+    for old in work.glob(f"{target}-*.profraw"):
+        old.unlink()
+    environment = dict(os.environ, LLVM_PROFILE_FILE=str(pattern))
+    subprocess.run([program, "-runs=0", f"-max_len={LONGEST.get(target, 4096)}", found, CORPUS / target], env=environment,
+                   capture_output=True, check=False)
+    subprocess.run(["llvm-profdata", "merge", "-sparse", *work.glob(f"{target}-*.profraw"), "-o", data], check=True)
     libraries = [line.split()[2] for line in subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout.splitlines()
                  if "libtensegric_fit" in line]
     objects = [word for library in libraries for word in ("-object", library)]
-    sources = [ROOT / source for source in TESTED[target] if (ROOT / source).exists()]
-    export = subprocess.run(["llvm-cov", "export", "-summary-only", program, *objects, f"-instr-profile={data}", *sources],
-                            capture_output=True, text=True, check=True).stdout
-    lines = json.loads(export)["data"][0]["totals"]["lines"]
-    return round(100 * lines["covered"] / max(1, lines["count"]), 1)
+    sources = [ROOT / source for source in TESTED[target]]
+    command = ["llvm-cov", "export", program, *objects, f"-instr-profile={data}"]
+    lcov = subprocess.run([*command, "-format=lcov", *sources], capture_output=True, text=True, check=True).stdout
+    lines, source = {}, ""
+    for word, _, rest in (line.partition(":") for line in lcov.splitlines()):
+        if word == "SF":
+            source = str(pathlib.Path(rest).relative_to(ROOT))
+            lines[source] = {}
+        elif word == "DA":
+            number, count = map(int, rest.split(",")[:2])
+            lines[source][number] = count
+    for source, left in LEFT_OUT.get(target, {}).items():
+        for function in left:
+            for number in span_of(ROOT / source, function):
+                lines[source].pop(number, None)
+    return lines
+
+
+def span_of(source, function):
+    """Numbers of the lines of a function, from the line that has its name and ( to the next } in the first column."""
+    text = source.read_text(encoding="utf-8").splitlines()
+    first = next(i for i, line in enumerate(text) if function + "(" in line and not line.startswith(" "))
+    last = next(i for i in range(first, len(text)) if text[i].startswith("}"))
+    return range(first + 1, last + 2)
+
+
+def percent(lines):
+    counts = [count for of_file in lines.values() for count in of_file.values()]
+    return round(100 * sum(count > 0 for count in counts) / max(1, len(counts)), 1)
 
 
 def fuzz(program, target, work, still):
-    """Until nothing new was covered for so long."""
-    executions, best, quiet, crashed = 0, 0, 0, False
-    step = min(60, still)
-    while quiet < still and not crashed:
-        more, covered, crashed = run_round(program, target, work, step)
-        executions += more
-        quiet = 0 if covered > best else quiet + step
-        best = max(best, covered)
-    return {"target": target, "executions": executions, "edges": best, "lines_percent": line_coverage(program, target, work),
-            "crashed": crashed}
+    """Until nothing new was covered for so long; goes on from where it was stopped."""
+    path = work / f"{target}.json"
+    state = json.loads(path.read_text()) if path.exists() else {"executions": 0, "edges": 0, "quiet": 0, "processor_s": 0}
+    crashed = False
+    while state["quiet"] < still and not crashed:
+        more, covered, seconds, crashed = run_round(program, target, work, 300)
+        state["executions"] += more
+        state["processor_s"] = round(state["processor_s"] + seconds, 1)
+        state["quiet"] = 0 if covered > state["edges"] else round(state["quiet"] + seconds, 1)
+        state["edges"] = max(state["edges"], covered)
+        path.write_text(json.dumps(state))
+    return {"target": target, **state, "lines_percent": percent(lines_of(program, target, work)), "crashed": crashed}
+
+
+def show_uncovered(lines):
+    for source, of_file in lines.items():
+        missed = [number for number, count in sorted(of_file.items()) if count == 0]
+        print(f"{source}: {percent({source: of_file})} %; not reached: {' '.join(map(str, missed))}")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--work", type=pathlib.Path, required=True)
-    parser.add_argument("--still", type=int, default=900)
+    parser.add_argument("--still", type=int, default=900, help="seconds of the processor")
     parser.add_argument("--targets", default=",".join(TESTED))
+    parser.add_argument("--no-build", action="store_true", help="the targets are built")
+    parser.add_argument("--uncovered", action="store_true", help="only print which lines the corpus does not reach")
+    parser.add_argument("--results", type=pathlib.Path, help="file of JSON lines that results are added to")
     arguments = parser.parse_args()
     work, targets = arguments.work.resolve(), arguments.targets.split(",")
     work.mkdir(parents=True, exist_ok=True)
-    build(work / "build", targets)
+    if not arguments.no_build:
+        build(work / "build", targets)
     fine = True
     for target in targets:
-        result = fuzz(program_of(work / "build", target), target, work, arguments.still)
+        program = program_of(work / "build", target)
+        if arguments.uncovered:
+            show_uncovered(lines_of(program, target, work))
+            continue
+        result = fuzz(program, target, work, arguments.still)
         print(json.dumps(result), flush=True)
+        if arguments.results and not result["crashed"]:
+            with open(arguments.results, "a", encoding="utf-8") as file:
+                file.write(json.dumps(dict(result, date=time.strftime("%Y-%m-%d"))) + "\n")
         fine = fine and not result["crashed"]
     return 0 if fine else 1
 
