@@ -326,8 +326,8 @@ def topics():
         for file in files:
             if file.startswith("rviz/") != (who == "rviz"):
                 continue
-            for match, arguments in calls(source(file), r"\b(?:advertise|subscribe|keep|listen)"):
-                topic = topic_in(arguments[0])
+            for match, arguments in calls(source(file), r"\b(?:advertise|subscribe|subscribe_from|keep|listen)"):
+                topic = topic_in(arguments[match[0].startswith("subscribe_from")])  # it has the stage before its topic
                 if topic:
                     found.add((topic, "from" if match[0].startswith("advertise") else "to", who))
             kept = "|".join(re.findall(r"\bKeptPublisher<[\w:]+> (\w+)", source(file)) + ["markers", "polygon_mesh", "image"])

@@ -75,8 +75,8 @@ ControlMeshHandler::Output ControlMeshHandler::handle(const Input& input) const 
   std::optional<geometry::Refusal> first;
   for (const control_mesh::Template& pattern : patterns_) {
     try {
-      const auto laid =
-          control_mesh::fit_template(pattern, output.body, measures, options_, model ? &*model : nullptr);
+      const auto laid = control_mesh::fit_template_for_each(pattern, output.body, measures, options_,
+                                                            model ? &*model : nullptr);
       parts.push_back(laid.front());
       if (laid.size() > 1) coarse_parts.push_back(laid.back());
     } catch (const geometry::Refusal& refusal) {

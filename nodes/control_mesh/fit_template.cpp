@@ -209,10 +209,11 @@ geometry::ControlMesh refined(const Template& pattern, geometry::ControlMesh con
 
 }  // namespace
 
-std::vector<geometry::ControlMesh> fit_template(const Template& pattern, const geometry::TriangleMesh& body,
-                                                const geometry::BodyMeasures& measures,
-                                                const std::vector<Options>& options,
-                                                const body_model::RegisteredBody* model) {
+std::vector<geometry::ControlMesh> fit_template_for_each(const Template& pattern,
+                                                         const geometry::TriangleMesh& body,
+                                                         const geometry::BodyMeasures& measures,
+                                                         const std::vector<Options>& options,
+                                                         const body_model::RegisteredBody* model) {
   for (const Options& one : options) {
     geometry::check_option("control_triangles", one.control_triangles, kControlTriangles);
     geometry::check_option("thickness", one.thickness, kThickness);
@@ -256,7 +257,7 @@ std::vector<geometry::ControlMesh> fit_template(const Template& pattern, const g
 geometry::ControlMesh fit_template(const Template& pattern, const geometry::TriangleMesh& body,
                                    const geometry::BodyMeasures& measures, const Options& options,
                                    const body_model::RegisteredBody* model) {
-  return fit_template(pattern, body, measures, std::vector<Options>{options}, model).front();
+  return fit_template_for_each(pattern, body, measures, {options}, model).front();
 }
 
 }  // namespace tensegric_fit::control_mesh

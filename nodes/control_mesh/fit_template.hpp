@@ -31,9 +31,10 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
                                    const body_model::RegisteredBody* model = nullptr);
 
 /// One for each of `options`, all from the same nodes: coarse and fine meshes of one body.
-std::vector<geometry::ControlMesh> fit_template(const Template& pattern, const geometry::TriangleMesh& body,
-                                                const geometry::BodyMeasures& measures,
-                                                const std::vector<Options>& options,
-                                                const body_model::RegisteredBody* model = nullptr);
+std::vector<geometry::ControlMesh> fit_template_for_each(const Template& pattern,
+                                                         const geometry::TriangleMesh& body,
+                                                         const geometry::BodyMeasures& measures,
+                                                         const std::vector<Options>& options,
+                                                         const body_model::RegisteredBody* model = nullptr);
 
 }  // namespace tensegric_fit::control_mesh

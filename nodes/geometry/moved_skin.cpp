@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "geometry/carried_points.hpp"
 #include "geometry/section.hpp"
 
 namespace tensegric_fit::geometry {
@@ -68,17 +69,27 @@ std::optional<double> girth_change(const MovedSkin& skin, const std::vector<Vect
   return length_of(after, true) - length_of(before, true);
 }
 
-/// Mean rise along the body's z of the landmarks that were found.
-std::optional<double> rise(const std::vector<std::string>& names, const BodyMeasures& measures,
-                           const MovedSkin& skin) {
+/// How far each landmark that was found rises along the body's z, m.
+std::map<std::string, double> rises(const BodyMeasures& measures, const MovedSkin& skin) {
+  std::vector<Vector3d> before;
+  for (const Landmark& landmark : measures.landmarks) before.push_back(landmark.position);
+  const std::vector<Vector3d> after = carried(before, skin);
+  std::map<std::string, double> rises;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    rises[measures.landmarks[i].name] = (measures.body_from_scan.linear() * (after[i] - before[i])).z();
+  return rises;
+}
+
+/// Their mean.
+std::optional<double> mean_of(const std::map<std::string, double>& rises,
+                              const std::vector<std::string>& names) {
   double sum = 0;
   int found = 0;
-  for (const std::string& name : names) {
-    const Landmark* landmark = measures.find_landmark(name);
-    if (landmark == nullptr) continue;
-    sum += (measures.body_from_scan.linear() * (carried(landmark->position, skin) - landmark->position)).z();
-    ++found;
-  }
+  for (const std::string& name : names)
+    if (const auto rise = rises.find(name); rise != rises.end()) {
+      sum += rise->second;
+      ++found;
+    }
   return found == 0 ? std::nullopt : std::optional<double>(sum / found);
 }
 
@@ -90,12 +101,8 @@ double top(const std::vector<Vector3d>& vertices, const Eigen::Isometry3d& body_
 
 }  // namespace
 
-Vector3d carried(const Vector3d& point, const MovedSkin& skin) {
-  const std::vector<Vector3d>& vertices = skin.before.vertices;
-  const auto nearest = std::min_element(vertices.begin(), vertices.end(), [&](const auto& a, const auto& b) {
-    return (a - point).squaredNorm() < (b - point).squaredNorm();
-  });
-  return point + skin.after[nearest - vertices.begin()] - *nearest;
+std::vector<Vector3d> carried(const std::vector<Vector3d>& points, const MovedSkin& skin) {
+  return CarriedPoints(skin.before, SurfaceTree(skin.before), points).at(skin.after);
 }
 
 std::vector<Vector3d> tape_after(const MovedSkin& skin, const std::vector<Vector3d>& loop) {
@@ -139,9 +146,10 @@ std::optional<ChangedMeasure> bust_points_apart(const BodyMeasures& measures, co
   const Landmark *left = measures.find_landmark("bust_point_L"),
                  *right = measures.find_landmark("bust_point_R");
   if (!left || !right) return std::nullopt;
+  const std::vector<Vector3d> after = carried({left->position, right->position}, skin);
   return ChangedMeasure{{"bust_points", (left->position - right->position).norm(),
                          std::min(left->confidence, right->confidence), ""},
-                        (carried(left->position, skin) - carried(right->position, skin)).norm()};
+                        (after[0] - after[1]).norm()};
 }
 
 std::vector<ChangedMeasure> heights_after(const BodyMeasures& measures, const MovedSkin& skin) {
@@ -152,12 +160,13 @@ std::vector<ChangedMeasure> heights_after(const BodyMeasures& measures, const Mo
       {"hip", {"buttock_L", "buttock_R"}},
       {"crotch", {"crotch"}},
       {"neck", {"neck_front", "neck_back"}}};
+  const std::map<std::string, double> risen = rises(measures, skin);
   std::vector<ChangedMeasure> changed;
   for (const Measure& height : measures.heights) {
     changed.push_back({height, std::nullopt});
     const auto landmarks = kLandmarks.find(height.name);
     std::optional<double> change;
-    if (landmarks != kLandmarks.end()) change = rise(landmarks->second, measures, skin);
+    if (landmarks != kLandmarks.end()) change = mean_of(risen, landmarks->second);
     if (height.name == "stature")
       change = top(skin.after, measures.body_from_scan) - top(skin.before.vertices, measures.body_from_scan);
     if (change) changed.back().after = height.metres + *change;

@@ -17,8 +17,8 @@ struct MovedSkin {
   const std::vector<Eigen::Vector3d>& after;
 };
 
-/// The point displaced like the nearest vertex of the skin.
-Eigen::Vector3d carried(const Eigen::Vector3d& point, const MovedSkin& skin);
+/// The points displaced as the places of the skin nearest to them are. As a CarriedPoints that is used once.
+std::vector<Eigen::Vector3d> carried(const std::vector<Eigen::Vector3d>& points, const MovedSkin& skin);
 
 /// A girth's tape after the skin has moved: in the plane of `loop`, the tape before, round the skin that was
 /// inside it. Skin outside the tape before (arms, the other thigh, breasts overhanging their fold) counts

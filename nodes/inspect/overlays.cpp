@@ -71,7 +71,7 @@ bool Overlays::carry(const BodyView& body) {
   if (is_of(carried_, body)) return true;
   const geometry::SurfaceTree skin(body.mesh());
   const auto bound = [&](const std::vector<Eigen::Vector3d>& points) {
-    return CarriedPoints(body.mesh(), skin, points);
+    return geometry::CarriedPoints(body.mesh(), skin, points);
   };
   std::vector<Eigen::Vector3d> landmarks;
   for (const auto& landmark : measures_->value.landmarks) landmarks.push_back(landmark.position);
@@ -95,7 +95,7 @@ std::vector<Stroke> Overlays::tapes(const BodyView& body, double blend) {
   std::vector<Stroke> tapes;
   if (!carry(body)) return tapes;
   const std::vector<Eigen::Vector3d> vertices = body.vertices(blend);
-  for (const CarriedPoints& loop : carried_->loops) {
+  for (const geometry::CarriedPoints& loop : carried_->loops) {
     Stroke tape{loop.at(vertices), kSureColour};
     if (tape.points.empty()) continue;
     tape.points.push_back(tape.points.front());
@@ -107,8 +107,8 @@ std::vector<Stroke> Overlays::tapes(const BodyView& body, double blend) {
 std::vector<Stroke> Overlays::model(const BodyView& body, double blend) {
   if (!is_of(model_, body) || body.empty()) return {};
   if (!is_of(carried_model_, body))
-    carried_model_ = {body.scan_id(),
-                      CarriedPoints(body.mesh(), geometry::SurfaceTree(body.mesh()), model_->value.vertices)};
+    carried_model_ = {body.scan_id(), geometry::CarriedPoints(body.mesh(), geometry::SurfaceTree(body.mesh()),
+                                                              model_->value.vertices)};
   return model_strokes(model_->value, carried_model_->skin.at(body.vertices(blend), kModelLift));
 }
 

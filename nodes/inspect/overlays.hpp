@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "geometry/body_measures.hpp"
+#include "geometry/carried_points.hpp"
 #include "geometry/control_mesh.hpp"
 #include "inspect/body_view.hpp"
-#include "inspect/carried_points.hpp"
 #include "inspect/model_skin.hpp"
 #include "inspect/strokes.hpp"
 
@@ -69,13 +69,13 @@ class Overlays {
   };
   struct Carried {
     std::string scan_id;
-    CarriedPoints landmarks;
-    std::vector<CarriedPoints> loops;
+    geometry::CarriedPoints landmarks;
+    std::vector<geometry::CarriedPoints> loops;
   };
 
   struct CarriedModel {
     std::string scan_id;
-    CarriedPoints skin;
+    geometry::CarriedPoints skin;
   };
 
   bool carry(const BodyView& body);

@@ -88,12 +88,14 @@ ordered_json size_of(const FitFigures& figures, std::size_t which) {
 
 ordered_json body_of(const FitFigures& figures) {
   ordered_json landmarks = ordered_json::array(), missing = ordered_json::array();
-  for (const geometry::Landmark& landmark : figures.measures.landmarks)
-    landmarks.push_back(
-        {{"name", landmark.name},
-         {"before_mm", millimetres(landmark.position)},
-         {"after_mm", millimetres(geometry::carried(landmark.position, {figures.body, figures.deformed}))},
-         {"confidence", landmark.confidence}});
+  std::vector<Eigen::Vector3d> before;
+  for (const geometry::Landmark& landmark : figures.measures.landmarks) before.push_back(landmark.position);
+  const auto after = geometry::carried(before, {figures.body, figures.deformed});
+  for (std::size_t i = 0; i < before.size(); ++i)
+    landmarks.push_back({{"name", figures.measures.landmarks[i].name},
+                         {"before_mm", millimetres(before[i])},
+                         {"after_mm", millimetres(after[i])},
+                         {"confidence", figures.measures.landmarks[i].confidence}});
   for (const geometry::Missing& part : figures.measures.missing)
     missing.push_back({{"name", part.name}, {"reason", part.reason}});
   return {{"bra_size",

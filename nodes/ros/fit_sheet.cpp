@@ -11,8 +11,8 @@
 
 #include "files/html.hpp"
 #include "files/page_template.hpp"
+#include "geometry/carried_points.hpp"
 #include "geometry/shipped_files.hpp"
-#include "inspect/carried_points.hpp"
 #include "inspect/garment_titles.hpp"
 #include "inspect/page_view.hpp"
 #include "inspect/pressure_words.hpp"
@@ -169,7 +169,7 @@ nlohmann::json loops_of(const FitFigures& figures) {
   nlohmann::json loops = nlohmann::json::object();
   for (const geometry::GirthLoop& loop : figures.measures.loops) {
     const auto& frame = figures.measures.body_from_scan;
-    const inspect::CarriedPoints carried(figures.body, skin, loop.points);
+    const geometry::CarriedPoints carried(figures.body, skin, loop.points);
     loops[loop.name] = {{"before", points_of(loop.points, frame)},
                         {"after", points_of(carried.at(figures.deformed), frame)}};
   }

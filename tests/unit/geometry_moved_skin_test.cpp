@@ -116,7 +116,15 @@ TEST_F(MovedSkinTest, HeightsGoWhereTheirLandmarksGo) {
   EXPECT_NEAR(heights.at(1).after.value(), 1.42, 1e-12);  // and with it the highest vertex
 }
 
-TEST_F(MovedSkinTest, WhatCannotBeToldIsNotMadeUp) {
+TEST_F(MovedSkinTest, APointBetweenVerticesGoesAsFarAsItsPlaceOnTheSkin) {
+  const Eigen::Matrix3d shear = (Eigen::Matrix3d() << 0, 0, 0, 0, 0, 0, 0.1, 0.2, 0.05).finished();
+  const auto after = moved([&](const Vector3d& p) { return Vector3d(p + shear * p); });
+  const Eigen::Vector3i& t = mesh_.triangles[mesh_.triangles.size() / 2];
+  const Vector3d place = 0.5 * mesh_.vertices[t[0]] + 0.3 * mesh_.vertices[t[1]] + 0.2 * mesh_.vertices[t[2]];
+  EXPECT_LT((carried({place}, {mesh_, after}).at(0) - place - shear * place).norm(), 1e-12);
+}
+
+TEST_F(MovedSkinTest, WhatIsUnknownIsNotMadeUp) {
   const std::vector<Vector3d> after = mesh_.vertices;
   EXPECT_FALSE(girths_after(measures_, {mesh_, after}).at(1).after);   // no loop was drawn
   EXPECT_FALSE(heights_after(measures_, {mesh_, after}).at(2).after);  // no landmark of the waist

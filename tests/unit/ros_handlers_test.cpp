@@ -8,6 +8,7 @@
 
 #include "control_mesh/control_mesh_handler.hpp"
 #include "fit/bind_body.hpp"
+#include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
 #include "reconstruction/reconstruction_handler.hpp"
 #include "reconstruction/validate.hpp"
@@ -20,7 +21,6 @@
 namespace tensegric_fit::node {
 namespace {
 
-const std::string kGarments = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/garments";
 const auto kGoOn = [] { return true; };
 const auto kSilent = [](const FitState&) {};
 
@@ -151,7 +151,8 @@ class TensegricHandlerTest : public testing::Test {
   /// One whose garment needs no more than the test's bust has.
   TensegricHandler handler(const std::string& more = "") const {
     return TensegricHandler(
-        Parameters(YAML::Load("{garment_directory: " + kGarments + (more.empty() ? "" : ", " + more) + "}"),
+        Parameters(YAML::Load("{garment_directory: " + geometry::shipped_folder("garments") +
+                              (more.empty() ? "" : ", " + more) + "}"),
                    "tensegric"),
         fit::bind_body);
   }

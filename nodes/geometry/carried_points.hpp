@@ -7,7 +7,7 @@
 #include "geometry/surface_tree.hpp"
 #include "geometry/triangle_mesh.hpp"
 
-namespace tensegric_fit::inspect {
+namespace tensegric_fit::geometry {
 
 /// Each point keeps its place in the triangle of the mesh at rest that is nearest to it, and its offset from
 /// that place.
@@ -15,7 +15,7 @@ class CarriedPoints {
  public:
   CarriedPoints() = default;
   /// `skin` is the tree of `rest`. Metres, one frame.
-  CarriedPoints(const geometry::TriangleMesh& rest, const geometry::SurfaceTree& skin,
+  CarriedPoints(const TriangleMesh& rest, const SurfaceTree& skin,
                 const std::vector<Eigen::Vector3d>& points);
 
   /// Where they are once the mesh's vertices are at `vertices`, `lift` metres above the skin, for what would
@@ -30,4 +30,4 @@ class CarriedPoints {
   std::vector<Place> places_;
 };
 
-}  // namespace tensegric_fit::inspect
+}  // namespace tensegric_fit::geometry
