@@ -37,8 +37,9 @@ class LostMessages {
     came_ = came_ || scan_id == sent_;
   }
 
-  /// Of a state on the way to the result of that scan: has the result overtaken it? It would take the result's
-  /// place. States on the way to another result of the scan follow a report that the stage works on it.
+  /// Of a state on the way to the result of that scan: has the result overtaken it? It would take the
+  /// result's place. States on the way to another result of the scan follow a report that the stage works on
+  /// it.
   bool is_late(const std::string& scan_id) const { return reports_ && ended_ && scan_id == heard_; }
 
   /// A message of a scan before the one whose message has come; or of one that the stage before does once
