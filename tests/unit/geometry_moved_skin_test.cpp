@@ -119,7 +119,7 @@ TEST_F(MovedSkinTest, HeightsGoWhereTheirLandmarksGo) {
 TEST_F(MovedSkinTest, APointBetweenVerticesGoesAsFarAsItsPlaceOnTheSkin) {
   const Eigen::Matrix3d shear = (Eigen::Matrix3d() << 0, 0, 0, 0, 0, 0, 0.1, 0.2, 0.05).finished();
   const auto after = moved([&](const Vector3d& p) { return Vector3d(p + shear * p); });
-  const Eigen::Vector3i& t = mesh_.triangles[mesh_.triangles.size() / 2];
+  const Eigen::Vector3i& t = mesh_.triangles[mesh_.triangles.size() / 6];  // of the trunk
   const Vector3d place = 0.5 * mesh_.vertices[t[0]] + 0.3 * mesh_.vertices[t[1]] + 0.2 * mesh_.vertices[t[2]];
   EXPECT_LT((carried({place}, {mesh_, after}).at(0) - place - shear * place).norm(), 1e-12);
 }
