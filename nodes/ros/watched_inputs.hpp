@@ -37,7 +37,8 @@ class WatchedInputs {
   explicit WatchedInputs(const ros::NodeHandle& node, OnLost on_lost = {})
       : node_(node),
         on_lost_(std::move(on_lost)),
-        reports_(node_.subscribe("/diagnostics", 100, &WatchedInputs::hear_reports, this)),
+        reports_(node_.subscribe("/diagnostics", 100, &WatchedInputs::hear_reports, this,
+                                 ros::TransportHints().tcpNoDelay())),  // not after what they announce
         watch_(node.createWallTimer(ros::WallDuration(kSeconds),
                                     [this](const ros::WallTimerEvent&) { look(); })) {}
   WatchedInputs(const WatchedInputs&) = delete;
