@@ -15,6 +15,7 @@ class LostMessages {
 
   /// The stage before is done with that scan: its message is on its way.
   void sent(const std::string& scan_id, double now) {
+    reports_ = true;
     if (scan_id == sent_) return;
     before_.push_back(sent_);
     if (before_.size() > kRemembered) before_.pop_front();
@@ -24,10 +25,22 @@ class LostMessages {
     tries_ = 0;
   }
 
+  /// The stage before has begun to work on that scan, or is at it.
+  void working(const std::string& scan_id) {
+    reports_ = true;
+    if (scan_id == heard_) ended_ = false;
+  }
+
   void heard(const std::string& scan_id) {
     heard_ = scan_id;
+    ended_ = true;
     came_ = came_ || scan_id == sent_;
   }
+
+  /// Of a state on the way to the result of that scan: has the result overtaken it? It would take the
+  /// result's place. States on the way to another result of the scan follow a report that the stage works on
+  /// it.
+  bool is_late(const std::string& scan_id) const { return reports_ && ended_ && scan_id == heard_; }
 
   /// A message of a scan before the one whose message has come; or of one that the stage before does once
   /// more, which its next report says.
@@ -52,6 +65,8 @@ class LostMessages {
   std::string sent_, heard_;
   std::deque<std::string> before_;  // sent before sent_
   bool came_ = false;               // the message of sent_
+  bool ended_ = false;              // heard_ was the last thing that the stage before made of its scan
+  bool reports_ = false;            // the stage before says what it does
   double since_ = 0;
   int tries_ = 0;
 };

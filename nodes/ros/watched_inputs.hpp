@@ -29,7 +29,7 @@ namespace tensegric_fit::node {
 /// A message can also be lost between two stages, by a proxy or a bridge in between: the stage before says on
 /// /diagnostics that it is done with a scan, and nothing of that scan comes. Then, too, the subscription is
 /// made anew, and if that does not help either, the scan is refused by name (`lost_message`). A message that
-/// the next scan's has overtaken there is not taken.
+/// the next scan's has overtaken there is not taken, nor a state on the way to a result that has come.
 class WatchedInputs {
  public:
   using OnLost = std::function<void(const std::string& scan_id, const geometry::Refusal& refusal)>;
@@ -37,7 +37,8 @@ class WatchedInputs {
   explicit WatchedInputs(const ros::NodeHandle& node, OnLost on_lost = {})
       : node_(node),
         on_lost_(std::move(on_lost)),
-        reports_(node_.subscribe("/diagnostics", 100, &WatchedInputs::hear_reports, this)),
+        reports_(node_.subscribe("/diagnostics", 100, &WatchedInputs::hear_reports, this,
+                                 ros::TransportHints().tcpNoDelay())),  // not after what they announce
         watch_(node.createWallTimer(ros::WallDuration(kSeconds),
                                     [this](const ros::WallTimerEvent&) { look(); })) {}
   WatchedInputs(const WatchedInputs&) = delete;
@@ -60,7 +61,10 @@ class WatchedInputs {
     const auto late = std::make_shared<Late>();
     const auto take = [losses, late, method, node](const boost::shared_ptr<const Message>& message) {
       const auto give = [losses, method, node, message] {
-        if (!is_passing(*message, 0)) losses->heard(message->scan_id);
+        if (!is_passing(*message, 0))
+          losses->heard(message->scan_id);
+        else if (losses->is_late(message->scan_id))
+          return;
         (node->*method)(message);
       };
       if (losses->is_overtaken(message->scan_id))
@@ -125,9 +129,12 @@ class WatchedInputs {
   void hear_reports(const diagnostic_msgs::DiagnosticArray::ConstPtr& array) {
     for (const diagnostic_msgs::DiagnosticStatus& status : array->status) {
       const auto report = stage_report_in(status, node_.getNamespace());
-      if (!report || report->state != "done") continue;
-      for (Input& input : inputs_)
-        if (input.losses && input.from == report->stage) look_for_loss(input, report->scan_id);
+      if (!report) continue;
+      for (Input& input : inputs_) {
+        if (!input.losses || input.from != report->stage) continue;
+        if (report->state == "working") input.losses->working(report->scan_id);
+        if (report->state == "done") look_for_loss(input, report->scan_id);
+      }
     }
   }
 

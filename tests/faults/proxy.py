@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Messages dropped, delayed and reordered between the stages of one launched chain (proxied_booth.launch, unreliable.py).
 
-Usage: build/devel/env.sh python3 tests/faults/proxy.py --work DIR [--scans 200] [--share 0.01] [--seed 1]
+Usage: build/devel/env.sh python3 tests/faults/proxy.py --work DIR [--scans 200] [--share 0.01] [--seed 1] [--late-states]
 
 Scans one after the other. Each must have the result that it has without faults, to the bit, or a message of it be named as lost on
-/diagnostics (a result without the registered model is another one); no result is another scan's. A line of JSON per scan in DIR/proxy.jsonl, which a later run goes on from. Exit: 0 all hold, 1 otherwise."""
+/diagnostics (a result without the registered model is another one); no result is another scan's. A line of JSON per scan in DIR/proxy.jsonl, which a later run goes on from. With
+--late-states nothing is lost, but of each fit the last state on the way to it is sent after it: each scan must have its right result. Exit: 0 all hold, 1 otherwise."""
 import argparse
 import json
 import os
@@ -24,12 +25,14 @@ from graph import BODIES, PATIENCE, STAGES, Shop, bodies_in
 from launched import free_port, wait_until
 
 SETTLED = 3  # seconds after which no late result of a scan comes
+LATE_STATES = "late_states"  # as unreliable.py has it
 
 
 class Chain:
     """The launched chain and its unreliable ways. Context manager."""
 
     def __init__(self, work, bodies, seed, share):
+        """`share` of the messages are lost; or LATE_STATES"""
         self.work, self.bodies, self.seed, self.share = work, bodies, seed, share
         self.port, self.events, self.processes, self.shop = free_port(), [], [], None
 
@@ -37,7 +40,8 @@ class Chain:
         self.log = open(self.work / "proxy.log", "a", encoding="utf-8")
         environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{self.port}", ROS_HOSTNAME="localhost")
         try:
-            self.processes.append(subprocess.Popen(["roslaunch", "-p", str(self.port), HERE / "proxied_booth.launch"], stdout=self.log,
+            often = ["progress_period:=0.001"] if self.share == LATE_STATES else []
+            self.processes.append(subprocess.Popen(["roslaunch", "-p", str(self.port), HERE / "proxied_booth.launch", *often], stdout=self.log,
                                                    stderr=self.log, env=environment, start_new_session=True))
             wait_until(lambda: subprocess.run(["rosnode", "list"], capture_output=True, env=environment, check=False).returncode == 0,
                        "the master", PATIENCE)
@@ -130,15 +134,22 @@ def main():
     parser.add_argument("--scans", type=int, default=200)
     parser.add_argument("--share", type=float, default=0.01)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--late-states", action="store_true")
+    parser.add_argument("--anew", action="store_true", help="do the scans that are there again")
     arguments = parser.parse_args()
     work = arguments.work.resolve()
     work.mkdir(parents=True, exist_ok=True)
-    path, bodies = work / "proxy.jsonl", bodies_in(work)
+    path, bodies = work / ("late_states.jsonl" if arguments.late_states else "proxy.jsonl"), bodies_in(work)
+    if arguments.anew:
+        path.unlink(missing_ok=True)
     rows = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()] if path.exists() else []
     right = right_results(work, bodies)
-    with Chain(work, bodies, f"{arguments.seed} {len(rows)}", arguments.share) as chain, open(path, "a", encoding="utf-8") as file:
+    share = LATE_STATES if arguments.late_states else arguments.share
+    with Chain(work, bodies, f"{arguments.seed} {len(rows)}", share) as chain, open(path, "a", encoding="utf-8") as file:
         for case in range(len(rows), arguments.scans):
             rows.append(scan(chain, case, right))
+            if arguments.late_states:
+                rows[-1]["fine"] &= rows[-1]["result"] == "right" and len(rows[-1]["events"]) == 1
             file.write(json.dumps(rows[-1]) + "\n")
             file.flush()
             if rows[-1]["events"] or not rows[-1]["fine"]:

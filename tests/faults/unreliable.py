@@ -1,6 +1,7 @@
 """The way between the stages of proxied_booth.launch, on which messages get lost, late, and out of order.
 
 Usage: unreliable.py SEED SHARE        SHARE of the messages are dropped, as many delayed, as many sent after the next one of their topic
+       unreliable.py SEED late_states  the last state on the way to a fit is sent after the fit, all else as it comes
 
 Each input of a stage is a way of its own, so that stages miss different messages. A line of JSON on standard output for each message
 that something happens to."""
@@ -24,7 +25,8 @@ class Way:
         self.name, self.dice, self.share = f"{stage} {topic}", dice, share
         self.lock, self.held = threading.Lock(), []
         self.publisher = rospy.Publisher(f"/left/unreliable/{stage}/{topic}", TYPES[topic], queue_size=8, latch=True)
-        rospy.Subscriber(f"/left/{topic}", TYPES[topic], self.carry)
+        carry = self.carry if share > 0 else self.carry_states_late if TYPES[topic] is FitState else self.publisher.publish
+        rospy.Subscriber(f"/left/{topic}", TYPES[topic], carry)
 
     def carry(self, message):
         with self.lock:
@@ -43,6 +45,17 @@ class Way:
                 while self.held:
                     self.publisher.publish(self.held.pop(0))
 
+    def carry_states_late(self, message):
+        with self.lock:
+            if message.status == FitState.SOLVING:
+                self.held = [message]
+                return
+            self.publisher.publish(message)
+            for held in self.held:
+                self.tell("held", held)
+                self.publisher.publish(held)
+            self.held = []
+
     def let_go(self, message):
         with self.lock:
             if any(held is message for held in self.held):
@@ -54,7 +67,7 @@ class Way:
 
 
 def main():
-    seed, share = sys.argv[1], float(sys.argv[2])
+    seed, share = sys.argv[1], 0 if sys.argv[2] == "late_states" else float(sys.argv[2])
     rospy.init_node("unreliable", disable_signals=True)
     ways = [Way(stage, topic, random.Random(f"{seed} {stage} {topic}"), share) for stage, topics in INPUTS.items() for topic in topics]
     print(json.dumps({"ways": len(ways)}), flush=True)

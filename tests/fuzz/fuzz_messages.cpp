@@ -207,6 +207,11 @@ void fit_garment(fuzz::Input& input) {
   request.lines = {"chest"};
   request.ratios = {0.9};
   change_all(input, request.lines, request.ratios);
+  if (input.number(1) % 2 != 0) {  // a first answer
+    const auto coarse = boost::make_shared<ControlMesh>(to_message(ScanTag(), tensegric::bust_mesh()));
+    change(input, *coarse);
+    stage.add_coarse(coarse);
+  }
   stage.add(TriangleMesh::ConstPtr(skin));
   stage.put_on(request);
   kept_garment(stage.kept(), "B1");

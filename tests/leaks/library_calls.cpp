@@ -1,7 +1,9 @@
-/// What the libraries that we use keep of each call: bytes of the heap (mallinfo2) after N calls and after 2
-/// N, of the same input. library_calls
-/// [--calls N] [--only NAME] [--work DIR]. Exits with 1 where a call that is not known to leak keeps more
-/// than kNothing.
+/// What the libraries that we use keep of each call: bytes of the heap (mallinfo2) after N calls and after
+/// 2 N, of the same input.
+///
+///     library_calls [--calls N] [--only NAME] [--work DIR]
+///
+/// Exits with 1 where a call that is not known to leak keeps more than kNothing.
 #include <fmt/format.h>
 #include <malloc.h>
 #include <pcl/PolygonMesh.h>
@@ -36,6 +38,7 @@ using namespace tensegric_fit;
 using geometry::TriangleMesh;
 
 constexpr double kNoise = 16384;  // bytes in all: by what the heap differs with the same content
+constexpr int kSamples = 2000;    // points of a surface that was read
 constexpr double kNothing = 16;   // bytes a call: what is left of the heap's own books
 
 /// A ball of 0.3 m, `count` vertices from pole to pole.
@@ -146,9 +149,13 @@ std::vector<Call> calls_in(const std::filesystem::path& folder) {
   sensor_msgs::CameraInfo info;
   const sensor_msgs::Image image = depth_image(info);
   return {
-      {"ply", "PCL (PLYReader)", [=] { scan_files::read_scan_file(ply); }},
+      {"ply", "PCL (PLYReader)", [=] { scan_files::read_scan_file(ply, kSamples); }},
       {"pcd", "PCL (PCDReader)", [=] { scan_files::read_scan_file(pcd); }},
-      {"obj, stl", "ours", [=] { scan_files::read_scan_file(obj), scan_files::read_scan_file(stl); }},
+      {"obj, stl", "ours",
+       [=] {
+         scan_files::read_scan_file(obj, kSamples);
+         scan_files::read_scan_file(stl, kSamples);
+       }},
       {"poisson in this process, depth 6", "PCL (Poisson)", [=] { poisson_here(cloud, 6); }, true},
       {"poisson, as we call it", "PCL in a child process",
        [=] { reconstruction::PoissonWorker().surface(cloud, 6); }},

@@ -63,5 +63,26 @@ TEST(LostMessages, AMessageThatTheNextScansOvertookIsKnown) {
   EXPECT_FALSE(input.is_overtaken("a"));
 }
 
+TEST(LostMessages, AStateOnTheWayToAResultThatHasComeIsLate) {
+  LostMessages input;
+  input.working("a");
+  EXPECT_FALSE(input.is_late("a"));
+  input.heard("a");
+  EXPECT_TRUE(input.is_late("a"));
+  EXPECT_FALSE(input.is_late("b"));
+  input.sent("a", 10);
+  EXPECT_TRUE(input.is_late("a"));
+  input.working("a");  // another garment
+  EXPECT_FALSE(input.is_late("a"));
+  input.heard("a");
+  EXPECT_TRUE(input.is_late("a"));
+}
+
+TEST(LostMessages, NothingIsLateOfAStageThatDoesNotReport) {
+  LostMessages input;
+  input.heard("a");
+  EXPECT_FALSE(input.is_late("a"));
+}
+
 }  // namespace
 }  // namespace tensegric_fit::node
