@@ -3,4 +3,4 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 "$root/launch/build.sh"
-ctest --test-dir "$root/build" --output-on-failure -j2 "$@"  # two at a time: most of them wait for nodes
+ctest --test-dir "$root/build" --output-on-failure -j "$(($(nproc) + 1))" "$@"  # one more than cores: some wait for nodes

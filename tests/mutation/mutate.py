@@ -2,12 +2,13 @@
 """Mutation testing: applies small random changes to the cores, one at a time, and sees whether unit tests notice.
 
     tests/mutation/mutate.py CLONE --count 300 --results tests/mutation/results.jsonl
+    tests/mutation/mutate.py CLONE --again --results tests/mutation/results.jsonl    # survivors, against the tests of today
     tests/mutation/mutate.py --report tests/mutation/results.jsonl
 
 CLONE is a clean clone of its own, built in CLONE/build; its sources are changed and put back. Each mutant is one line
 of the results: started again, the program does only what is missing. A mutant is killed where a unit test of its room
 fails, crashes or takes more than TIMES_AS_LONG times what it takes without it. Mutants that do not compile are not
-counted.
+counted. A survivor that tests written since have killed keeps its first verdict, too (`at_first`).
 """
 import argparse
 import collections
@@ -36,6 +37,7 @@ SWAPS = {
 NUMBER = re.compile(r'(?<![\w.])(\d+\.\d*(?:e-?\d+)?|\d+)(?![\w.])')
 STATEMENT = re.compile(r'^\s+[\w.\[\]()>-]+ [-+*/]?= [^;]*;$|^\s+[\w.>-]+\([^;]*\);$')
 TIMES_AS_LONG, AT_LEAST = 5, 10  # seconds
+FIRST_COMMIT = 'e1bcfde'  # of results that do not name theirs
 
 
 def code_of(line):
@@ -165,15 +167,46 @@ def campaign(clone, results, count, seed):
         run(build_of(clone, room))
 
 
+def place_today(clone, mutant):
+    """The mutant where its line stands now; None where there is no such line any more."""
+    path = f"nodes/{mutant['room']}/{mutant['file']}"
+    then = subprocess.run(['git', '-C', clone, 'show', f"{mutant.get('commit', FIRST_COMMIT)}:{path}"], capture_output=True, text=True)
+    if then.returncode != 0 or not (clone / path).exists():
+        return None
+    line = then.stdout.split('\n')[mutant['line'] - 1]
+    same = [number for number, text in enumerate((clone / path).read_text().split('\n'), 1) if text == line]
+    return dict(mutant, line=min(same, key=lambda number: abs(number - mutant['line']))) if same else None
+
+
+def try_again(clone, results):
+    mutants = [json.loads(line) for line in results.read_text().splitlines()]
+    commit = subprocess.check_output(['git', '-C', clone, 'rev-parse', '--short', 'HEAD'], text=True).strip()
+    for room in ROOMS:
+        survivors = [m for m in mutants if m['room'] == room and m['verdict'] == 'survived' and m.get('tried_again') != commit]
+        tests = baseline(clone, room) if survivors else []
+        for mutant in survivors:
+            today = place_today(clone, mutant)
+            mutant['tried_again'] = commit
+            if today:
+                verdict = verdict_on(clone, today, tests)
+                if verdict.startswith('killed'):
+                    mutant.update(verdict=verdict, at_first='survived')
+            else:
+                mutant['note'] = 'its line is gone'
+            results.write_text(''.join(json.dumps(m) + '\n' for m in mutants))
+        run(build_of(clone, room))
+
+
 def report(results):
     mutants = [json.loads(line) for line in results.read_text().splitlines()]
     mutants = [m for m in mutants if m['verdict'] != 'does not compile']
-    print('| room | mutants | killed | share |\n| --- | --- | --- | --- |')
+    print('| room | mutants | killed at first | killed | share |\n| --- | --- | --- | --- | --- |')
     for room in [*ROOMS, 'all']:
         of_room = [m for m in mutants if room in ('all', m['room'])]
         killed = sum(m['verdict'].startswith('killed') for m in of_room)
         if of_room:
-            print(f'| {room} | {len(of_room)} | {killed} | {100 * killed / len(of_room):.0f} % |')
+            at_first = killed - sum('at_first' in m for m in of_room)
+            print(f'| {room} | {len(of_room)} | {at_first} | {killed} | {100 * killed / len(of_room):.0f} % |')
     print('\nSurvivors:\n')
     for m in sorted(mutants, key=lambda m: (m['room'], m['file'], m['line'])):
         if m['verdict'] == 'survived':
@@ -187,12 +220,14 @@ def main():
     parser.add_argument('--results', type=pathlib.Path)
     parser.add_argument('--count', type=int, default=300)
     parser.add_argument('--seed', type=int, default=1)
+    parser.add_argument('--again', action='store_true', help='only try survivors again')
     parser.add_argument('--report', type=pathlib.Path, help='results to be summed up')
     asked = parser.parse_args()
     if asked.report:
         report(asked.report)
     elif asked.clone and asked.results:
-        campaign(asked.clone.resolve(), asked.results.resolve(), asked.count, asked.seed)
+        clone, results = asked.clone.resolve(), asked.results.resolve()
+        try_again(clone, results) if asked.again else campaign(clone, results, asked.count, asked.seed)
     else:
         parser.error('either CLONE and --results, or --report')
 

@@ -129,6 +129,22 @@ TEST(BustTemplate, MayLieOnTheBodyModel) {
             std::string::npos);
 }
 
+TEST(BustTemplate, ANodeHasOnePlace) {
+  const std::string level = "level: {landmark: bust_point_L}, ",
+                    angle = "angle: {landmark: axilla_L, offset: -5}, ";
+  const auto refusal = [&](const std::string& by) { return refusal_with(kBust, level + angle, by); };
+  EXPECT_NE(refusal(level).find("'level' and 'angle' go together"), std::string::npos);
+  EXPECT_NE(refusal(angle).find("'level' and 'angle' go together"), std::string::npos);
+  for (const std::string& other : {level, angle, level + angle})
+    EXPECT_NE(refusal("landmark: underbust_L, " + other).find("'landmark' excludes 'level' and 'angle'"),
+              std::string::npos);
+}
+
+TEST(BustTemplate, RefusesARegionByItsPlace) {
+  EXPECT_NE(refusal_with(kBust, "{name: bust, rows: [0, 6]", "{name: bust, rows: [0, 7]").find("region 1"),
+            std::string::npos);
+}
+
 TEST(BustTemplate, RefusesAFileThatIsNotThere) {
   try {
     control_mesh::load_template("no_such_template.yaml");

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "geometry/status.hpp"
+#include "refusal_of.hpp"
 
 namespace tensegric_fit::tensegric {
 namespace {
@@ -129,6 +130,18 @@ TEST(Garment, ShippedGarmentsAreRead) {
     EXPECT_EQ(g.regions, std::vector<std::string>{"bust"});
     EXPECT_FALSE(g.lines.empty());
   }
+}
+
+TEST(Garment, ARatioIsThatOfOneLineOrOfAll) {
+  Garment g = take_garment("B4", std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/garments");
+  ASSERT_GT(g.lines.size(), 1u);
+  set_ratio(g, "", 0.93);
+  for (const GarmentLine& line : g.lines) EXPECT_EQ(line.ratio, 0.93);
+  set_ratio(g, g.lines[0].name, 0.91);
+  EXPECT_EQ(g.lines[0].ratio, 0.91);
+  for (std::size_t i = 1; i < g.lines.size(); ++i) EXPECT_EQ(g.lines[i].ratio, 0.93);
+  EXPECT_EQ(refusal_of([&] { set_ratio(g, "hem", 0.9); }), "unknown_line");
+  EXPECT_EQ(refusal_of([&] { set_ratio(g, "", 1e3); }), "bad_garment");
 }
 
 TEST(Garment, SeveralAreWornAtOnce) {

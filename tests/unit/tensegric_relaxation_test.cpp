@@ -108,6 +108,18 @@ TEST_F(Relaxation, ForcesTooGreatAreReportedAndStayFinite) {
   }
 }
 
+TEST_F(Relaxation, AShapeThatIsThrownFarAwayHasDiverged) {
+  for (SolverName solver : {SolverName::relaxation, SolverName::adaptive}) {
+    SolverOptions options;
+    options.solver = solver;
+    options.gravity = {0, 0, -1e4};
+    const Solution s = solve(model, chest(0.95), options);
+    EXPECT_EQ(s.status, Status::diverged) << to_string(s.status);
+    EXPECT_LT(s.iterations, 50);
+    EXPECT_TRUE(is_finite(s.outer) && is_finite(s.inner));
+  }
+}
+
 TEST_F(Relaxation, CapIsKeptAndHistoryIsFull) {
   SolverOptions options;
   options.solver = SolverName::relaxation;

@@ -225,6 +225,7 @@ TEST(UnderConstriction, SkinUnderTheLine) {
     EXPECT_TRUE(!is_in || off <= kHeldSkin + kSide) << v;
   }
   EXPECT_NEAR(found[0].area, 2 * kHeldSkin * 0.2, 0.2 * 2 * kHeldSkin * 0.2);
+  EXPECT_EQ(under_constricted_skin({found[0], found[0]}), skin);  // each vertex once
 }
 
 }  // namespace
