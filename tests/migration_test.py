@@ -6,7 +6,7 @@ import tempfile
 import unittest
 
 import rosbag
-from tensegric_fit.msg import FitWarning, FitWarnings
+from tensegric_fit.msg import BodyModel, FitWarning, FitWarnings
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DATA, RULES = ROOT / "tests" / "data", sorted((ROOT / "launch" / "migration").glob("*.bmr"))
@@ -41,6 +41,16 @@ class Migration(unittest.TestCase):
             self.assertEqual((warning.area, warning.shelf_area, warning.value), (0.0004, 0.0002, 1.1))
             self.assertEqual((notice.code, notice.lack), (FitWarning.UNDER_CONSTRICTED, "slack"))
             self.assertEqual(notice.message, "The line chest is slack.")
+
+    def test_body_models_without_the_grounds_deviation(self):
+        with tempfile.TemporaryDirectory() as folder:
+            messages = fixed(DATA / "body_model_of_2026-11-25.bag", folder)
+        self.assertEqual([topic for topic, _ in messages], ["body/model"])
+        [(_, model)] = messages
+        self.assertEqual(model._md5sum, BodyModel._md5sum)
+        self.assertEqual((model.scan_id, model.header.frame_id, model.header.stamp.secs), ("1000000007.000000000-5dd72cc5", "booth", 1000000007))
+        self.assertEqual((model.ground, model.ground_deviation, model.scale, model.scanned), (0.003, 0, 1.02, True))
+        self.assertEqual((model.turns, model.off, model.mesh_parts, model.parts), ((0.1, 0.2, 0.3), (0.25, 0.5), b"\x00\xff", ["head"]))
 
 
 if __name__ == "__main__":

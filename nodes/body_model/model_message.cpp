@@ -45,8 +45,9 @@ void check_numbers(const BodyModel& message) {
   check_finite(message.rotation, "rotation");
   check_finite(message.position, "position");
   check_finite(message.up, "up");
-  check_finite(std::initializer_list<double>{message.residual, message.ground, message.scale},
-               "residual, ground or scale");
+  check_finite(std::initializer_list<double>{message.residual, message.ground, message.ground_deviation,
+                                             message.scale},
+               "residual, ground, its deviation or scale");
 }
 
 void check_sizes(const BodyModel& message, const body_model::Model& model) {
@@ -94,6 +95,7 @@ BodyModel to_message(const ScanTag& tag, const RegisteredBody& body,
   message.stature = body.stature();
   Eigen::Vector3d::Map(message.up.data()) = body.vertical;
   message.ground = body.ground;
+  message.ground_deviation = body.ground_deviation;
   Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(message.rotation.data()) = parameters.rotation;
   Eigen::Vector3d::Map(message.position.data()) = parameters.position;
   message.scale = std::exp(parameters.log_scale);
@@ -137,6 +139,8 @@ RegisteredBody registered_in(const BodyModel& message,
   body.vertical = vector_in(message.up);
   check(std::abs(body.vertical.norm() - 1) < kUnit, "its `up` is no unit vector");
   body.ground = message.ground;
+  check(message.ground_deviation >= 0, "its ground has a deviation below 0");
+  body.ground_deviation = message.ground_deviation;
   return body;
 }
 

@@ -50,7 +50,8 @@ Standing load_standing(const std::string& path) {
     return geometry::number_in(root, key, -5, 5, path, kCode) * M_PI / 180;
   };
   const auto metres = [&](const char* key) { return geometry::number_in(root, key, 0, 0.02, path, kCode); };
-  return {degrees("forwards"), degrees("sideways"), degrees("along"), metres("seen"), metres("soles")};
+  return {degrees("forwards"), degrees("sideways"), degrees("along"),
+          metres("seen"),      metres("soles"),     metres("error")};
 }
 
 Stance stance_of(const RegisteredBody& body) {

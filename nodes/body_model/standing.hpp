@@ -12,6 +12,7 @@ struct Standing {
   double sideways, along;  ///< rad: deviations of that lean, to the side and forwards, sway included
   double seen;             ///< m above the ground: the lowest points that sensors see of feet
   double soles;            ///< m above the ground: the model's soles, on average
+  double ground;           ///< m: deviation of the ground that these two give
 };
 
 /// \throw Refusal broken_file: not there, unknown keys, values out of range

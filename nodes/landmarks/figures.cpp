@@ -13,11 +13,12 @@ namespace {
 constexpr const char* kCode = geometry::refusal::kBrokenFile;
 constexpr double kLargest = 100;  // of any coefficient
 constexpr double kSteepest = 10;  // power of the misfit that a file may give: fit_precision.py stops at 4
-constexpr double kSure = 1.5;     // of ISO 20685's limits: on training scans 2 % of the figures within it are
+constexpr double kSure = 1.5;     // of ISO 20685's limits: on training scans 3 % of the figures within it are
                                   // off by more than the limit
 constexpr double kGrossLimits = 3;  // of ISO 20685: less is no gross error, however sure both are
 constexpr double kUnit =
-    0.002;                    // m of misfit that Spread::base is for (definition; also in fit_precision.py)
+    0.002;  // m of misfit that Spread::base is for (definition; also in fit_precision.py)
+constexpr double kNormal = 1.96;  // deviations that hold 95 % of normal errors (definition)
 constexpr double kGross = 4;  // spreads between two readings of one thing: with Gaussian errors 1 in 16,000
 
 Spread spread_in(const YAML::Node& node, const std::string& where) {
@@ -42,11 +43,14 @@ std::map<std::string, FigurePrecision> figures_in(const YAML::Node& node, const 
   for (const auto& entry : node) {
     const std::string name = entry.first.as<std::string>(), here = where + ", " + name;
     geometry::check_keys(
-        entry.second, {"mesh", "model", "disagreement", "half_width", "error", "covered", "n"}, here, kCode);
+        entry.second,
+        {"mesh", "model", "disagreement", "half_width", "half_width_of_model", "error", "covered", "n"}, here,
+        kCode);
     figures[name] = {spread_in(entry.second["mesh"], here + ", mesh"),
                      spread_in(entry.second["model"], here + ", model"),
                      geometry::number_in(entry.second, "disagreement", 0, kLargest, here, kCode),
-                     geometry::number_in(entry.second, "half_width", 0, kLargest, here, kCode)};
+                     geometry::number_in(entry.second, "half_width", 0, kLargest, here, kCode),
+                     geometry::number_in(entry.second, "half_width_of_model", 0, kLargest, here, kCode)};
   }
   return figures;
 }
@@ -109,17 +113,20 @@ Settled settle(const Figure& figure, const Precision& precision, bool scanned) {
   const auto unbiased = [](const Eigen::Vector3d& reading, const Spread& spread) {
     return Eigen::Vector3d(reading - spread.bias * Eigen::Vector3d::UnitX());
   };
-  if (!figure.on_mesh) return {unbiased(*figure.on_model, p.model), p.half_width * model, true};
+  const auto half_width = [&](double spreads, double own, double distance) {
+    return std::hypot(spreads * std::hypot(own, p.disagreement * distance), kNormal * figure.ground);
+  };
+  if (!figure.on_mesh)
+    return {unbiased(*figure.on_model, p.model), half_width(p.half_width_of_model, model, 0), true};
   const Eigen::Vector3d on_mesh = unbiased(*figure.on_mesh, p.mesh);
-  if (!figure.on_model) return {on_mesh, p.half_width * mesh, false};
+  if (!figure.on_model) return {on_mesh, half_width(p.half_width, mesh, 0), false};
   const Eigen::Vector3d on_model = unbiased(*figure.on_model, p.model), apart = on_mesh - on_model;
   // A web, a fold of the belly, an arm that was cut off elsewhere: the mesh then shows something else.
   if (!figure.seen &&
       apart.norm() > std::max(kGross * std::hypot(mesh, model), kGrossLimits * limit_of(figure)))
-    return {on_model, p.half_width * std::hypot(model, p.disagreement * kGross * model), true};
+    return {on_model, half_width(p.half_width_of_model, model, kGross * model), true};
   const double share = model * model / (mesh * mesh + model * model);
-  return {on_model + share * apart,
-          p.half_width * std::hypot(mesh * std::sqrt(share), p.disagreement * apart.norm()), false};
+  return {on_model + share * apart, half_width(p.half_width, mesh * std::sqrt(share), apart.norm()), false};
 }
 
 double limit_of(const Figure& figure) {

@@ -27,8 +27,9 @@ struct Span {
 /// Of one figure.
 struct FigurePrecision {
   Spread mesh, model;
-  double disagreement;  ///< share of the distance between the two readings that counts as error
-  double half_width;    ///< of the 95 % interval, in spreads
+  double disagreement;         ///< share of the distance between the two readings that counts as error
+  double half_width;           ///< of the 95 % interval, in spreads, where the mesh has a say
+  double half_width_of_model;  ///< the same where the figure rests on the model
 };
 
 /// Of all figures, for meshes that were given and for scans: what tests/body_model/fit_precision.py and
@@ -56,6 +57,7 @@ struct Figure {
   std::vector<Eigen::Vector3d> loop;                 ///< of a girth: the tape, body frame
   bool seen =
       false;  ///< the reading on the mesh lies on skin that the scan backs: it may be far from the model's
+  double ground = 0;  ///< m: of heights, RegisteredBody::ground_deviation: both readings are off by the same
 };
 
 /// A settled figure.

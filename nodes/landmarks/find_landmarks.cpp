@@ -115,7 +115,7 @@ class Reader {
            std::optional<Vector3d> on_model, double support, bool seen, Tape loop = {}) {
     if (!on_mesh && !on_model) return;
     figures_.push_back({kind, name, std::move(on_mesh), std::move(on_model), support, body_.residual,
-                        std::move(loop), seen});
+                        std::move(loop), seen, kind == Kind::height ? body_.ground_deviation : 0});
   }
   void add_point(const std::string& name, const std::optional<Vector3d>& on_mesh,
                  const std::optional<Vector3d>& on_model, double support) {

@@ -16,9 +16,8 @@ import numpy as np
 import yaml
 from scipy.optimize import minimize_scalar
 
-from fit_precision import COVERAGE, FREEDOM, LEAST, UNIT, limit, read_on_surfaces, samples, settle
+from fit_precision import COVERAGE, FEWEST, FREEDOM, LEAST, NORMAL, UNIT, limit, read_on_surfaces, reading_error, samples, settle
 
-FEWEST = 20  # readings
 CONVENTIONAL = ('point navel',)  # the others have none: their truth is where their maker put it
 MOST = .1    # m
 
@@ -43,7 +42,7 @@ def with_outside(row, known, share):
     for key in ('mesh', 'model'):
         s = known[key]
         if s['base'] < MOST:
-            inside = np.hypot(s['base'] * (row[3] / UNIT) ** s['growth'], s['support'] * row[2])
+            inside = np.hypot(s['base'] * (row.misfit / UNIT) ** s['growth'], s['support'] * row.support)
             fit[key] = np.array([np.hypot(inside, share * s.get('outside', 0.)), 0., s['bias']])
     return fit
 
@@ -51,8 +50,9 @@ def with_outside(row, known, share):
 def held(figure, rows, known, shares):
     """Share of the settled errors that their intervals hold, median error and half-width, m."""
     settled = [settle(r, dict(with_outside(r, known, w), limit=limit(figure))) for r, w in zip(rows, shares)]
-    error = np.array([np.linalg.norm(e) for e, _, _ in settled])
-    width = np.array([known['half_width'] * np.hypot(s, known['disagreement'] * apart) for _, s, apart in settled])
+    error = np.array([np.linalg.norm(e) for e, _, _, _ in settled])
+    width = np.array([np.hypot(known['half_width_of_model' if resting else 'half_width'] * np.hypot(s, known['disagreement'] * apart), NORMAL * r.ground)
+                      for r, (_, s, apart, resting) in zip(rows, settled)])
     return np.mean(error <= width), np.median(error), np.median(width)
 
 
@@ -65,24 +65,24 @@ def main():
     o = a.parse_args()
     with open(o.precision) as file:
         text = re.sub(r'^span: .*\n', '', re.sub(r', outside: [^}]*', '', file.read()), flags=re.M)
-    precision, own, names, spans = yaml.safe_load(text), read_on_surfaces(o.mesh[0]), set(), {}
+    precision, surfaces, names, spans = yaml.safe_load(text), read_on_surfaces(o.mesh[0]), set(), {}
     for source, women in zip(('mesh', 'scan'), o.women):
         span = spans[source] = np.quantile(misfits(women), COVERAGE), np.median(misfits(getattr(o, source)[0]))
         head, tail = text.split('\n%s:\n' % source)
         print('%s: span %.2f to %.2f mm' % (source, *(1e3 * s for s in span)))
         print('%-20s %4s %12s %12s %14s %9s %16s' % ('', 'n', 'mesh +mm', 'model +mm', 'held %', 'error mm', 'half-width mm'))
-        for figure, rows in sorted(samples(*getattr(o, source), own).items()):
+        for figure, rows in sorted(samples(*getattr(o, source), surfaces).items()):
             known = precision[source][figure]
-            shares = np.clip((np.array([r[3] for r in rows]) - span[0]) / (span[1] - span[0]), 0, 1)
+            shares = np.clip((np.array([r.misfit for r in rows]) - span[0]) / (span[1] - span[0]), 0, 1)
             before = held(figure, rows, known, shares)
-            names |= {r[4] for r in rows}
-            for i, key in ((0, 'mesh'), (1, 'model')):
-                s, use = known[key], [k for k, r in enumerate(rows) if r[i] is not None]
+            names |= {r.body for r in rows}
+            for key in ('mesh', 'model'):
+                s, use = known[key], [k for k, r in enumerate(rows) if reading_error(r, key) is not None]
                 s['outside'] = 0.
                 if figure not in CONVENTIONAL and len(use) >= FEWEST and LEAST < s['base'] < MOST:  # it is read there, and not true by definition
                     bias = np.array([s['bias'], 0, 0])
-                    errors = np.array([max(np.linalg.norm(rows[k][i] - bias), LEAST) for k in use])
-                    inside = np.array([np.hypot(s['base'] * (rows[k][3] / UNIT) ** s['growth'], s['support'] * rows[k][2]) for k in use])
+                    errors = np.array([max(np.linalg.norm(reading_error(rows[k], key) - bias), LEAST) for k in use])
+                    inside = np.array([np.hypot(s['base'] * (rows[k].misfit / UNIT) ** s['growth'], s['support'] * rows[k].support) for k in use])
                     s['outside'] = outside_of(errors, inside, shares[use])
                 tail = re.sub(r'^(  %s: .*?%s: \{[^}]*)' % (figure, key), lambda m, d=s['outside']: '%s, outside: %.3g' % (m.group(1), d), tail,
                               count=1, flags=re.M)

@@ -1,23 +1,28 @@
 #!/usr/bin/python3
-"""fit_precision.py --mesh READINGS TRUTHS --scan READINGS TRUTHS --out precision.yaml
+"""fit_precision.py --mesh READINGS TRUTHS --scan READINGS TRUTHS [--earlier PRECISION] --out precision.yaml
 
 How far off each figure's readings on mesh and body model are, fitted to training bodies: READINGS as `readings` writes them (a line of
 JSON per body), TRUTHS a folder with NAME_truth.json. READINGS with the model cut to fewer components stand for bodies outside its span: how
-fast its errors grow with its misfit is fitted to them, too, and intervals, as women whom nobody tuned to are partly outside it. Figures that a truth calls vague take no part. What the truths measure by other
-definitions (limbs, sides, gluteal folds) is true where it is read on the true surface. Needs python3-numpy, python3-scipy.
+fast its errors grow with its misfit is fitted to them, too, or taken over from an earlier file (PRECISION), with what fit_outside.py added there. Figures that a truth calls vague take no part. What the truths measure by other
+definitions (limbs, sides, gluteal folds) is true where it is read on the true surface. Needs python3-numpy, python3-scipy, python3-yaml.
 
 A reading's error has a Student-t distribution (4 degrees of freedom, so that a few gross errors do not rule) round a bias (of heights and
 girths; of points 0), with the scale sqrt(base^2 + (slope * support)^2); the base grows with a power of the registration's residual (base: at 2 mm), on the mesh, too, as it is
-looked for near where the model has it. What is
-printed and written as `error` and `covered` is of bodies left out of the fit, in five parts.
+looked for near where the model has it. Of heights what the ground was off by is taken off first: it is one error of all heights, its deviation is known
+(Figure::ground), and it joins the interval afterwards. Half-widths, in spreads, are the quantile that holds 95 % of the settled errors of bodies left out of
+the fit, in five parts, to which the whole model was registered: one for figures in which the mesh has a say, one for those that rest on the model. Where
+there are fewer than 40 of them, bodies with the cut model are counted, too, and where that is not enough the figure has one half-width. `error` and `covered`
+are of bodies left out, of the half-width, too.
 """
 import argparse
+import collections
 import datetime
 import json
 import os
 import sys
 
 import numpy as np
+import yaml
 from scipy.optimize import minimize
 
 KINDS = ('point', 'height', 'girth')
@@ -25,10 +30,15 @@ FREEDOM = 4
 COVERAGE = .95
 GROSS_LIMITS = 3
 GROSS = 4                                         # as in landmarks/figures.cpp
+NORMAL = 1.96                                     # as there: deviations that hold COVERAGE of normal errors
 LEAST = 1e-4                                      # m: no reading is taken to be better
 STEEPEST = 4                                      # power of the misfit: beyond it a few gross errors rule
 UNIT = 2e-3                                       # m of misfit: as kUnit in landmarks/figures.cpp
+FEWEST = 20                                       # readings that a spread is fitted to
+FEWEST_HELD = 40                                  # errors that a half-width is the quantile of: two of them lie outside
 
+# Errors are vectors in metres, None where there is no reading; `ground` is the deviation of the ground, `sunk` its error.
+Row = collections.namedtuple('Row', 'mesh model support misfit body cut seen ground sunk')
 
 OWN = ('upper_arm', 'thigh', 'hip_side', 'waist_side', 'gluteal_fold')  # read on the true surface
 
@@ -66,8 +76,8 @@ def truth_of(truth, frame, kind, name):
     return None if v is None else (np.array([v, 0, 0]), None)
 
 
-def samples(readings, truths, own):
-    """figure -> list of (error on mesh or None, error on model or None, support, residual): vectors in metres."""
+def samples(readings, truths, surfaces):
+    """figure -> list of Row."""
     out = {}
     for line in open(readings):
         r = json.loads(line)
@@ -77,12 +87,14 @@ def samples(readings, truths, own):
         truth = json.load(open(path))
         vague = set(truth.get('vague', []))
         frame = np.array(r['body_from_scan']).reshape(4, 4)
+        ground = r.get('ground_deviation', 0.)
+        sunk = (frame @ np.array(truth['scan_from_body'])[:, 3])[2] if ground > 0 and 'scan_from_body' in truth else 0.
         for f in r['figures']:
             kind, name = KINDS[f['kind']], f['name']
             if '%s %s' % (kind, name) in vague - {'girth neck', 'point neck_back'}:
                 continue
             if is_own(name):
-                v = own.get((r['name'], f['kind'], name))
+                v = surfaces.get((r['name'], f['kind'], name))
                 found = None if v is None else (frame[:3, :3] @ v + frame[:3, 3] if kind == 'point' else v, None)
             else:
                 found = truth_of(truth, frame, kind, name)
@@ -98,8 +110,15 @@ def samples(readings, truths, own):
                     e = e - loose * (e @ loose) / (loose @ loose)
                 return e
             key = '%s %s' % (kind, name[:-2] if name[-2:] in ('_L', '_R') else name)
-            out.setdefault(key, []).append((error('mesh'), error('model'), f['support'], r['residual'], r['name'], bool(r.get('cut', 0)), f['seen']))
+            out.setdefault(key, []).append(Row(error('mesh'), error('model'), f['support'], r['residual'], r['name'], bool(r.get('cut', 0)), f['seen'],
+                                               *((ground, sunk) if kind == 'height' else (0., 0.))))
     return out
+
+
+def reading_error(row, key):
+    """The reading's error without the ground's."""
+    e = getattr(row, key)
+    return None if e is None else e - [row.sunk, 0, 0]
 
 
 def scale(errors, base_of, support, biased):
@@ -115,13 +134,13 @@ def scale(errors, base_of, support, biased):
     return np.array([max(np.exp(best.x[0]), LEAST / np.median(base_of)), np.exp(best.x[1]), best.x[2] * start * np.median(base_of) if biased else 0.])
 
 
-def growth_of(rows, i):
-    """Power of the misfit that errors of reading i (0 mesh, 1 model) grow with."""
-    rows = [r for r in rows if r[i] is not None]
-    if len(rows) < 20:
+def growth_of(rows, key):
+    """Power of the misfit that errors of the readings on `mesh` or `model` grow with."""
+    rows = [r for r in rows if reading_error(r, key) is not None]
+    if len(rows) < FEWEST:
         return 0.
-    e = np.array([max(np.linalg.norm(r[i]), LEAST) for r in rows])
-    support, misfit = np.array([r[2] for r in rows]), np.log(np.array([r[3] for r in rows]) / UNIT)
+    e = np.array([max(np.linalg.norm(reading_error(r, key)), LEAST) for r in rows])
+    support, misfit = np.array([r.support for r in rows]), np.log(np.array([r.misfit for r in rows]) / UNIT)
 
     def loss(q):
         s = np.hypot(np.exp(q[0] + q[1] * misfit), np.exp(q[2]) * support)
@@ -143,85 +162,106 @@ def limit(figure):
 
 
 def settle(row, fit):
-    """Settled error and its spread without and with disagreement: as landmarks/figures.cpp has it."""
+    """Settled error, its spread, and whether it rests on the model: as landmarks/figures.cpp has it."""
     mesh, model = (None if e is None else e - [fit[k][2] if k in fit else 0, 0, 0] for e, k in zip(row, ('mesh', 'model')))
-    support, residual = row[2:4]
-    m, b = (spread(fit[k], (residual / UNIT) ** fit['growth'][k], support) if k in fit else None for k in ('mesh', 'model'))
+    m, b = (spread(fit[k], (row.misfit / UNIT) ** fit['growth'][k], row.support) if k in fit else None for k in ('mesh', 'model'))
     if mesh is None or m is None:
-        return model, b, 0.
+        return model, b, 0., True
     if model is None or b is None:
-        return mesh, m, 0.
+        return mesh, m, 0., False
     apart = np.linalg.norm(mesh - model)
-    if not row[6] and apart > max(GROSS * np.hypot(m, b), GROSS_LIMITS * fit['limit']):
-        return model, b, GROSS * b
+    if not row.seen and apart > max(GROSS * np.hypot(m, b), GROSS_LIMITS * fit['limit']):
+        return model, b, GROSS * b, True
     share = b * b / (m * m + b * b)
-    return model + share * (mesh - model), m * np.sqrt(share), apart
+    return model + share * (mesh - model), m * np.sqrt(share), apart, False
 
 
-def fitted(figure, rows):
-    fit = dict(limit=limit(figure), growth=dict(mesh=growth_of(rows, 0), model=growth_of(rows, 1)))
-    for i, key in ((0, 'mesh'), (1, 'model')):
-        use = [r for r in rows if r[i] is not None and not r[5]]
-        if len(use) >= 20 and not any(np.any(r[i]) for r in use):
+def fitted(figure, rows, growth):
+    """Spreads of both readings, and what their distance counts. `growth`: of an earlier fit, or None."""
+    keys = ('mesh', 'model')
+    fit = dict(limit=limit(figure), growth={k: growth_of(rows, k) if growth is None else growth[k]['growth'] for k in keys})
+    for key in keys:
+        use = [r for r in rows if reading_error(r, key) is not None and not r.cut]
+        if len(use) >= FEWEST and not any(np.any(getattr(r, key)) for r in use):
             fit[key], fit['growth'][key] = np.array([LEAST, 0., 0.]), 0.
-        elif len(use) >= 20:
-            fit[key] = scale([r[i] for r in use], np.array([r[3] / UNIT for r in use]) ** fit['growth'][key], np.array([r[2] for r in use]), not figure.startswith('point'))
-    e, s, apart = (np.array(v) for v in zip(*[(max(np.linalg.norm(a), LEAST), b, c) for a, b, c in (settle(r, fit) for r in rows)]))
+        elif len(use) >= FEWEST:
+            fit[key] = scale([reading_error(r, key) for r in use], np.array([r.misfit / UNIT for r in use]) ** fit['growth'][key], np.array([r.support for r in use]),
+                             not figure.startswith('point'))
+    use = [r for r in rows if not r.cut]
+    settled = [settle(r, fit) for r in use]
+    e = np.array([max(np.linalg.norm(error - [r.sunk, 0, 0]), LEAST) for r, (error, _, _, _) in zip(use, settled)])
+    s, apart = (np.array(v) for v in list(zip(*settled))[1:3])
 
     def loss(q):
         t = np.exp(q[1]) * np.hypot(s, np.exp(q[0]) * apart)
         return np.mean(np.log(t) + (FREEDOM + 1) / 2 * np.log1p((e / t) ** 2 / FREEDOM)) + 1e-3 * (q[0] + 2) ** 2
     fit['disagreement'] = float(np.exp(min((minimize(loss, (a, 0.), method='Nelder-Mead') for a in (-3., -1.)), key=lambda m: m.fun).x[0]))
-    ratio = np.sort(e / np.hypot(s, fit['disagreement'] * apart))
-    fit['half_width'] = float(np.interp(COVERAGE * (len(ratio) + 1) / len(ratio), (np.arange(len(ratio)) + 1) / len(ratio), ratio))
     return fit
 
 
-def left_out(figure, rows, parts=5):
-    """Errors (m), whether the interval holds them, its half-width, whether the model was cut: of bodies left out of the fit."""
-    names = sorted({r[4] for r in rows})
-    error, held, width, cut = [], [], [], []
+def left_out(figure, rows, growth, parts=5):
+    """Of bodies left out of the fit: errors, spreads and deviations of the ground (m), whether they rest on the model, whether it was cut, their part."""
+    names, out = sorted({r.body for r in rows}), []
     for k in range(parts):
-        out = set(names[k::parts])
-        train, test = [r for r in rows if r[4] not in out], [r for r in rows if r[4] in out]
-        if len(train) < 20:
-            continue
-        fit = fitted(figure, train)
-        for r in test:
-            e, s, apart = settle(r, fit)
-            error.append(np.linalg.norm(e))
-            width.append(fit['half_width'] * np.hypot(s, fit['disagreement'] * apart))
-            held.append(error[-1] <= width[-1])
-            cut.append(r[5])
-    return np.array(error), np.array(held), np.array(width), np.array(cut)
+        part = set(names[k::parts])
+        fit = fitted(figure, [r for r in rows if r.body not in part], growth)
+        for r in rows:
+            if r.body in part:
+                e, s, apart, resting = settle(r, fit)
+                out.append((max(np.linalg.norm(e), LEAST), np.hypot(s, fit['disagreement'] * apart), r.ground, resting, r.cut, k))
+    return (np.array(v) for v in zip(*out))
+
+
+def half_widths(error, deviation, ground, resting, cut):
+    """Spreads whose interval, with the ground's, holds COVERAGE of further errors: where the mesh has a say, and where figures rest on the model."""
+    ratio, found = np.sqrt(np.maximum(error ** 2 - (NORMAL * ground) ** 2, 0)) / deviation, []
+    for group in (False, True):
+        use = next(u for u in ((resting == group) & ~cut, resting == group, ~cut, cut | ~cut) if sum(u) >= FEWEST_HELD or u.all())
+        held = np.sort(ratio[use])
+        found.append(float(np.interp(COVERAGE * (len(held) + 1) / len(held), (np.arange(len(held)) + 1) / len(held), held)))
+    return found
 
 
 def main():
     a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     a.add_argument('--mesh', nargs=2, required=True)
     a.add_argument('--scan', nargs=2, required=True)
+    a.add_argument('--earlier')
     a.add_argument('--out', required=True)
     o = a.parse_args()
-    text, names, own = '', set(), read_on_surfaces(o.mesh[0])
+    earlier = yaml.safe_load(open(o.earlier)) if o.earlier else None
+    text, names, surfaces = '', set(), read_on_surfaces(o.mesh[0])
     for source in ('mesh', 'scan'):
         text += '%s:\n' % source
         print('%-20s %4s %9s %9s %9s  cut; mesh, model: bias mm, base mm, growth, slope; disagreement' % (source, 'n', 'median mm', '95 % mm', 'covered'))
-        for key, rows in sorted(samples(*getattr(o, source), own).items()):
-            names |= {r[4] for r in rows if not r[5]}
-            fit = fitted(key, rows)
-            error, held, width, cut = left_out(key, rows)
+        for key, rows in sorted(samples(*getattr(o, source), surfaces).items()):
+            names |= {r.body for r in rows if not r.cut}
+            growth = earlier and earlier[source][key]
+            fit = fitted(key, rows, growth)
+            *errors, part = left_out(key, rows, growth)
+            error, deviation, ground, resting, cut = errors
+            half_width, width = half_widths(*errors), np.zeros(len(error))
+            for k in set(part):
+                spreads = half_widths(*(v[part != k] for v in errors))
+                width[part == k] = np.hypot(np.take(spreads, resting.astype(int)) * deviation, NORMAL * ground)[part == k]
+            held = error <= width
             far = '%3.0f%% of %d' % (100 * np.mean(held[cut]), sum(cut)) if any(cut) else '-'
             error, held, width = error[~cut], held[~cut], width[~cut]
             m, b = fit.get('mesh'), fit.get('model')
-            c = lambda v, growth: '{bias: %.5f, base: %.3g, growth: %.3g, support: %.3g}' % (v[2], v[0], growth, v[1]) if v is not None else '{bias: 0, base: 0.1, growth: 0, support: 0}'
-            text += '  %s: {mesh: %s, model: %s, disagreement: %.3g, half_width: %.3g, error: %.2g, covered: %.3f, n: %d}\n' % (
-                key, c(m, fit['growth']['mesh']), c(b, fit['growth']['model']), fit['disagreement'], fit['half_width'], np.median(error), held.mean(), len(error))
+            c = lambda k: '{bias: %.5f, base: %.3g, growth: %.3g, support: %.3g%s}' % (
+                *((fit[k][2], fit[k][0], fit['growth'][k], fit[k][1]) if k in fit else (0., .1, 0., 0.)), ', outside: %.3g' % growth[k]['outside'] if growth else '')
+            text += '  %s: {mesh: %s, model: %s, disagreement: %.3g, half_width: %.3g, half_width_of_model: %.3g, error: %.2g, covered: %.3f, n: %d}\n' % (
+                key, c('mesh'), c('model'), fit['disagreement'], *half_width, np.median(error), held.mean(), len(error))
             print('%-20s %4d %9.2f %9.2f %8.1f%% %10s  %s  %s  %.2f   median half width %.2f mm' % (
                 key, len(error), 1e3 * np.median(error), 1e3 * np.quantile(error, .95), 100 * held.mean(), far,
                 *('-' if v is None else '%+.2f %.2f %.2f %.2f' % (1e3 * v[2], 1e3 * v[0], fit['growth'][k], v[1]) for k, v in (('mesh', m), ('model', b))), fit['disagreement'], 1e3 * np.median(width)))
     with open(o.out, 'w') as out:
         out.write('# How far off each figure may be: tests/body_model/fit_precision.py wrote this; error (m, median) and covered are of bodies left out.\n')
-        out.write('made: %s\nbodies: %d training women (%s to %s)\n%s' % (datetime.date.today(), len(names), min(names), max(names), text))
+        out.write('made: %s\nbodies: %d training women (%s to %s)%s\n' % (
+            datetime.date.today(), len(names), min(names), max(names), '; powers of the misfit, and ' + earlier['bodies'].split('; ')[-1] + ', of ' + str(earlier['made']) if earlier else ''))
+        if earlier:
+            out.write('span: {mesh: [%g, %g], scan: [%g, %g]}\n' % (*earlier['span']['mesh'], *earlier['span']['scan']))
+        out.write(text)
 
 
 if __name__ == '__main__':

@@ -37,6 +37,7 @@ Json readings_of(const landmarks::Reading& reading, const body_model::Registered
               {"stance", json_of(body_model::stance_of(model))},
               {"vertical", json_of(model.vertical)},
               {"ground", model.ground},
+              {"ground_deviation", model.ground_deviation},
               {"figures", Json::array()}};
   for (int i = 0; i < 16; ++i)
     result["body_from_scan"].push_back(reading.body_from_scan.matrix()(i / 4, i % 4));

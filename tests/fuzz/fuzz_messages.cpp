@@ -77,8 +77,8 @@ void change(fuzz::Input& input, Garment& message) {
 }
 
 void change(fuzz::Input& input, BodyModel& message) {
-  draw_some(input, message.residual, message.ground, message.scale, message.up[2], message.rotation[0],
-            message.rotation[4], message.position[0], message.stature);
+  draw_some(input, message.residual, message.ground, message.ground_deviation, message.scale, message.up[2],
+            message.rotation[0], message.rotation[4], message.position[0], message.stature);
   change_all(input, message.turns, message.shape, message.vertices, message.off, message.support,
              message.joints, message.bone_points, message.mesh_parts, message.pose_groups, message.bones,
              message.bone_point_names, message.parts);

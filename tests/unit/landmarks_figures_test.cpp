@@ -18,14 +18,16 @@ using Eigen::Vector3d;
 constexpr double kSupport = 0.003, kMisfit = 0.005;  // m
 /// The mesh is 3 mm off there, hypot(0.0018, 0.8 * 0.003); the model 5 mm, hypot(0.00064 * (5 mm / 2 mm)^2, 1
 /// * 0.003).
-constexpr double kOfMesh = 0.003, kOfModel = 0.005, kHalfWidth = 2, kDisagreement = 0.1;
+constexpr double kOfMesh = 0.003, kOfModel = 0.005, kHalfWidth = 2, kHalfWidthOfModel = 3,
+                 kDisagreement = 0.1;
 
 Precision precision() {
-  const FigurePrecision p{{0, 0.0018, 0, 0.8}, {0, 0.00064, 2, 1}, kDisagreement, kHalfWidth};
-  return {{{"girth bust", p}, {"point bust_point", p}},
-          {{"girth bust", {{0, 0.0018, 0, 0.8}, {0, 0.00064, 2, 1}, kDisagreement, 2 * kHalfWidth}}},
-          {},
-          {}};
+  const FigurePrecision p{
+      {0, 0.0018, 0, 0.8}, {0, 0.00064, 2, 1}, kDisagreement, kHalfWidth, kHalfWidthOfModel};
+  FigurePrecision of_scan = p;
+  of_scan.half_width = 2 * kHalfWidth;
+  return {
+      {{"girth bust", p}, {"height bust", p}, {"point bust_point", p}}, {{"girth bust", of_scan}}, {}, {}};
 }
 
 Figure girth(std::optional<double> on_mesh, std::optional<double> on_model) {
@@ -43,7 +45,7 @@ TEST(Settle, OneReadingIsTakenAsItIs) {
   EXPECT_EQ(model.value.x(), 0.9);
   EXPECT_FALSE(mesh.rests_on_model);
   EXPECT_TRUE(model.rests_on_model);
-  EXPECT_NEAR(model.half_width, kHalfWidth * kOfModel, 1e-12);
+  EXPECT_NEAR(model.half_width, kHalfWidthOfModel * kOfModel, 1e-12);
 }
 
 TEST(Settle, TwoReadingsCountByTheirPrecision) {
@@ -62,7 +64,7 @@ TEST(Settle, OutsideTheModelsSpanReadingsAreLessSureByDegrees) {
   const auto half_width = [](double misfit, bool scanned) {
     Precision precision{{}, {}, {0.002, 0.003}, {0.003, 0.005}};
     precision.of_mesh["girth bust"] = precision.of_scan["girth bust"] = {
-        {0, 0.001, 0, 0, 0.002}, {0, 0.004, 0, 0}, kDisagreement, kHalfWidth};
+        {0, 0.001, 0, 0, 0.002}, {0, 0.004, 0, 0}, kDisagreement, kHalfWidth, kHalfWidthOfModel};
     Figure figure = girth(0.9, {});
     figure.misfit = misfit;
     return settle(figure, precision, scanned).half_width;
@@ -84,7 +86,7 @@ TEST(Settle, AReadingGrosslyOffIsLeftOut) {
   EXPECT_FALSE(near.rests_on_model);
   EXPECT_TRUE(far.rests_on_model);
   EXPECT_GT(far.half_width,
-            kHalfWidth * kOfModel);  // the model alone, less sure than if nothing spoke against it
+            kHalfWidthOfModel * kOfModel);  // the model alone, less sure than if nothing spoke against it
   Figure point = girth({}, {});
   point.kind = Kind::point;
   point.name =
@@ -109,6 +111,22 @@ TEST(Settle, WhatReadingsAreOffOnAverageIsTakenOff) {
                 agreed = settle(girth(0.9, 0.9), precision(), false);
   EXPECT_NEAR(both.value.x(), 0.9, 1e-12);
   EXPECT_NEAR(both.half_width, agreed.half_width, 1e-12);
+}
+
+TEST(Settle, AHeightIsNoSurerThanTheGround) {
+  const double ground = 0.004, apart = 0.001;
+  for (const auto& [on_mesh, on_model] : {std::pair<std::optional<double>, std::optional<double>>(1.2, {}),
+                                          {{}, 1.2},
+                                          {1.2 + apart, 1.2},
+                                          {1.2 + 0.1, 1.2}}) {
+    Figure height = girth(on_mesh, on_model);
+    height.kind = Kind::height;
+    const Settled floor_seen = settle(height, precision(), false);
+    height.ground = ground;
+    const Settled without_floor = settle(height, precision(), false);
+    EXPECT_NEAR(without_floor.half_width, std::hypot(floor_seen.half_width, 1.96 * ground), 1e-12);
+    EXPECT_EQ(without_floor.value, floor_seen.value);  // both readings are off by the same
+  }
 }
 
 TEST(Settle, ScansHaveAPrecisionOfTheirOwn) {
@@ -161,7 +179,7 @@ const std::string kFigure =
     "{mesh: {bias: -0.002, base: 0.001, growth: 0, support: 0.1, outside: 0.3}, model: {bias: 0, base: 1, "
     "growth: 1.5, support: 0.2, outside: 0}, "
     "disagreement: "
-    "0.1, half_width: 2}";
+    "0.1, half_width: 2, half_width_of_model: 3}";
 
 std::string file_with(const std::string& of_bust) {
   return "made: 2026-01-01\nbodies: none\nspan: {mesh: [0.002, 0.003], scan: [0.003, 0.004]}\nmesh:\n  girth "
@@ -192,6 +210,7 @@ TEST_F(PrecisionFile, IsReadAsWritten) {
   EXPECT_EQ(bust.model.support, 0.2);
   EXPECT_EQ(bust.disagreement, 0.1);
   EXPECT_EQ(bust.half_width, 2);
+  EXPECT_EQ(bust.half_width_of_model, 3);
 }
 
 TEST_F(PrecisionFile, IsRefusedByTheNameOfWhatIsWrong) {

@@ -139,6 +139,7 @@ TEST(Reconstruction, TheModelIsInTheScansFrame) {
   EXPECT_LT((model.vertical - Eigen::Vector3d::UnitZ()).norm(),
             0.002);  // the floor's normal: 1 mm over 0.6 m
   EXPECT_NEAR(model.ground, 0, 0.001);
+  EXPECT_EQ(model.ground_deviation, 0);  // the floor was seen
   std::vector<double> off;
   for (const Eigen::Vector3d& v : model.skin) off.push_back(distance(v));
   EXPECT_LT(percentile(off, 0.5), 0.001);
@@ -157,6 +158,7 @@ TEST(Reconstruction, WithoutAFloorTheSolesLieBelowTheLowestPoints) {
   EXPECT_NEAR(geometry::bounding_box(result.body.mesh.vertices)[0].z(), 0,
               0.004);  // ISO 20685: it shifts each height
   EXPECT_NEAR(result.model.ground, 0, 0.004);
+  EXPECT_EQ(result.model.ground_deviation, body_model::shipped_registrar().standing().ground);
   EXPECT_GT(result.model.vertical.z(), std::cos(1 * M_PI / 180));
 }
 

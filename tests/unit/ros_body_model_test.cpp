@@ -50,6 +50,7 @@ const RegisteredBody& woman() {
       registered.bone_points.push_back(posed.bone_point(static_cast<int>(i)));
     registered.scanned = false;
     registered.ground = geometry::bounding_box(registered.skin)[0].z();
+    registered.ground_deviation = 0.002;
     return registered;
   }();
   return body;
@@ -116,6 +117,7 @@ TEST(BodyModelMessage, ComesBackAsItWas) {
   EXPECT_EQ(back.bone_points, woman().bone_points);
   EXPECT_EQ(back.vertical, woman().vertical);
   EXPECT_EQ(back.ground, woman().ground);
+  EXPECT_EQ(back.ground_deviation, woman().ground_deviation);
   EXPECT_EQ(back.scanned, woman().scanned);
   EXPECT_LE(farthest(back.skin, woman().skin), 2e-7);  // float32 at 2 m
   EXPECT_LE(farthest(back.posed, woman().posed), 1e-12);
@@ -158,7 +160,9 @@ TEST(BodyModelMessage, WhatDoesNotFitTheModelIsRefusedByName) {
   EXPECT_EQ(refused([](BodyModel& bad) { bad.rotation[0] = 2; }), "bad_model");
   EXPECT_EQ(refused([](BodyModel& bad) { bad.up[2] = 2; }), "bad_model");
   EXPECT_EQ(refused([](BodyModel& bad) { bad.scale = 0; }), "bad_model");
-  for (double BodyModel::*number : {&BodyModel::residual, &BodyModel::ground, &BodyModel::scale})
+  EXPECT_EQ(refused([](BodyModel& bad) { bad.ground_deviation = -0.001; }), "bad_model");
+  for (double BodyModel::*number :
+       {&BodyModel::residual, &BodyModel::ground, &BodyModel::ground_deviation, &BodyModel::scale})
     EXPECT_EQ(refused([&](BodyModel& bad) { bad.*number = std::nan(""); }), "non_finite");
 }
 
