@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
 #include <limits>
 #include <sstream>
@@ -83,13 +84,31 @@ Header read_header(std::istream& file, const std::string& path) {
   throw Refusal(refusal::kBrokenFile, path + ": has no whole PCD header");
 }
 
+// PCL goes on after DATA for as long as lines look like those of a header, and takes what they say in place
+// of what stood before.
+bool goes_on(std::istream& file) {
+  constexpr int kLongest = 9;  // of keys: no more of a word is read
+  for (std::string word; file >> std::setw(kLongest) >> word;) {
+    if (word[0] != '#')
+      return word.compare(0, 7, "COLUMNS") == 0 ||  // its other word for FIELDS
+             std::any_of(kKeys.begin(), kKeys.end(),
+                         [&word](const std::string& key) { return word.compare(0, key.size(), key) == 0; });
+    file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  return false;
+}
+
 // The header must not promise more points than the bytes after it can hold.
 void check_header(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file || !std::filesystem::is_regular_file(path))
     throw Refusal(refusal::kBrokenFile, path + ": does not exist or cannot be read");
   Header header = read_header(file, path);
-  const std::uint64_t rest = std::filesystem::file_size(path) - static_cast<std::uint64_t>(file.tellg());
+  const std::istream::pos_type data = file.tellg();
+  if (goes_on(file)) throw Refusal(refusal::kBrokenFile, path + ": its PCD header goes on after DATA");
+  file.clear();
+  file.seekg(data);
+  const std::uint64_t rest = std::filesystem::file_size(path) - static_cast<std::uint64_t>(data);
   const Refusal shorter(refusal::kBrokenFile, path + ": is shorter than its header says");
 
   if (header.fields == 0) throw Refusal(refusal::kBrokenFile, path + ": its PCD header names no fields");

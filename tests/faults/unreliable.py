@@ -25,8 +25,15 @@ class Way:
         self.name, self.dice, self.share = f"{stage} {topic}", dice, share
         self.lock, self.held = threading.Lock(), []
         self.publisher = rospy.Publisher(f"/left/unreliable/{stage}/{topic}", TYPES[topic], queue_size=8, latch=True)
-        carry = self.carry if share > 0 else self.carry_states_late if TYPES[topic] is FitState else self.publisher.publish
+        carry = self.carry if share > 0 else self.carry_states_late if TYPES[topic] is FitState else self.give
         rospy.Subscriber(f"/left/{topic}", TYPES[topic], carry)
+
+    def give(self, message):
+        """A state on the way to a fit is not kept for those who connect later, as that of the solver is not."""
+        kept = self.publisher.impl.latch
+        self.publisher.publish(message)
+        if getattr(message, "status", "") == FitState.SOLVING:
+            self.publisher.impl.latch = kept
 
     def carry(self, message):
         with self.lock:
@@ -35,32 +42,32 @@ class Way:
                 self.tell("dropped", message)
             elif drawn < 2:
                 self.tell("delayed", message)
-                threading.Timer(delay, self.publisher.publish, [message]).start()
+                threading.Timer(delay, self.give, [message]).start()
             elif drawn < 3:
                 self.tell("held", message)
                 self.held.append(message)
                 threading.Timer(HELD, self.let_go, [message]).start()
             else:
-                self.publisher.publish(message)
+                self.give(message)
                 while self.held:
-                    self.publisher.publish(self.held.pop(0))
+                    self.give(self.held.pop(0))
 
     def carry_states_late(self, message):
         with self.lock:
             if message.status == FitState.SOLVING:
                 self.held = [message]
                 return
-            self.publisher.publish(message)
+            self.give(message)
             for held in self.held:
                 self.tell("held", held)
-                self.publisher.publish(held)
+                self.give(held)
             self.held = []
 
     def let_go(self, message):
         with self.lock:
             if any(held is message for held in self.held):
                 self.held = [held for held in self.held if held is not message]
-                self.publisher.publish(message)
+                self.give(message)
 
     def tell(self, what, message):
         print(json.dumps({"what": what, "way": self.name, "stamp": message.header.stamp.to_nsec()}), flush=True)

@@ -194,6 +194,20 @@ TEST_F(ScanFileTest, APcdHeaderOutOfOrderOrWithoutFieldsIsRefused) {
   EXPECT_EQ(refusal_of(text_file("a.pcd", fields + rest + end)), "accepted") << "as it should be";
 }
 
+// Found by fuzzing: PCL's reader read beyond the file.
+TEST_F(ScanFileTest, APcdWhoseDataBeginAsALineOfItsHeaderIsRefused) {
+  const std::string header =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA "
+      "binary\n";
+  for (const char* data :
+       {"COUNT 900000000 1 1\n", "\n# \n  COUNT 900000000 1 1\n", "COLUMNS x\n", "DATA ascii\n"})
+    EXPECT_EQ(refusal_of(text_file("a.pcd", header + data + std::string(24, 'x'))),
+              geometry::refusal::kBrokenFile)
+        << data;
+  EXPECT_EQ(refusal_of(text_file("a.pcd", header + "# COUN\n" + std::string(17, 'x'))), "accepted")
+      << "bytes of points";
+}
+
 // Found by fuzzing: PCL ended the process.
 TEST_F(ScanFileTest, APlyWhoseVerticesHaveAListIsRefused) {
   for (const char* count : {"uchar", "int"})
