@@ -82,6 +82,8 @@ TEST(BustTemplate, RefusesWhatDoesNotFit) {
             std::string::npos);
   EXPECT_NE(refusal_with(kBust, "'######'", "'#####'").find("'fixed'"), std::string::npos);
   EXPECT_NE(refusal_with(kBust, "least: 0.010", "least: 2.4").find("'least'"), std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "least: 0.010", "least: 0.21").find("'least'"),
+            std::string::npos);  // 0.2 m at most
   EXPECT_NE(refusal_with(kBust, "share: 0.6", "share: 6").find("'share'"), std::string::npos);
   EXPECT_NE(refusal_with(kBust, "regions:", "thickness: [[0.01]]\nregions:").find("'thickness'"),
             std::string::npos);
@@ -114,6 +116,7 @@ TEST(BustTemplate, MayLieOnTheBodyModel) {
   EXPECT_NE(refusal("on_model: [[8461, nan], [8453, 1]]").find("'8461' a share"), std::string::npos);
   EXPECT_NE(refusal("on_model: [[-1, 1]]").find("'-1' for a vertex"), std::string::npos);
   EXPECT_NE(refusal("on_model: [[1.5, 1]]").find("'1.5' for a vertex"), std::string::npos);
+  EXPECT_NE(refusal("on_model: [[65536, 1]]").find("'65536' for a vertex"), std::string::npos);
   EXPECT_NE(refusal("on_model: [[8461, 0.5], [8461, 0.5]]").find("'8461' twice"), std::string::npos);
   for (const char* list : {"8461", "[]", "[8461, 1]", "[[8461]]", "[[[8461], 1]]", "{vertex: 8461}"})
     EXPECT_NE(refusal(std::string("on_model: ") + list).find("'on_model' must be a list of pairs"),

@@ -9,6 +9,8 @@
 
 #include "geometry/status.hpp"
 #include "refusal_of.hpp"
+#include "tensegric/solver.hpp"
+#include "tensegric_bust.hpp"
 
 namespace tensegric_fit::tensegric {
 namespace {
@@ -142,6 +144,24 @@ TEST(Garment, ARatioIsThatOfOneLineOrOfAll) {
   for (std::size_t i = 1; i < g.lines.size(); ++i) EXPECT_EQ(g.lines[i].ratio, 0.93);
   EXPECT_EQ(refusal_of([&] { set_ratio(g, "hem", 0.9); }), "unknown_line");
   EXPECT_EQ(refusal_of([&] { set_ratio(g, "", 1e3); }), "bad_garment");
+}
+
+TEST(Garment, ALineOfOneSideMayRunAlongTheMiddleButNotOverTheOtherSideAlone) {
+  geometry::ControlMesh control = bust_mesh();
+  control.names[5] = "below";  // of the middle column
+  control.names[71] = "above";
+  const Model model = build_model(control, {});
+  const auto outcome = [&](std::vector<std::string> through) {
+    Garment g = chest(0.97);
+    g.lines[0].name = "cup_L";
+    g.lines[0].through = std::move(through);
+    return refusal_of([&] { solve(model, g, {}); });
+  };
+  EXPECT_EQ(outcome({"below", "sternum", "above"}), "accepted");
+  EXPECT_EQ(outcome({"bust_point_L", "axilla_L"}), "accepted");
+  EXPECT_EQ(outcome({"bust_point_R", "sternum", "bust_point_L"}), "accepted");  // a strap may cross
+  EXPECT_EQ(outcome({"bust_point_R", "axilla_R"}), "bad_garment");
+  EXPECT_EQ(outcome({"sternum", "bust_point_R"}), "bad_garment");
 }
 
 TEST(Garment, SeveralAreWornAtOnce) {

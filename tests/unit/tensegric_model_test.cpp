@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <random>
 
@@ -84,6 +85,29 @@ TEST(Model, PrestressBalancesWithTheRightSigns) {
       }
     }
   }
+}
+
+// Its prestress balances to no more than round-off.
+TEST(Model, OneFreeNodeOnADomeHasAPrestress) {
+  geometry::ControlMesh control;
+  for (int j = 0; j <= 2; ++j)
+    for (int i = 0; i <= 2; ++i) {
+      const double x = 0.02 * i, y = 0.02 * j;
+      control.outer.emplace_back(x, y, 0.02 * std::cos(12 * (x - 0.06)) * std::cos(12 * (y - 0.06)));
+      control.outer_fixed.push_back(i != 1 || j != 1);
+      if (i == 2 || j == 2) continue;
+      const int here = 3 * j + i;
+      control.triangles.emplace_back(here, here + 1, here + 4);
+      control.triangles.emplace_back(here, here + 4, here + 3);
+    }
+  const auto normals = geometry::vertex_normals(control.outer, control.triangles);
+  for (int v = 0; v < 9; ++v) control.inner.push_back(control.outer[v] - 0.01 * normals[v]);
+  control.inner_fixed = control.outer_fixed;
+  control.names.resize(9);
+  control.regions.push_back({"dome", {0, 1, 2, 3, 4, 5, 6, 7}});
+  const Model model = build_model(control, {});
+  EXPECT_EQ(model.free_nodes(), 1);
+  for (const Member& m : model.members) EXPECT_TRUE(m.strut || tension(m, m.rest) >= 0);
 }
 
 TEST(Model, RefusesWhatCannotStand) {

@@ -79,6 +79,17 @@ TEST_F(Relaxation, AdaptiveDoesNotSwing) {
   EXPECT_NE(run(SolverName::relaxation, 0.80).status, Status::converged);
 }
 
+TEST_F(Relaxation, AdaptiveSettlesStiffBands) {
+  for (double stiffness : {2.0, 50.0, 500.0}) {
+    Garment elastic = chest(0.92);
+    elastic.lines[0].law.kind = TensionLaw::Kind::stiffness;
+    elastic.lines[0].law.stiffness = stiffness;
+    SolverOptions options;
+    options.solver = SolverName::adaptive;
+    EXPECT_EQ(solve(model, elastic, options).status, Status::converged) << stiffness;
+  }
+}
+
 TEST_F(Relaxation, AgreesWithTheEquilibriumOfTheSameForces) {
   Garment elastic = chest(0.90);
   elastic.lines[0].law.kind = TensionLaw::Kind::stiffness;

@@ -57,6 +57,9 @@ TEST_F(Slab, ABandSpreadsOverItsWidthAndStaysOnTheSkin) {
     }
   }
   EXPECT_NEAR(shares, 1, 1e-12);
+  ASSERT_GE(fibres.size(), 3u);  // evenly over the width: those along the edges stand for half as much
+  EXPECT_NEAR(fibres.front().share, fibres[1].share / 2, 1e-12);
+  EXPECT_NEAR(fibres.back().share, fibres[1].share / 2, 1e-12);
   // The outermost of seven fibres runs along the band's edge, measured over the skin.
   EXPECT_LE(widest, 0.015 + 1e-4);
   EXPECT_GT(widest, 0.014);

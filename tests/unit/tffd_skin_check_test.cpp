@@ -9,6 +9,7 @@
 
 #include "geometry/status.hpp"
 #include "geometry/triangle_mesh.hpp"
+#include "tffd/garment_check.hpp"
 #include "tffd/under_constriction.hpp"
 
 namespace tensegric_fit::tffd {
@@ -209,6 +210,17 @@ TEST(UnderConstriction, SlackWeakAndLifted) {
   line.at_rest = line.worn;  // it was made to bridge
   EXPECT_TRUE(found(line).empty());
   EXPECT_TRUE(found(line_at(0.1, 0.004)[0]).empty());
+}
+
+TEST(GarmentCheck, NamesSkinThatFoldsAndLinesThatDoNotHold) {
+  const geometry::TriangleMesh mesh = sheet();
+  WornLine slack = line_at(0.15)[0];
+  slack.tension = 0;
+  const std::vector<Vector3d> worn = stepped(mesh, 10, 14, 70 * kDegree);
+  const auto all =
+      check_garment(mesh.vertices, {mesh.vertices, worn, mesh.triangles}, {slack}, HoldOptions());
+  EXPECT_EQ(with_code(all, geometry::warning::kShelf).size(), 1u);
+  EXPECT_EQ(with_code(all, geometry::notice::kUnderConstricted).size(), 1u);
 }
 
 TEST(UnderConstriction, SkinUnderTheLine) {
