@@ -158,7 +158,12 @@ TriangleMesh read_body_mesh(const std::string& path, const mesh_files::Asked& as
   reading = mesh_files::infer_reading(mesh_files::surface_samples(mesh, kEnough).points,
                                       kind_of(is_ply ? ".ply" : ending), wanted);
   if (!reading.is_identity())
-    for (Eigen::Vector3d& p : mesh.vertices) p = reading(p);
+    for (Eigen::Vector3d& p : mesh.vertices) {
+      p = reading(p);
+      if (!p.allFinite())
+        throw geometry::Refusal(geometry::refusal::kNonFinite,
+                                path + ": has a coordinate that is not finite in metres");
+    }
   return mesh;
 }
 
