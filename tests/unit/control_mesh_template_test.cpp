@@ -144,7 +144,7 @@ TEST(BustTemplate, ANodeHasOnePlace) {
 }
 
 TEST(BustTemplate, RefusesARegionByItsPlace) {
-  EXPECT_NE(refusal_with(kBust, "{name: bust, rows: [0, 6]", "{name: bust, rows: [0, 7]").find("region 1"),
+  EXPECT_NE(refusal_with(kBust, "{name: bust, rows: [0, 6]", "{name: bust, rows: [0, 7]").find("region 1:"),
             std::string::npos);
 }
 
