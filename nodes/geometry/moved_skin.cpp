@@ -71,12 +71,12 @@ std::optional<double> girth_change(const MovedSkin& skin, const std::vector<Vect
 
 /// How far each landmark that was found rises along the body's z, m.
 std::map<std::string, double> rises(const BodyMeasures& measures, const MovedSkin& skin) {
-  std::vector<Vector3d> before;
-  for (const Landmark& landmark : measures.landmarks) before.push_back(landmark.position);
-  const std::vector<Vector3d> after = carried(before, skin);
+  const std::vector<Vector3d> after = landmarks_after(measures, skin);
   std::map<std::string, double> rises;
-  for (std::size_t i = 0; i < before.size(); ++i)
-    rises[measures.landmarks[i].name] = (measures.body_from_scan.linear() * (after[i] - before[i])).z();
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const Landmark& landmark = measures.landmarks[i];
+    rises[landmark.name] = (measures.body_from_scan.linear() * (after[i] - landmark.position)).z();
+  }
   return rises;
 }
 
@@ -103,6 +103,12 @@ double top(const std::vector<Vector3d>& vertices, const Eigen::Isometry3d& body_
 
 std::vector<Vector3d> carried(const std::vector<Vector3d>& points, const MovedSkin& skin) {
   return CarriedPoints(skin.before, SurfaceTree(skin.before), points).at(skin.after);
+}
+
+std::vector<Vector3d> landmarks_after(const BodyMeasures& measures, const MovedSkin& skin) {
+  std::vector<Vector3d> points;
+  for (const Landmark& landmark : measures.landmarks) points.push_back(landmark.position);
+  return carried(points, skin);
 }
 
 std::vector<Vector3d> tape_after(const MovedSkin& skin, const std::vector<Vector3d>& loop) {

@@ -20,6 +20,9 @@ struct MovedSkin {
 /// The points displaced as the places of the skin nearest to them are. As a CarriedPoints that is used once.
 std::vector<Eigen::Vector3d> carried(const std::vector<Eigen::Vector3d>& points, const MovedSkin& skin);
 
+/// The same of all landmarks, in their order.
+std::vector<Eigen::Vector3d> landmarks_after(const BodyMeasures& measures, const MovedSkin& skin);
+
 /// A girth's tape after the skin has moved: in the plane of `loop`, the tape before, round the skin that was
 /// inside it. Skin outside the tape before (arms, the other thigh, breasts overhanging their fold) counts
 /// only where it has come from another level. Empty where the plane cuts no such skin.

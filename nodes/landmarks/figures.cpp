@@ -18,7 +18,7 @@ constexpr double kSure = 1.5;     // of ISO 20685's limits: on training scans 3 
 constexpr double kGrossLimits = 3;  // of ISO 20685: less is no gross error, however sure both are
 constexpr double kUnit =
     0.002;  // m of misfit that Spread::base is for (definition; also in fit_precision.py)
-constexpr double kNormal = 1.96;  // deviations that hold 95 % of normal errors (definition)
+constexpr double kNormal = 1.96;  // quantile of the normal distribution at 97.5 % (definition)
 constexpr double kGross = 4;  // spreads between two readings of one thing: with Gaussian errors 1 in 16,000
 
 Spread spread_in(const YAML::Node& node, const std::string& where) {

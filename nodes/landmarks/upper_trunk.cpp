@@ -12,11 +12,13 @@ using Eigen::Vector3d;
 using geometry::mean_of;
 using geometry::SectionLoop;
 
-constexpr double kArmBeside = 0.08;  // m from the trunk's middle to an arm's, at least
-constexpr double kUnderShoulder = 0.04, kOverShoulder = 0.11;  // m, of skin from the bone (definition)
-constexpr int kHalvings = 12;                                  // of the search for the highest plane: 0.1 mm
-constexpr int kHarmonics = 8, kLoopPoints = 180;               // of a neck: waves of 40 mm
-constexpr double kNeckStep = 0.005, kNeckReach = 0.040;        // m (definition)
+constexpr double kArmBeside =
+    0.08;  // m from the trunk's middle to an arm's; what is nearer lies within it (tolerance)
+constexpr double kUnderShoulder = 0.04,
+                 kOverShoulder = 0.11;  // m, flesh over the acromion (definition: README.md, shoulder)
+constexpr int kHalvings = 12;           // of the search for the highest plane: 0.1 mm
+constexpr int kHarmonics = 8, kLoopPoints = 180;         // of a neck: waves of 40 mm
+constexpr double kNeckStep = 0.005, kNeckReach = 0.040;  // m (definition: README.md, neck)
 
 /// Middle of the gap between arm and trunk in a plane; nothing where they are one.
 std::optional<Vector3d> gap(const Surface& surface, Side side, double height, double rise) {

@@ -88,14 +88,14 @@ ordered_json size_of(const FitFigures& figures, std::size_t which) {
 
 ordered_json body_of(const FitFigures& figures) {
   ordered_json landmarks = ordered_json::array(), missing = ordered_json::array();
-  std::vector<Eigen::Vector3d> before;
-  for (const geometry::Landmark& landmark : figures.measures.landmarks) before.push_back(landmark.position);
-  const auto after = geometry::carried(before, {figures.body, figures.deformed});
-  for (std::size_t i = 0; i < before.size(); ++i)
-    landmarks.push_back({{"name", figures.measures.landmarks[i].name},
-                         {"before_mm", millimetres(before[i])},
+  const auto after = geometry::landmarks_after(figures.measures, {figures.body, figures.deformed});
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const geometry::Landmark& landmark = figures.measures.landmarks[i];
+    landmarks.push_back({{"name", landmark.name},
+                         {"before_mm", millimetres(landmark.position)},
                          {"after_mm", millimetres(after[i])},
-                         {"confidence", figures.measures.landmarks[i].confidence}});
+                         {"confidence", landmark.confidence}});
+  }
   for (const geometry::Missing& part : figures.measures.missing)
     missing.push_back({{"name", part.name}, {"reason", part.reason}});
   return {{"bra_size",

@@ -39,12 +39,12 @@ class Way:
         with self.lock:
             drawn, delay = self.dice.random() / self.share, self.dice.uniform(0.2, LATEST)
             if drawn < 1:
-                self.tell("dropped", message)
+                self.record("dropped", message)
             elif drawn < 2:
-                self.tell("delayed", message)
+                self.record("delayed", message)
                 threading.Timer(delay, self.give, [message]).start()
             elif drawn < 3:
-                self.tell("held", message)
+                self.record("held", message)
                 self.held.append(message)
                 threading.Timer(HELD, self.let_go, [message]).start()
             else:
@@ -59,7 +59,7 @@ class Way:
                 return
             self.give(message)
             for held in self.held:
-                self.tell("held", held)
+                self.record("held", held)
                 self.give(held)
             self.held = []
 
@@ -69,7 +69,7 @@ class Way:
                 self.held = [held for held in self.held if held is not message]
                 self.give(message)
 
-    def tell(self, what, message):
+    def record(self, what, message):
         print(json.dumps({"what": what, "way": self.name, "stamp": message.header.stamp.to_nsec()}), flush=True)
 
 

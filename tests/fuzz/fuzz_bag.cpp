@@ -17,6 +17,7 @@
 #include "ros/bag_check.hpp"
 #include "scan_files/bag_messages.hpp"
 #include "scan_files/scan_bag.hpp"
+#include "xyz_cloud.hpp"
 
 namespace {
 
@@ -75,23 +76,12 @@ class Recording {
   }
 
   sensor_msgs::PointCloud2 cloud() {
-    sensor_msgs::PointCloud2 scan;
-    scan.header.frame_id = frame();
-    if (input_.number(1) % 8 != 0) scan.header.stamp = ros::Time(100 + input_.number(1) % 16, 0);
+    std_msgs::Header header;
+    header.frame_id = frame();
+    if (input_.number(1) % 8 != 0) header.stamp = ros::Time(100 + input_.number(1) % 16, 0);
     constexpr std::array<std::uint32_t, 4> kPoints{0, 1, 10, 6000};
-    scan.width = kPoints[input_.number(1) % kPoints.size()];
-    scan.height = 1;
-    scan.point_step = 12;
-    scan.row_step = 12 * scan.width;
-    for (const char* name : {"x", "y", "z"}) {
-      sensor_msgs::PointField field;
-      field.name = name;
-      field.offset = static_cast<std::uint32_t>(4 * scan.fields.size());
-      field.datatype = sensor_msgs::PointField::FLOAT32;
-      field.count = 1;
-      scan.fields.push_back(field);
-    }
-    scan.data.assign(scan.row_step, 0);
+    sensor_msgs::PointCloud2 scan = xyz_cloud(kPoints[input_.number(1) % kPoints.size()]);
+    scan.header = header;
     constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
     for (std::uint32_t point = scan.width * (input_.number(1) % 4) / 6; point > 0; --point)
       std::memcpy(scan.data.data() + 12 * (point - 1), &kNone, sizeof kNone);

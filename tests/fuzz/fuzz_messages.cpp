@@ -17,6 +17,7 @@
 #include "tensegric/tensegric_handler.hpp"
 #include "tensegric_bust.hpp"
 #include "tffd/tffd_handler.hpp"
+#include "xyz_cloud.hpp"
 
 namespace {
 
@@ -292,29 +293,13 @@ MeasuredScan measured_worn(const geometry::PointCloud& cloud) {
   return {{bust.outer, bust.triangles}, std::vector<char>(bust.outer.size(), 0), measures()};
 }
 
-sensor_msgs::PointCloud2 worn_scan() {
-  sensor_msgs::PointCloud2 scan;
-  scan.width = scan.height = 1;
-  scan.point_step = scan.row_step = 12;
-  for (const char* name : {"x", "y", "z"}) {
-    sensor_msgs::PointField field;
-    field.name = name;
-    field.offset = static_cast<std::uint32_t>(4 * scan.fields.size());
-    field.datatype = sensor_msgs::PointField::FLOAT32;
-    field.count = 1;
-    scan.fields.push_back(field);
-  }
-  scan.data.assign(12, 0);
-  return scan;
-}
-
 void correlate_worn(fuzz::Input& input) {
   CorrelationHandler stage(Parameters(YAML::Load("{}"), "correlation"), measured_worn);
   const auto mesh = boost::make_shared<TriangleMesh>(body());
   const auto landmarks = boost::make_shared<Landmarks>(to_message(ScanTag(), measures()));
   const auto control = boost::make_shared<ControlMesh>(to_message(ScanTag(), tensegric::bust_mesh()));
   const auto deformed = boost::make_shared<DeformedMesh>();
-  const auto worn = boost::make_shared<sensor_msgs::PointCloud2>(worn_scan());
+  const auto worn = boost::make_shared<sensor_msgs::PointCloud2>(xyz_cloud(1));
   mesh->scan_id = landmarks->scan_id = control->scan_id = deformed->scan_id = "bare";
   deformed->vertices = mesh->vertices;
   deformed->distortion.assign(mesh->vertices.size() / 3, 1);

@@ -82,7 +82,7 @@ geometry::PointCloud points_on(const TriangleMesh& mesh) {
   return cloud;
 }
 
-/// As poisson_worker calls it, in this process.
+/// PCL's Poisson in this process; the product runs it in one of its own (poisson_worker).
 void poisson_here(const geometry::PointCloud& points, int depth) {
   const auto input = pcl::make_shared<pcl::PointCloud<pcl::PointNormal>>();
   for (std::size_t i = 0; i < points.points.size(); ++i) {

@@ -210,10 +210,3 @@ TEST(PlayedBagTest, ABagOfAllSensorsBecomesOneScan) {
 
 }  // namespace
 }  // namespace tensegric_fit::tests
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "assembler_test");
-  ros::NodeHandle node;  // keeps ROS up between clients
-  return RUN_ALL_TESTS();
-}

@@ -202,10 +202,3 @@ TEST_F(BadInputTest, NodesRefuseParametersThatTheyDoNotKnowOrThatAreOutOfRange) 
 
 }  // namespace
 }  // namespace tensegric_fit::tests
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "bad_input_test");
-  ros::NodeHandle node;  // keeps ROS up between clients
-  return RUN_ALL_TESTS();
-}

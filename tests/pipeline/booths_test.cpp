@@ -319,10 +319,3 @@ TEST_F(WatchedFolderTest, APlayerThatWasKilledGoesOnWhereItWas) {
 
 }  // namespace
 }  // namespace tensegric_fit::tests
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "booths_test");
-  ros::NodeHandle node;  // keeps ROS up between clients
-  return RUN_ALL_TESTS();
-}

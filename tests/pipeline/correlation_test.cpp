@@ -127,10 +127,3 @@ TEST_F(CorrelationTest, AWornScanIsOfOneBodyOnly) {
 
 }  // namespace
 }  // namespace tensegric_fit::tests
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "correlation_test");
-  ros::NodeHandle node;  // keeps ROS up
-  return RUN_ALL_TESTS();
-}

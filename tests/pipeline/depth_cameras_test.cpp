@@ -183,10 +183,3 @@ TEST(DepthCamerasTest, CamerasThatSendAllTheTimeAreAskedForAScan) {
 
 }  // namespace
 }  // namespace tensegric_fit::tests
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "depth_cameras_test");
-  ros::NodeHandle node;  // keeps ROS up between clients
-  return RUN_ALL_TESTS();
-}

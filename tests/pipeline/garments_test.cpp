@@ -143,10 +143,3 @@ TEST_F(PipelineTest, ResetGoesBackToTheFirstGarment) {
 
 }  // namespace
 }  // namespace tensegric_fit::tests
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "garments_test");
-  ros::NodeHandle node;  // keeps ROS up between clients
-  return RUN_ALL_TESTS();
-}

@@ -274,10 +274,3 @@ TEST_F(PipelineTest, AForgottenScanIsNowhereAndTheNextOneIsFitted) {
 
 }  // namespace
 }  // namespace tensegric_fit::tests
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "pipeline_test");
-  ros::NodeHandle node;  // keeps ROS up between clients
-  return RUN_ALL_TESTS();
-}

@@ -49,6 +49,16 @@ class ShapesTest : public testing::Test {
     ASSERT_TRUE(call.response.accepted) << call.response.message;
   }
 
+  /// As somebody who was not there before; `shapes_` has what comes then.
+  void join_late() {
+    every_.shutdown();  // a second subscriber in one process would be served by roscpp, not by the node
+    client_.reset();
+    shapes_.clear();
+    listen_to_shapes();
+    ASSERT_TRUE(wait_for([this] { return !shapes_.empty(); }));
+    listen(0.5);
+  }
+
   bool ended() const { return !shapes_.empty() && !on_its_way(shapes_.back()); }
   bool under_way() const { return !shapes_.empty() && on_its_way(shapes_.back()); }
 

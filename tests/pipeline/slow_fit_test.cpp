@@ -56,22 +56,10 @@ TEST_F(SlowFitTest, TheNextCustomerTakesThePlaceOfOneUnderWay) {
 TEST_F(SlowFitTest, WhoJoinsLateGetsHowItEndedAndNothingOnItsWay) {
   put_on(0.85);
   ASSERT_TRUE(wait_for([this] { return ended(); }));
-  every_.shutdown();  // a second subscriber in one process would be served by roscpp, not by the node
-  client_.reset();
-  shapes_.clear();
-  listen_to_shapes();
-  ASSERT_TRUE(wait_for([this] { return !shapes_.empty(); }));
-  listen(0.5);
+  join_late();
   EXPECT_EQ(shapes_.size(), 1u);
   EXPECT_TRUE(ended());
 }
 
 }  // namespace
 }  // namespace tensegric_fit::tests
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "slow_fit_test");
-  ros::NodeHandle node;  // keeps ROS up between clients
-  return RUN_ALL_TESTS();
-}

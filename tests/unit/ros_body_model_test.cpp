@@ -16,6 +16,7 @@
 #include "reconstruction/reconstruction_handler.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/model_skin_message.hpp"
+#include "xyz_cloud.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -247,22 +248,9 @@ TEST(LandmarksHandlerTest, AModelThatDoesNotFitTheMeshIsRefusedByName) {
 sensor_msgs::PointCloud2 scan_of_her() {
   constexpr int kPoints = 60000;
   const std::vector<Eigen::Vector3d> points = body_model::sample_surface(her_mesh(), {}, kPoints).points;
-  sensor_msgs::PointCloud2 scan;
+  sensor_msgs::PointCloud2 scan = xyz_cloud(points.size());
   scan.header.stamp = ros::Time(12, 34);
-  scan.height = 1;
-  scan.width = static_cast<std::uint32_t>(points.size());
-  scan.point_step = 12;
-  scan.row_step = 12 * scan.width;
   scan.is_dense = 1;
-  for (const char* name : {"x", "y", "z"}) {
-    sensor_msgs::PointField field;
-    field.name = name;
-    field.offset = static_cast<std::uint32_t>(4 * scan.fields.size());
-    field.datatype = sensor_msgs::PointField::FLOAT32;
-    field.count = 1;
-    scan.fields.push_back(field);
-  }
-  scan.data.resize(scan.row_step);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f p = points[i].cast<float>();
     std::memcpy(&scan.data[12 * i], p.data(), 12);
