@@ -7,7 +7,10 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include <algorithm>
+#include <cmath>
 #include <condition_variable>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <regex>
@@ -15,6 +18,8 @@
 
 #include "depth_cameras/camera_message.hpp"
 #include "depth_cameras/camera_poses.hpp"
+#include "depth_cameras/one_moment.hpp"
+#include "geometry/slop.hpp"
 #include "ros/parameters.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
@@ -35,7 +40,7 @@ struct Setup {
   std::string frame_id, camera_frames;
   std::vector<Eigen::Isometry3d> poses;  // booth_from_camera; empty: tf has them
   bool on_demand;
-  double timeout;
+  double timeout, slop;
 };
 
 std::vector<std::string> check_names(std::vector<std::string> names) {
@@ -58,10 +63,17 @@ Setup setup_from(Parameters parameters) {
   const std::string extrinsics = parameters.text("extrinsics", "");
   setup.on_demand = parameters.flag("on_demand", false);
   setup.timeout = parameters.number("timeout", 2, {0.01, 600});
+  setup.slop = parameters.number("slop", geometry::kUsualSlop, geometry::kSlop);
   parameters.check_all_known();
   if (!extrinsics.empty()) setup.poses = depth_cameras::load_camera_poses(extrinsics, setup.cameras);
   return setup;
 }
+
+/// A depth image and its lens, of the same stamp.
+struct Seen {
+  Image::ConstPtr image;
+  CameraInfo::ConstPtr info;
+};
 
 /// One camera: images in, those that make a scan handed on to its nodelets.
 class Camera {
@@ -86,8 +98,9 @@ class Camera {
   }
 
   /// Both with `frame`, unless it is empty.
-  void take(const Image& seen, CameraInfo info, const std::string& frame) {
-    Image image = rectified(seen, info);
+  void take(const Seen& seen, const std::string& frame) {
+    CameraInfo info = *seen.info;
+    Image image = rectified(*seen.image, info);
     if (!frame.empty()) image.header.frame_id = info.header.frame_id = frame;
     info_out_.publish(info);
     image_out_.publish(image);
@@ -137,7 +150,7 @@ class DepthCameras {
       cameras_.push_back(
           std::make_unique<Camera>(node, setup_.cameras[i], loader_,
                                    [this, i](const Image::ConstPtr& image, const CameraInfo::ConstPtr& info) {
-                                     on_pair(i, *image, *info);
+                                     on_pair(i, {image, info});
                                    }));
     if (!setup_.on_demand) return;
     private_node.setCallbackQueue(&calls_);
@@ -165,45 +178,94 @@ class DepthCameras {
     if (!poses.empty()) broadcaster_.sendTransform(poses);
   }
 
-  void on_pair(std::size_t camera, const Image& image, const CameraInfo& info) {
+  void on_pair(std::size_t camera, const Seen& seen) {
     try {
-      check_depth_image(image, info);
+      check_depth_image(*seen.image, *seen.info);
     } catch (const Refusal& refused) {
       stage_.drop("", Refusal(refused.code(), "cameras/" + setup_.cameras[camera] + ": " + refused.what()));
       return;
     }
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (setup_.on_demand && (image.header.stamp < since_ || wanted_.erase(camera) == 0)) return;
-    cameras_[camera]->take(image, info,
-                           setup_.poses.empty() ? "" : setup_.camera_frames + setup_.cameras[camera]);
+    if (setup_.on_demand)
+      hold(camera, seen);
+    else
+      take(camera, seen);
+  }
+
+  void take(std::size_t camera, const Seen& seen) {
+    cameras_[camera]->take(seen, setup_.poses.empty() ? "" : setup_.camera_frames + setup_.cameras[camera]);
+  }
+
+  /// Until there are images of all cameras that are of one moment.
+  void hold(std::size_t camera, const Seen& seen) {
+    if (!asked_ || seen.image->header.stamp < since_) return;
+    std::deque<Seen>& held = held_[camera];
+    if (!held.empty() && seen.image->header.stamp <= held.back().image->header.stamp) return;
+    held.push_back(seen);
+    if (held.size() > kMostHeld) held.pop_front();
+    const std::vector<int> chosen = of_one_moment();
+    if (std::count(chosen.begin(), chosen.end(), depth_cameras::kNone) == 0) take_held(chosen);
+  }
+
+  std::vector<int> of_one_moment() const {
+    std::vector<std::deque<std::uint64_t>> stamps(held_.size());
+    for (std::size_t i = 0; i < held_.size(); ++i)
+      for (const Seen& seen : held_[i]) stamps[i].push_back(seen.image->header.stamp.toNSec());
+    return depth_cameras::of_one_moment(stamps, static_cast<std::uint64_t>(std::llround(1e9 * setup_.slop)));
+  }
+
+  void take_held(const std::vector<int>& chosen) {
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      if (chosen[i] != depth_cameras::kNone) take(i, held_[i][chosen[i]]);
+    asked_ = false;
     taken_.notify_all();
   }
 
   bool on_scan(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
     std::unique_lock<std::mutex> lock(mutex_);
     since_ = ros::Time::now();
-    for (std::size_t i = 0; i < cameras_.size(); ++i) wanted_.insert(i);
-    taken_.wait_for(lock, std::chrono::duration<double>(setup_.timeout), [this] { return wanted_.empty(); });
-    std::vector<std::string> missing;
-    for (std::size_t i : wanted_) missing.push_back("cameras/" + setup_.cameras[i]);
-    wanted_.clear();
-    response.success = missing.empty();
-    response.message = missing.empty() ? fmt::format("{} depth images taken", cameras_.size())
-                                       : fmt::format(
-                                             "no depth image with CameraInfo of the same stamp within "
-                                             "{} s from: {}",
-                                             setup_.timeout, fmt::join(missing, ", "));
-    if (!missing.empty()) stage_.drop("", Refusal(refusal::kMissingSensor, response.message));
+    held_.assign(cameras_.size(), {});
+    asked_ = true;
+    response.success =
+        taken_.wait_for(lock, std::chrono::duration<double>(setup_.timeout), [this] { return !asked_; });
+    if (response.success) {
+      response.message = fmt::format("{} depth images taken", cameras_.size());
+    } else {
+      const std::vector<int> chosen = of_one_moment();
+      response.message = without(chosen);
+      take_held(chosen);  // the assembler knows how few cameras make a scan
+      stage_.drop("", Refusal(refusal::kMissingSensor, response.message));
+    }
+    held_.assign(cameras_.size(), {});
     return true;
   }
+
+  /// What the scan that was asked for lacks.
+  std::string without(const std::vector<int>& chosen) const {
+    std::vector<std::string> silent, apart;
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      if (chosen[i] == depth_cameras::kNone)
+        (held_[i].empty() ? silent : apart).push_back("cameras/" + setup_.cameras[i]);
+    std::string words;
+    if (!silent.empty())
+      words = fmt::format("no depth image with CameraInfo of the same stamp within {} s from: {}",
+                          setup_.timeout, fmt::join(silent, ", "));
+    if (!apart.empty())
+      words += fmt::format("{}no depth image within {} s (parameter 'slop') of those of the others from: {}",
+                           words.empty() ? "" : "; ", setup_.slop, fmt::join(apart, ", "));
+    return words;
+  }
+
+  static constexpr std::size_t kMostHeld = 5;  // images per camera: bounds memory
 
   const Setup setup_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   nodelet::Loader loader_;
-  std::mutex mutex_;  // guards cameras_ once they run, and the next three
+  std::mutex mutex_;  // guards cameras_ once they run, and the next four
   std::condition_variable taken_;
+  bool asked_ = false;
   ros::Time since_;
-  std::set<std::size_t> wanted_;
+  std::vector<std::deque<Seen>> held_;  // by camera, since it was asked
   std::vector<std::unique_ptr<Camera>> cameras_;
   ros::CallbackQueue calls_;
   ros::AsyncSpinner caller_{1, &calls_};  // the service waits for images, which come on the main queue

@@ -3,8 +3,8 @@
 table must have the same bytes as one of a batch that was left alone. Resumable: run it again with the same --work, or, where that is gone, with
 the same --results: each of --parts is a batch of its own, and has a line there.
 
---full-scans: so many of the rows, spread evenly, are clouds of full size; the others are meshes as booths deliver them (--kind mesh) or clouds
-of 9,000 points (--kind scan).
+--full-scans: so many of the rows, spread evenly, are clouds of full size; the others are meshes of 6,000 triangles (--kind mesh) or clouds of
+9,000 points (--kind scan).
 
 Usage: kill_campaign.py FOLDER_OF_THE_PROGRAMS --work DIR [--results FILE] [--rows N] [--parts P] [--full-scans F] [--bodies M] [--kind scan|mesh]
 [--seed S]"""
@@ -29,6 +29,17 @@ def make_bodies(work, programs, count, options):
                            stdout=subprocess.DEVNULL)
 
 
+def make_meshes(work, programs, count):
+    """Small meshes of the small scans, `work`/small/N/mesh.ply: a row of one takes a fraction of a scan's time."""
+    for n in range(1, count + 1):
+        folder = work / f"small/{n}"
+        if not (folder / "mesh.ply").exists():
+            subprocess.run([programs / "fit", "--scan", folder / "scan.ply", "--body-triangles", "6000", "--out", folder / "fit"], check=True,
+                           stdout=subprocess.DEVNULL)
+            (folder / "fit/body.ply").rename(folder / "mesh.ply")
+            shutil.rmtree(folder / "fit")
+
+
 def manifest_of(folder, work, rows, arguments):
     """Rows of M random bodies, each with ratios of its own."""
     manifest = folder / "manifest.csv"
@@ -38,7 +49,7 @@ def manifest_of(folder, work, rows, arguments):
         for row in rows:
             body = row % arguments.bodies + 1
             full = row * arguments.full_scans // arguments.rows != (row + 1) * arguments.full_scans // arguments.rows
-            small = {"scan": (f"{work}/small/{body}/scan.ply", ""), "mesh": ("", f"{work}/small/{body}/body.ply")}[arguments.kind]
+            small = {"scan": (f"{work}/small/{body}/scan.ply", ""), "mesh": ("", f"{work}/small/{body}/mesh.ply")}[arguments.kind]
             writer.writerow((row, *((f"{work}/full/{body}/scan.ply", "") if full else small), "B1", f"{0.99 - 0.09 * row / arguments.rows:.6f}"))
     return manifest
 
@@ -100,6 +111,8 @@ def main():
     results = arguments.results or work / "results.jsonl"
     done = [json.loads(line) for line in results.read_text(encoding="utf-8").splitlines()] if results.exists() else []
     make_bodies(work / "small", arguments.programs, arguments.bodies, ("--points", "9000"))
+    if arguments.kind == "mesh":
+        make_meshes(work, arguments.programs, arguments.bodies)
     if arguments.full_scans:
         make_bodies(work / "full", arguments.programs, arguments.bodies, ())
     for part in range(arguments.parts):

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "chain_client.hpp"
 #include "geometry/ply.hpp"
@@ -160,25 +161,38 @@ TEST(DepthCamerasTest, DepthImagesBecomeABodyAndItsMeasures) {
 TEST(DepthCamerasTest, CamerasThatSendAllTheTimeAreAskedForAScan) {
   Cameras booth("asked");
   ASSERT_TRUE(booth.ready());
-  int silent = -1;
-  ros::NodeHandle node;
-  const ros::WallTimer stream = node.createWallTimer(
-      ros::WallDuration(0.2), [&](const ros::WallTimerEvent&) { booth.send_all(ros::Time::now(), silent); });
-  ros::AsyncSpinner spinner(1);
-  spinner.start();
-  ros::WallDuration(2).sleep();
-  EXPECT_TRUE(booth.scans.empty());
   std_srvs::Trigger scan;
-  ASSERT_TRUE(ros::service::call("asked/depth_cameras/scan", scan));
+  std::thread asking;
+  const auto ask = [&] {
+    asking = std::thread(
+        [&scan] { EXPECT_TRUE(ros::service::call("asked/depth_cameras/scan", scan)) << "no service"; });
+    listen(0.5);  // until it has begun
+  };
+
+  // Nobody asked: no scan.
+  booth.send_all(ros::Time::now());
+  listen(2);
+  EXPECT_TRUE(booth.scans.empty());
+
+  // Asked while a set of images comes in: half of the cameras sent theirs before.
+  ask();
+  for (int camera = 0; camera < kCameras / 2; ++camera)
+    booth.send(camera, recorded_cameras()[camera], ros::Time::now());
+  listen(0.5);
+  booth.send_all(ros::Time::now());
+  asking.join();
   EXPECT_TRUE(scan.response.success) << scan.response.message;
-  for (int i = 0; i < 100 && booth.scans.empty(); ++i) ros::WallDuration(0.1).sleep();
-  ros::WallDuration(2).sleep();
+  EXPECT_TRUE(wait_for([&] { return !booth.scans.empty(); }))
+      << booth.facts[booth.stage("assembler")]["last_error_message"];
+  booth.send_all(ros::Time::now());
+  listen(2);
   EXPECT_EQ(booth.scans.size(), 1u);
-  silent = 6;
-  ASSERT_TRUE(ros::service::call("asked/depth_cameras/scan", scan));
+
+  ask();
+  booth.send_all(ros::Time::now(), 6);
+  asking.join();
   EXPECT_FALSE(scan.response.success);
   EXPECT_NE(scan.response.message.find("cameras/6"), std::string::npos) << scan.response.message;
-  spinner.stop();
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 using geometry::TriangleMesh;
 using nlohmann::json;
 
-TriangleMesh tetrahedron() {
+TriangleMesh corner() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
 }
 
@@ -55,13 +55,13 @@ std::string number(std::uint32_t value) {
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
-/// A GLB of the tetrahedron whose JSON a test may spoil.
-struct Glb {
+/// A GLB of the corner whose JSON a test may spoil.
+struct WrittenGlb {
   json text;
   std::string data;
 
-  Glb() {
-    const std::string bytes = glb_bytes({{"body", tetrahedron()}});
+  WrittenGlb() {
+    const std::string bytes = glb_bytes({{"body", corner()}});
     std::uint32_t length = 0;
     std::memcpy(&length, bytes.data() + 12, sizeof length);
     text = json::parse(bytes.substr(20, length));
@@ -78,7 +78,7 @@ struct Glb {
 };
 
 TEST_F(MeshFile, EveryFormatHasTheShape) {
-  const TriangleMesh mesh = tetrahedron();
+  const TriangleMesh mesh = corner();
   for (const auto& [name, bytes, unit] : {std::tuple("a.OBJ", obj_text(mesh, "body"), 1e-3),
                                           {"a.stl", stl_bytes(mesh), 1e-3},
                                           {"a.glb", glb_bytes({{"body", mesh}}), 1.0}}) {
@@ -105,13 +105,13 @@ TEST_F(MeshFile, AsciiStlAndBinaryStlThatSaysSolid) {
       " facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1e0 0 0\n vertex 0 1 0\n endloop\n "
       "endfacet\n";
   EXPECT_EQ(read_mesh(write("a.stl", "solid x\n" + facet + "endsolid x\n")).triangles.size(), 1U);
-  std::string binary = stl_bytes(tetrahedron());
+  std::string binary = stl_bytes(corner());
   binary.replace(0, 5, "solid");
   EXPECT_EQ(read_mesh(write("b.stl", binary)).triangles.size(), 4U);
 }
 
 TEST_F(MeshFile, GltfNodesPlaceMeshesAndDataLieInTheFile) {
-  Glb glb;
+  WrittenGlb glb;
   glb.text["nodes"][0]["scale"] = {2, 2, -2};  // mirrored: the outside stays outside
   const TriangleMesh mesh = read_mesh(write("a.glb", glb.bytes()));
   EXPECT_NEAR(geometry::cone_volume(mesh.vertices, mesh.triangles), 8, 1e-6);
@@ -145,7 +145,7 @@ TEST_F(MeshFile, RefusesOddTextFilesByName) {
 }
 
 TEST_F(MeshFile, RefusesOddStlByName) {
-  const std::string good = stl_bytes(tetrahedron());
+  const std::string good = stl_bytes(corner());
   EXPECT_EQ(refusal_of("cut.stl", good.substr(0, good.size() - 10)), "broken_file");
   EXPECT_EQ(refusal_of("solid.stl", "solid" + good.substr(5, good.size() - 15)), "broken_file");
   EXPECT_EQ(refusal_of("count.stl", good.substr(0, 80) + number(4000000000U) + good.substr(84)),
@@ -160,7 +160,7 @@ TEST_F(MeshFile, RefusesOddStlByName) {
 }
 
 TEST_F(MeshFile, RefusesGlbThatLies) {
-  const Glb good;
+  const WrittenGlb good;
   const std::string bytes = good.bytes();
   EXPECT_EQ(refusal_of("good.glb", bytes), "accepted");
   EXPECT_EQ(refusal_of("cut.glb", bytes.substr(0, bytes.size() - 8)), "broken_file");
@@ -170,7 +170,7 @@ TEST_F(MeshFile, RefusesGlbThatLies) {
             "broken_file");
   EXPECT_EQ(refusal_of("deep.gltf", std::string(100000, '[')), "broken_file");
   const auto spoilt = [&](const char* pointer, const json& value) {
-    Glb glb;
+    WrittenGlb glb;
     glb.text[json::json_pointer(pointer)] = value;
     return refusal_of("spoilt.glb", glb.bytes());
   };
@@ -186,7 +186,7 @@ TEST_F(MeshFile, RefusesGlbThatLies) {
   EXPECT_EQ(spoilt("/nodes/0/matrix", json::array({1, 2})), "broken_file");
   EXPECT_EQ(spoilt("/extensionsRequired", json::array({"KHR_draco_mesh_compression"})), "broken_file");
   EXPECT_EQ(spoilt("/scene", 9), "broken_file");
-  Glb index;
+  WrittenGlb index;
   const std::size_t start = index.text["bufferViews"].back()["byteOffset"];
   index.data.replace(start, 4, number(4000000000U));
   EXPECT_EQ(refusal_of("index.glb", index.bytes()), "bad_mesh");
@@ -194,7 +194,7 @@ TEST_F(MeshFile, RefusesGlbThatLies) {
 
 TEST_F(MeshFile, OpensNothingElse) {
   // The other file is there, and whole: it is refused all the same.
-  Glb glb;
+  WrittenGlb glb;
   write("other.bin", glb.data);
   glb.text["buffers"][0]["uri"] = "other.bin";
   try {
@@ -203,7 +203,7 @@ TEST_F(MeshFile, OpensNothingElse) {
   } catch (const geometry::Refusal& refusal) {
     EXPECT_NE(std::string(refusal.what()).find("other.bin"), std::string::npos);
   }
-  Glb textured;
+  WrittenGlb textured;
   textured.text["images"] = json::array({{{"uri", "/not/there.png"}}});
   EXPECT_EQ(refusal_of("textured.glb", textured.bytes()), "accepted");
 }
@@ -215,7 +215,7 @@ TEST_F(MeshFile, XyzHasHeadingsAndFurtherColumns) {
 }
 
 TEST(SurfaceSamples, AreEvenAndHaveNormalsWhereTheMeshHasAnOutside) {
-  TriangleMesh mesh = tetrahedron();
+  TriangleMesh mesh = corner();
   const geometry::PointCloud cloud = surface_samples(mesh, 10000);
   ASSERT_EQ(cloud.points.size(), 10000U);
   int on_floor = 0;
@@ -240,7 +240,7 @@ TEST(SurfaceSamples, AreEvenAndHaveNormalsWhereTheMeshHasAnOutside) {
 }
 
 TEST(SurfaceSamples, HaveNoNormalsWhereTheMeshHasNoOutside) {
-  TriangleMesh mesh = tetrahedron(), soup;
+  TriangleMesh mesh = corner(), soup;
   for (const Eigen::Vector3i& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) soup.vertices.push_back(mesh.vertices[t[k]]);
   for (int f = 0; f < 4; ++f) soup.triangles.emplace_back(3 * f, 3 * f + 1, 3 * f + 2);

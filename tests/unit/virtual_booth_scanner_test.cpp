@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using virtual_booth::ScannerOptions;
 using virtual_booth::VirtualScan;
 
-const virtual_body::VirtualBody& body() {
+const virtual_body::VirtualBody& scanned_body() {
   static const virtual_body::VirtualBody made = virtual_body::make_body({});
   return made;
 }
@@ -70,15 +70,15 @@ double nearest(const VirtualScan& scan, const Vector3d& p) {
 
 TEST(VirtualScannerTest, SameSeedSameBitsOtherSeedOtherPoints) {
   ScannerOptions options;
-  const VirtualScan a = virtual_booth::scan_body(body().mesh, options),
-                    b = virtual_booth::scan_body(body().mesh, options);
+  const VirtualScan a = virtual_booth::scan_body(scanned_body().mesh, options),
+                    b = virtual_booth::scan_body(scanned_body().mesh, options);
   EXPECT_EQ(a.cloud.points, b.cloud.points);
   EXPECT_EQ(a.sensor, b.sensor);
   EXPECT_EQ(a.cloud.points.size(), 180000u);
   EXPECT_EQ(a.sensor.size(), a.cloud.points.size());
   EXPECT_EQ(std::set<int>(a.sensor.begin(), a.sensor.end()).size(), 12u);  // 4 columns of 3
   options.seed = 2;
-  EXPECT_NE(a.cloud.points, virtual_booth::scan_body(body().mesh, options).cloud.points);
+  EXPECT_NE(a.cloud.points, virtual_booth::scan_body(scanned_body().mesh, options).cloud.points);
 }
 
 TEST(VirtualScannerTest, WithoutErrorsPointsLieOnTheSurfaceFacingTheirSensor) {
@@ -161,13 +161,13 @@ TEST(VirtualScannerTest, EachSensorsPointsLieBeforeItAndItsErrorIsKnown) {
 TEST(VirtualScannerTest, HiddenSkinHasNoPoints) {
   ScannerOptions options;
   options.outliers = 0;
-  const VirtualScan scan = virtual_booth::scan_body(body().mesh, options);
+  const VirtualScan scan = virtual_booth::scan_body(scanned_body().mesh, options);
   for (const char* name : {"crotch", "axilla_L", "axilla_R"})
-    EXPECT_GT(nearest(scan, body().truth.landmark(name)), 0.004)
+    EXPECT_GT(nearest(scan, scanned_body().truth.landmark(name)), 0.004)
         << name;                                       // points are 3 mm apart where skin is seen
   EXPECT_GT(nearest(scan, {0.09, 0.11, 0.0}), 0.010);  // sole
   for (const char* name : {"bust_point_L", "bust_point_R", "buttock_L", "navel", "neck_front"})
-    EXPECT_LT(nearest(scan, body().truth.landmark(name)), 0.006) << name;
+    EXPECT_LT(nearest(scan, scanned_body().truth.landmark(name)), 0.006) << name;
 }
 
 TEST(VirtualScannerTest, FloorIsThereOnRequestOnly) {
@@ -177,9 +177,9 @@ TEST(VirtualScannerTest, FloorIsThereOnRequestOnly) {
     });
   };
   ScannerOptions options;
-  EXPECT_EQ(floor_points(virtual_booth::scan_body(body().mesh, options)), 0);
+  EXPECT_EQ(floor_points(virtual_booth::scan_body(scanned_body().mesh, options)), 0);
   options.floor = true;
-  const VirtualScan scan = virtual_booth::scan_body(body().mesh, options);
+  const VirtualScan scan = virtual_booth::scan_body(scanned_body().mesh, options);
   EXPECT_GT(floor_points(scan), 10000);
   for (const Vector3d& p : scan.cloud.points) ASSERT_LT(p.head<2>().norm(), options.floor_radius + 0.2);
 }
@@ -191,9 +191,9 @@ TEST(VirtualScannerTest, TheFrameIsSeenOnRequestOnly) {
   };
   ScannerOptions options;
   options.outliers = 0;
-  EXPECT_EQ(frame_points(virtual_booth::scan_body(body().mesh, options)), 0);
+  EXPECT_EQ(frame_points(virtual_booth::scan_body(scanned_body().mesh, options)), 0);
   options.frame = true;
-  EXPECT_GT(frame_points(virtual_booth::scan_body(body().mesh, options)), 1000);
+  EXPECT_GT(frame_points(virtual_booth::scan_body(scanned_body().mesh, options)), 1000);
 }
 
 TEST(VirtualScannerTest, DarkPatchesLoseTheirShareOfPoints) {
