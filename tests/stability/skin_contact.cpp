@@ -7,18 +7,20 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <queue>
 #include <tuple>
 
 #include "control_mesh/template.hpp"
-#include "crossings.hpp"
 #include "fit/chain.hpp"
 #include "fit/tissue_file.hpp"
+#include "geometry/crossing_triangles.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
 #include "scan_files/scan_file.hpp"
+#include "skin_inside.hpp"
 
 namespace {
 
@@ -81,7 +83,7 @@ Contact contact_of(const Rest& rest, const std::vector<Eigen::Vector3d>& worn) {
     const Eigen::Vector3i& t = rest.mesh.triangles[triangle];
     return moved[t[0]] || moved[t[1]] || moved[t[2]];
   };
-  const Pairs pairs = stability::crossings(skin, moved);
+  const Pairs pairs = geometry::crossing_pairs(worn, rest.mesh.triangles, moved);
   Contact contact;
   for (std::size_t v = 0; v < moved.size(); ++v)
     if (moved[v]) contact.depth_at_rest = std::max(contact.depth_at_rest, rest.depths[v]);
@@ -92,7 +94,10 @@ Contact contact_of(const Rest& rest, const std::vector<Eigen::Vector3d>& worn) {
       contact.other_skin += is_other_skin(rest, pair.first, pair.second);
     }
   if (pairs.empty()) return contact;
-  const std::vector<double> depths = depths_of(skin, pairs);
+  Pairs all = pairs;  // with those of skin that stays
+  std::copy_if(rest.pairs.begin(), rest.pairs.end(), std::back_inserter(all),
+               [&](const auto& pair) { return !moves(pair.first) && !moves(pair.second); });
+  const std::vector<double> depths = depths_of(skin, all);
   const auto deeper = [&](int v) { return depths[v] - rest.depths[v]; };
   for (std::size_t v = 0; v < depths.size(); ++v)
     if (deeper(v) > contact.deepest) {
@@ -125,7 +130,8 @@ class Bodies {
         scans ? fit::measure_scan(geometry::points_of(scan_files::read_scan_file(path).cloud), settings_, times)
               : fit::measure_mesh(geometry::read_ply_mesh(path), settings_, times);
     Rest rest{body.mesh.mesh, {}, {}, {}};
-    rest.pairs = stability::crossings(rest.mesh, std::vector<char>(rest.mesh.vertices.size(), 1));
+    rest.pairs = geometry::crossing_pairs(rest.mesh.vertices, rest.mesh.triangles,
+                                         std::vector<char>(rest.mesh.vertices.size(), 1));
     rest.depths = depths_of(rest.mesh, rest.pairs);
     rest.neighbours = geometry::neighbours_of(rest.mesh.vertices.size(), rest.mesh.triangles);
     fmt::print(stderr, "{}: {} pairs cross at rest, {:.2f} mm\n", name, rest.pairs.size(),

@@ -27,7 +27,7 @@ Vector3d in_scan(double x, double y, double z) {
   return measures().body_from_scan.inverse() * Vector3d(x, y, z);
 }
 
-std::string refusal_of(const BodyMeasures& m, const Posture& posture = {0.1, 0.1}) {
+std::string refusal_of_posing(const BodyMeasures& m, const Posture& posture = {0.1, 0.1}) {
   try {
     BoneFrames(m, posture);
   } catch (const Refusal& refusal) {
@@ -156,22 +156,22 @@ TEST(Posture, AMessageCarriesItWhole) {
 }
 
 TEST(Posture, RefusalsHaveNames) {
-  EXPECT_EQ(refusal_of(measures()), "accepted");
-  EXPECT_EQ(refusal_of(measures(), {1.1, 0}), "bad_option");
-  EXPECT_EQ(refusal_of(measures(), {0, -0.8}), "bad_option");
-  EXPECT_EQ(refusal_of(measures(), {std::nan(""), 0}), "bad_option");
+  EXPECT_EQ(refusal_of_posing(measures()), "accepted");
+  EXPECT_EQ(refusal_of_posing(measures(), {1.1, 0}), "bad_option");
+  EXPECT_EQ(refusal_of_posing(measures(), {0, -0.8}), "bad_option");
+  EXPECT_EQ(refusal_of_posing(measures(), {std::nan(""), 0}), "bad_option");
   BodyMeasures m = measures();
   m.heights.pop_back();
-  EXPECT_EQ(refusal_of(m), "missing_part:underbust");
+  EXPECT_EQ(refusal_of_posing(m), "missing_part:underbust");
   m = measures();
   m.heights.erase(m.heights.begin());
-  EXPECT_EQ(refusal_of(m), "missing_part:hip");
+  EXPECT_EQ(refusal_of_posing(m), "missing_part:hip");
   m = measures();
   m.landmarks.clear();
-  EXPECT_EQ(refusal_of(m), "missing_part:crotch");
+  EXPECT_EQ(refusal_of_posing(m), "missing_part:crotch");
   m = measures();
   m.heights[1].metres = 0.8;
-  EXPECT_EQ(refusal_of(m), "not_a_body");
+  EXPECT_EQ(refusal_of_posing(m), "not_a_body");
 }
 
 }  // namespace

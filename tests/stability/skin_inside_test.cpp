@@ -1,8 +1,10 @@
-#include "crossings.hpp"
+#include "skin_inside.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "geometry/crossing_triangles.hpp"
 
 namespace tensegric_fit::stability {
 namespace {
@@ -43,46 +45,13 @@ geometry::TriangleMesh two_balls(double apart) {
   return mesh;
 }
 
-TEST(Crossings, OfTwoTriangles) {
-  const std::array<Vector3d, 3> flat{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)};
-  const auto upright = [](double x, double low) {
-    return std::array<Vector3d, 3>{Vector3d(x, 0.2, low), Vector3d(x, 0.3, low), Vector3d(x, 0.25, 1)};
-  };
-  EXPECT_TRUE(cross(flat, upright(0.2, -1)));
-  EXPECT_TRUE(cross(upright(0.2, -1), flat));
-  EXPECT_FALSE(cross(flat, upright(0.2, 1e-6)));   // above it
-  EXPECT_FALSE(cross(flat, upright(0.9, -1)));     // beside it
-  EXPECT_FALSE(cross(flat, upright(0.2, 0)));      // standing on it
-  EXPECT_FALSE(cross(flat, flat));                 // in its plane
+std::vector<std::pair<int, int>> all_pairs(const geometry::TriangleMesh& mesh) {
+  return geometry::crossing_pairs(mesh.vertices, mesh.triangles, std::vector<char>(mesh.vertices.size(), 1));
 }
 
-TEST(Crossings, OfTwoBallsAreWhereTheyMeet) {
-  const std::vector<char> all(two_balls(1).vertices.size(), 1);
-  EXPECT_TRUE(crossings(two_balls(0.1001), all).empty());
+TEST(SkinInside, IsTheLensOfTwoBalls) {
   const geometry::TriangleMesh mesh = two_balls(0.09);
-  const auto pairs = crossings(mesh, all);
-  EXPECT_FALSE(pairs.empty());
-  const int half = static_cast<int>(mesh.triangles.size()) / 2;
-  for (const auto& [a, b] : pairs) {
-    EXPECT_LT(a, half);
-    EXPECT_GE(b, half);
-    // The circle in which spheres of 50 mm meet whose centres are 90 mm apart.
-    const Vector3d place = (mesh.vertices[mesh.triangles[a][0]] + mesh.vertices[mesh.triangles[a][1]] +
-                            mesh.vertices[mesh.triangles[a][2]]) /
-                           3;
-    EXPECT_NEAR(place.x(), 0.145, 0.006);
-    EXPECT_NEAR((place - Vector3d(place.x(), 0.2, -0.1)).norm(), std::sqrt(0.05 * 0.05 - 0.045 * 0.045), 0.006);
-  }
-  // The same pairs from either ball, and none where neither has a vertex that is looked at.
-  std::vector<char> one(all.size());
-  std::fill(one.begin(), one.begin() + static_cast<long>(one.size() / 2), 1);
-  EXPECT_EQ(crossings(mesh, one), pairs);
-  EXPECT_TRUE(crossings(mesh, std::vector<char>(all.size())).empty());
-}
-
-TEST(Crossings, DepthIsThatOfTheLens) {
-  const geometry::TriangleMesh mesh = two_balls(0.09);
-  const auto patches = skin_inside(mesh, crossings(mesh, std::vector<char>(mesh.vertices.size(), 1)));
+  const auto patches = skin_inside(mesh, all_pairs(mesh));
   ASSERT_EQ(patches.size(), 2u);
   for (const SkinInside& patch : patches) {
     double deepest = 0;
@@ -95,7 +64,7 @@ TEST(Crossings, DepthIsThatOfTheLens) {
     }
     EXPECT_NEAR(deepest, 0.010, 0.001);
   }
-  EXPECT_TRUE(skin_inside(two_balls(0.2), {}).empty());
+  EXPECT_TRUE(skin_inside(two_balls(0.1001), all_pairs(two_balls(0.1001))).empty());
 }
 
 }  // namespace
