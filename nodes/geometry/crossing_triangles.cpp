@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 
 constexpr double kMostCells = 1000000;  // of a grid, however unlike in size the triangles are
 
-// Six times the volume of the tetrahedron, positive where d is on the side that sees a, b, c counter-clockwise.
+// Six times the volume of the tetrahedron, positive where d is on the side that sees a, b, c
+// counter-clockwise.
 double volume(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
   return (b - a).cross(c - a).dot(d - a);
 }
@@ -27,7 +28,8 @@ Array3d sides(const Corners& of, const Corners& t) {
 }
 
 // Where edges of a triangle go through the inside of another.
-void add_passages(const Corners& edges, const Array3d& side, const Corners& t, std::vector<Vector3d>& points) {
+void add_passages(const Corners& edges, const Array3d& side, const Corners& t,
+                  std::vector<Vector3d>& points) {
   for (int i = 0; i < 3; ++i) {
     const int next = (i + 1) % 3;
     if (!(side[i] > 0 && side[next] < 0) && !(side[i] < 0 && side[next] > 0)) continue;
@@ -72,8 +74,7 @@ class Grid {
     // Twice over all boxes: first to count, then to fill.
     const auto for_all = [&](const auto& visit) {
       for (std::size_t i = 0; i < boxes.size(); ++i)
-        if (is_looked_at[i])
-          for_cells(boxes[i], [&](int cell) { visit(static_cast<int>(i), cell); });
+        if (is_looked_at[i]) for_cells(boxes[i], [&](int cell) { visit(static_cast<int>(i), cell); });
     };
     for_all([&](int, int cell) { ++starts_[cell + 1]; });
     for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];

@@ -9,7 +9,7 @@ namespace tensegric_fit::geometry {
 
 /// Codes of warnings: the shape shown is not smooth skin.
 namespace warning {
-inline constexpr char kShelf[] = "shelf", kTurnedOver[] = "turned_over";
+inline constexpr char kShelf[] = "shelf", kTurnedOver[] = "turned_over", kSkinCrosses[] = "skin_crosses";
 }
 /// Codes of notices: the shape is sound, but something may need attention.
 namespace notice {
@@ -29,12 +29,14 @@ struct FitWarning {
   Eigen::Vector3d worn = Eigen::Vector3d::Zero();     ///< the same on the worn skin
   double area = 0;                                    ///< of the skin concerned, at rest, m^2
   double shelf_area = 0;  ///< part of it that is turned by more than 60 degrees, m^2
-  /// By code: largest turn (rad), largest or least stretch, tension (pseudo force), or the share of the line
-  /// that came off the skin.
+  /// By code: largest turn (rad), depth (m), largest or least stretch, tension (pseudo force), or the share
+  /// of the line that came off the skin.
   double value = 0;
   std::vector<int> vertices{};  ///< of the body: the skin concerned, ascending
 
-  bool is_warning() const { return code == warning::kShelf || code == warning::kTurnedOver; }
+  bool is_warning() const {
+    return code == warning::kShelf || code == warning::kTurnedOver || code == warning::kSkinCrosses;
+  }
 };
 
 }  // namespace tensegric_fit::geometry

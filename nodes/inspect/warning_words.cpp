@@ -72,6 +72,10 @@ std::string warning(const FitWarning& warning, const geometry::BodyMeasures& mea
   if (warning.code == geometry::warning::kTurnedOver)
     return fmt::format("Skin turns over{}: {}. What is shown there is not to be trusted.{}", where, area,
                        loosen(warning.line));
+  if (warning.code == geometry::warning::kSkinCrosses)
+    return fmt::format(
+        "Skin passes through skin{}: {:.0f} mm and more. What is shown there is not to be trusted.{}", where,
+        1e3 * warning.value, loosen(warning.line));
   if (warning.code == geometry::notice::kSkinTurns)
     return fmt::format("The skin turns sharply{}: {} by up to {}. Tighter, and it folds.", where, area,
                        degrees(warning.value));

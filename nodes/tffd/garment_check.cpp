@@ -2,15 +2,19 @@
 
 #include <iterator>
 
+#include "tffd/crossing_skin.hpp"
+
 namespace tensegric_fit::tffd {
 
 std::vector<geometry::FitWarning> check_garment(const std::vector<Eigen::Vector3d>& scanned,
                                                 const WornSkin& skin, const std::vector<WornLine>& lines,
                                                 const HoldOptions& options) {
   std::vector<geometry::FitWarning> all = check_skin(skin, lines);
-  std::vector<geometry::FitWarning> loose =
-      under_constricted({scanned, skin.worn, skin.triangles}, lines, options);
-  all.insert(all.end(), std::make_move_iterator(loose.begin()), std::make_move_iterator(loose.end()));
+  const auto append = [&all](std::vector<geometry::FitWarning> more) {
+    all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  };
+  append(check_crossings(skin, lines));
+  append(under_constricted({scanned, skin.worn, skin.triangles}, lines, options));
   return all;
 }
 

@@ -3,12 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 
-#include "geometry/disjoint_sets.hpp"
 #include "geometry/status.hpp"
 #include "geometry/triangle_mesh.hpp"
+#include "tffd/skin_place.hpp"
 
 namespace tensegric_fit::tffd {
 namespace {
@@ -57,24 +55,17 @@ std::vector<Change> changes_of(const WornSkin& skin) {
   return changes;
 }
 
-// Connected pieces of the triangles that `is` picks, by shared corners, in the order of their first triangle.
+// Places of the triangles that `is` picks, in the order of their first triangle.
 template <typename Is>
 std::vector<std::vector<Change>> pieces(const WornSkin& skin, const std::vector<Change>& changes, Is is) {
   std::vector<Change> picked;
   std::copy_if(changes.begin(), changes.end(), std::back_inserter(picked), is);
-  geometry::DisjointSets sets(picked.size());
-  std::map<int, int> first_at;  // vertex -> the first picked triangle there
-  for (std::size_t i = 0; i < picked.size(); ++i)
-    for (const int v : skin.triangles[picked[i].triangle]) {
-      const auto [at, is_new] = first_at.emplace(v, static_cast<int>(i));
-      if (!is_new) sets.join(at->second, static_cast<int>(i));
-    }
+  std::vector<int> triangles;
+  for (const Change& change : picked) triangles.push_back(change.triangle);
   std::vector<std::vector<Change>> found;
-  std::map<int, std::size_t> place;
-  for (std::size_t i = 0; i < picked.size(); ++i) {
-    const auto [at, is_new] = place.emplace(sets.root(static_cast<int>(i)), found.size());
-    if (is_new) found.emplace_back();
-    found[at->second].push_back(picked[i]);
+  for (const std::vector<int>& place : places_of(triangles, skin.triangles)) {
+    found.emplace_back();
+    for (const int i : place) found.back().push_back(picked[i]);
   }
   return found;
 }
@@ -110,26 +101,10 @@ double extreme(std::vector<Change> piece, Value value, bool largest) {
 
 FitWarning warning_of(const char* code, const std::vector<Change>& piece, double value, const WornSkin& skin,
                       const std::vector<WornLine>& lines) {
-  FitWarning warning;
-  warning.code = code;
-  warning.value = value;
-  warning.area = area_of(piece);
+  std::vector<int> triangles;
+  for (const Change& change : piece) triangles.push_back(change.triangle);
+  FitWarning warning = warning_at(code, triangles, value, skin, lines);
   warning.shelf_area = area_beyond(piece, kShelf);
-  for (const Change& change : piece)
-    for (const int v : skin.triangles[change.triangle]) {
-      warning.at_rest += change.area / warning.area / 3 * skin.rest[v];
-      warning.worn += change.area / warning.area / 3 * skin.worn[v];
-      warning.vertices.push_back(v);
-    }
-  std::sort(warning.vertices.begin(), warning.vertices.end());
-  warning.vertices.erase(std::unique(warning.vertices.begin(), warning.vertices.end()),
-                         warning.vertices.end());
-  double nearest = kNearLine;
-  for (const WornLine& line : lines)
-    if (const double distance = from_course(warning.worn, line.worn); distance < nearest) {
-      nearest = distance;
-      warning.line = line.name;
-    }
   return warning;
 }
 
@@ -167,17 +142,6 @@ void check_turns(const WornSkin& skin, const std::vector<Change>& changes, const
 }
 
 }  // namespace
-
-double from_course(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& course) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < course.size(); ++i) {
-    const Eigen::Vector3d way = course[i] - course[i - 1], to = point - course[i - 1];
-    const double length = way.squaredNorm(),
-                 part = length > 0 ? std::clamp(to.dot(way) / length, 0.0, 1.0) : 0;
-    nearest = std::min(nearest, (to - part * way).squaredNorm());
-  }
-  return std::sqrt(nearest);
-}
 
 bool turns_over(const WornSkin& skin) {
   double over = 0;

@@ -1,11 +1,10 @@
 /// Where a garment asks more of the skin than smooth skin does (README.md).
 #pragma once
 
-#include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "geometry/fit_warning.hpp"
+#include "tffd/skin_place.hpp"
 
 namespace tensegric_fit::tffd {
 
@@ -24,27 +23,6 @@ inline constexpr double kGrain = 0.25e-4;
 inline constexpr double kMostStretch = 1.6;
 /// Skin that keeps its length and is pressed to this share of it stands up in folds of 60 degrees: cos 60.
 inline constexpr double kLeastStretch = 0.5;
-/// m: a line that is farther than this from a place has no part in it (a hand's breadth).
-inline constexpr double kNearLine = 0.10;
-
-/// A garment line as it lies on a body, scan frame, metres; tension in the solver's pseudo force.
-struct WornLine {
-  std::string name;
-  std::vector<Eigen::Vector3d> at_rest, worn;  ///< its middle thread, point by point
-  double neutral = 0, final = 0;               ///< lengths
-  double tension = 0;
-};
-
-/// A body's skin before and after, one place per vertex. `rest` in the posture in which it is worn, so that a
-/// posture turns nothing. Only borrowed. Metres, scan frame.
-struct WornSkin {
-  const std::vector<Eigen::Vector3d>& rest;
-  const std::vector<Eigen::Vector3d>& worn;
-  const std::vector<Eigen::Vector3i>& triangles;
-};
-
-/// m, from a point to the polyline through `course`; infinite where that has fewer than two points.
-double from_course(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& course);
 
 /// Connected places (by corners of triangles), the largest of a kind first:
 /// `shelf`: skin turned by more than kTurned, where in all kLeastPatch or more is turned by more than kShelf;

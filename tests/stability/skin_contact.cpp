@@ -1,6 +1,6 @@
-/// Where worn skin passes through skin: every shipped garment on bodies, a row a fit as CSV on standard output,
-/// a table by request on standard error (README.md). Bodies whose skin lies inside them at rest, where the garment
-/// moves it, count apart: they are no bodies there.
+/// Where worn skin passes through skin: every shipped garment on bodies, a row a fit as CSV on standard
+/// output, a table by request on standard error (README.md). Bodies whose skin lies inside them at rest,
+/// where the garment moves it, count apart: they are no bodies there.
 ///   skin_contact BODY.ply... --control-triangles 480 --tissue launch/tissue/fine.yaml > contact.csv
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@ namespace {
 using namespace tensegric_fit;
 using Pairs = std::vector<std::pair<int, int>>;
 
-constexpr double kMoved = 1e-4;    // m: skin that moved less does not count
+constexpr double kMoved = 1e-4;     // m: skin that moved less does not count
 constexpr double kSunken = 0.5e-3;  // m: skin that lies deeper than this inside the body at rest is sunken
 // m along the skin at rest: triangles farther apart than this are other skin that came near, no fold between
 // neighbours.
@@ -106,10 +106,10 @@ Contact contact_of(const Rest& rest, const std::vector<Eigen::Vector3d>& worn) {
     }
   for (const Eigen::Vector3i& t : rest.mesh.triangles)
     if (deeper(t[0]) > kMoved || deeper(t[1]) > kMoved || deeper(t[2]) > kMoved)
-      contact.area += geometry::area_vector(rest.mesh.vertices[t[0]], rest.mesh.vertices[t[1]],
-                                            rest.mesh.vertices[t[2]])
-                          .norm() /
-                      2;
+      contact.area +=
+          geometry::area_vector(rest.mesh.vertices[t[0]], rest.mesh.vertices[t[1]], rest.mesh.vertices[t[2]])
+              .norm() /
+          2;
   return contact;
 }
 
@@ -127,26 +127,26 @@ class Bodies {
     const std::string name = std::filesystem::path(path).stem().string();
     fit::StageTimes times;
     const fit::Body body =
-        scans ? fit::measure_scan(geometry::points_of(scan_files::read_scan_file(path).cloud), settings_, times)
-              : fit::measure_mesh(geometry::read_ply_mesh(path), settings_, times);
+        scans
+            ? fit::measure_scan(geometry::points_of(scan_files::read_scan_file(path).cloud), settings_, times)
+            : fit::measure_mesh(geometry::read_ply_mesh(path), settings_, times);
     Rest rest{body.mesh.mesh, {}, {}, {}};
     rest.pairs = geometry::crossing_pairs(rest.mesh.vertices, rest.mesh.triangles,
-                                         std::vector<char>(rest.mesh.vertices.size(), 1));
+                                          std::vector<char>(rest.mesh.vertices.size(), 1));
     rest.depths = depths_of(rest.mesh, rest.pairs);
     rest.neighbours = geometry::neighbours_of(rest.mesh.vertices.size(), rest.mesh.triangles);
     fmt::print(stderr, "{}: {} pairs cross at rest, {:.2f} mm\n", name, rest.pairs.size(),
                1e3 * *std::max_element(rest.depths.begin(), rest.depths.end()));
     std::map<std::string, fit::Fitting> fittings;  // by region
     for (const std::string& word : garments) {
-      tensegric::Garment garment =
-          tensegric::take_garment(word, geometry::shipped_folder("garments"));
+      tensegric::Garment garment = tensegric::take_garment(word, geometry::shipped_folder("garments"));
       const std::string region = garment.regions.front();
       try {
         if (fittings.count(region) == 0) {
           const control_mesh::Template pattern = control_mesh::load_template(geometry::yaml_file(
               geometry::shipped_folder("templates"), region, geometry::refusal::kBadGarment));
-          fittings.emplace(region, fit::prepare(body, std::vector<control_mesh::Template>{pattern}, settings_,
-                                                times));
+          fittings.emplace(
+              region, fit::prepare(body, std::vector<control_mesh::Template>{pattern}, settings_, times));
         }
       } catch (const geometry::Refusal& refusal) {
         fmt::print("{},{},,refused: {},,,,,,,,,\n", name, word, refusal.code());
@@ -163,7 +163,8 @@ class Bodies {
 
   std::string table() const {
     std::string text =
-        "| garments | sunken at rest | request | fits | newly crossing | of them other skin | over 0.5 mm | over 2 mm "
+        "| garments | sunken at rest | request | fits | newly crossing | of them other skin | over 0.5 mm | "
+        "over 2 mm "
         "| deepest, mm |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
     for (const auto& [key, row] : rows_) {
@@ -178,8 +179,8 @@ class Bodies {
  private:
   void add(const std::string& body, const std::string& garment, double ratio, const Contact& contact,
            const std::string& status) {
-    fmt::print("{},{},{:.2f},{},{},{:.3f},{},{},{:.3f},{:.2f},{:.3f},{:.3f},{:.3f}\n", body, garment, ratio, status,
-               contact.pairs_at_rest, 1e3 * contact.depth_at_rest, contact.pairs, contact.other_skin,
+    fmt::print("{},{},{:.2f},{},{},{:.3f},{},{},{:.3f},{:.2f},{:.3f},{:.3f},{:.3f}\n", body, garment, ratio,
+               status, contact.pairs_at_rest, 1e3 * contact.depth_at_rest, contact.pairs, contact.other_skin,
                1e3 * contact.deepest, 1e4 * contact.area, contact.place.x(), contact.place.y(),
                contact.place.z());
     std::fflush(stdout);

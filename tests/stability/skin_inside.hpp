@@ -10,8 +10,9 @@ namespace tensegric_fit::stability {
 
 /// Skin that lies inside the body.
 struct SkinInside {
-  std::vector<int> vertices;   ///< of one connected patch, ascending
-  std::vector<double> depths;  ///< m, of each: to the nearest skin that is not the patch's, or where the skin crosses
+  std::vector<int> vertices;  ///< of one connected patch, ascending
+  std::vector<double>
+      depths;  ///< m, of each: to the nearest skin that is not the patch's, or where the skin crosses
 };
 
 /// Patches of vertices inside a closed mesh, that is, behind its skin elsewhere, connected to corners of its

@@ -41,7 +41,8 @@ geometry::TriangleMesh two_balls(double apart) {
   const geometry::TriangleMesh other = ball(Vector3d(0.1 + apart, 0.2, -0.1), 0.05);
   const int first = static_cast<int>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const Eigen::Vector3i& t : other.triangles) mesh.triangles.push_back(t + Eigen::Vector3i::Constant(first));
+  for (const Eigen::Vector3i& t : other.triangles)
+    mesh.triangles.push_back(t + Eigen::Vector3i::Constant(first));
   return mesh;
 }
 

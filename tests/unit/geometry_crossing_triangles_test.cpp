@@ -20,7 +20,8 @@ TEST(CrossingTriangles, AnEdgeHasToGoThroughTheInside) {
   };
   const std::vector<Vector3d> through = passages(flat, upright(0.2, -1));
   ASSERT_EQ(through.size(), 2u);
-  EXPECT_LT((through[0] - Vector3d(0.2, 0.275, 0)).norm() * (through[1] - Vector3d(0.2, 0.275, 0)).norm(), 1e-12);
+  EXPECT_LT((through[0] - Vector3d(0.2, 0.275, 0)).norm() * (through[1] - Vector3d(0.2, 0.275, 0)).norm(),
+            1e-12);
   EXPECT_EQ(passages(upright(0.2, -1), flat).size(), 2u);
   EXPECT_TRUE(passages(flat, upright(0.2, 1e-9)).empty());  // above it
   EXPECT_TRUE(passages(flat, upright(0.9, -1)).empty());    // beside it
@@ -77,7 +78,8 @@ TEST(CrossingTriangles, AreTheSameAsWhenEachPairIsAsked) {
 
 TEST(CrossingTriangles, NeighboursDoNotCount) {
   // Two pairs of triangles in the same places, once with a common corner.
-  const std::vector<Vector3d> vertices{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, -1}, {0.2, 0.3, -1}, {0.2, 0.25, 1}};
+  const std::vector<Vector3d> vertices{{0, 0, 0},      {1, 0, 0},      {0, 1, 0},
+                                       {0.2, 0.2, -1}, {0.2, 0.3, -1}, {0.2, 0.25, 1}};
   const std::vector<char> all(vertices.size(), 1);
   EXPECT_EQ(crossing_pairs(vertices, {{0, 1, 2}, {3, 4, 5}}, all).size(), 1u);
   EXPECT_TRUE(crossing_pairs(vertices, {{0, 1, 2}, {3, 4, 5}}, std::vector<char>(vertices.size())).empty());

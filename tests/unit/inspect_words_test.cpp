@@ -103,6 +103,14 @@ TEST(Words, WarningsSayWhereAndWhatToDo) {
       warning(shelf, measures),
       "The skin folds into a shelf 3 cm below the left bust point: 8 cm2 are turned by up to 71 degrees. "
       "Loosen 'chest'.");
+  geometry::FitWarning crossing = shelf;
+  crossing.code = geometry::warning::kSkinCrosses;
+  crossing.value = 0.0032;
+  EXPECT_TRUE(crossing.is_warning());
+  EXPECT_EQ(
+      warning(crossing, measures),
+      "Skin passes through skin 3 cm below the left bust point: 3 mm and more. What is shown there is not "
+      "to be trusted. Loosen 'chest'.");
   shelf.line.clear();
   EXPECT_EQ(warning(shelf, {}),
             "The skin folds into a shelf: 8 cm2 are turned by up to 71 degrees. Ask for less.");

@@ -1,0 +1,83 @@
+#include "tffd/crossing_skin.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "geometry/crossing_triangles.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace tensegric_fit::tffd {
+namespace {
+
+using Eigen::Vector3d;
+using geometry::Corners;
+using Pairs = std::vector<std::pair<int, int>>;
+
+// How far the farthest corner of a triangle lies behind another's plane.
+double reach_behind(const Corners& t, const Corners& plane) {
+  const Vector3d normal = geometry::area_vector(plane[0], plane[1], plane[2]).normalized();
+  double reach = 0;
+  for (const Vector3d& corner : t) reach = std::max(reach, normal.dot(plane[0] - corner));
+  return reach;
+}
+
+// By how much two triangles that cross would have to be moved apart.
+double depth_of(const Corners& a, const Corners& b) {
+  return std::min(reach_behind(a, b), reach_behind(b, a));
+}
+
+std::vector<int> triangles_in(const Pairs& pairs) {
+  std::vector<int> triangles;
+  for (const auto& [a, b] : pairs) triangles.insert(triangles.end(), {a, b});
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  return triangles;
+}
+
+}  // namespace
+
+std::vector<geometry::FitWarning> check_crossings(const WornSkin& skin, const std::vector<WornLine>& lines) {
+  std::vector<char> looked_at(skin.rest.size());
+  for (std::size_t v = 0; v < looked_at.size(); ++v) looked_at[v] = skin.rest[v] != skin.worn[v];
+  const Pairs pairs = geometry::crossing_pairs(skin.worn, skin.triangles, looked_at);
+  if (pairs.empty()) return {};
+  const std::vector<int> crossing = triangles_in(pairs);
+  std::fill(looked_at.begin(), looked_at.end(), 0);
+  for (const int i : crossing)
+    for (const int v : skin.triangles[i]) looked_at[v] = 1;
+  const std::vector<int> at_rest =
+      triangles_in(geometry::crossing_pairs(skin.rest, skin.triangles, looked_at));
+
+  const auto number = [&](int triangle) {
+    return static_cast<int>(std::lower_bound(crossing.begin(), crossing.end(), triangle) - crossing.begin());
+  };
+  const auto worn = [&](int triangle) {
+    const Eigen::Vector3i& t = skin.triangles[triangle];
+    return Corners{skin.worn[t[0]], skin.worn[t[1]], skin.worn[t[2]]};
+  };
+  Pairs joined;
+  std::vector<double> depths(crossing.size());
+  for (const auto& [a, b] : pairs) {
+    joined.emplace_back(number(a), number(b));
+    const double depth = depth_of(worn(a), worn(b));
+    for (const int i : {number(a), number(b)}) depths[i] = std::max(depths[i], depth);
+  }
+  std::vector<geometry::FitWarning> found;
+  for (const std::vector<int>& place : places_of(crossing, skin.triangles, joined)) {
+    double depth = 0;
+    bool is_sunken = false;
+    std::vector<int> triangles;
+    for (const int i : place) {
+      depth = std::max(depth, depths[i]);
+      is_sunken = is_sunken || std::binary_search(at_rest.begin(), at_rest.end(), crossing[i]);
+      triangles.push_back(crossing[i]);
+    }
+    if (!is_sunken && depth >= kLeastDepth)
+      found.push_back(warning_at(geometry::warning::kSkinCrosses, triangles, depth, skin, lines));
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.value > b.value; });
+  return found;
+}
+
+}  // namespace tensegric_fit::tffd

@@ -1,0 +1,45 @@
+/// Worn skin, lines on it, and places of it that there is something to say of.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/fit_warning.hpp"
+
+namespace tensegric_fit::tffd {
+
+/// m: a line that is farther than this from a place has no part in it (a hand's breadth).
+inline constexpr double kNearLine = 0.10;
+
+/// A garment line as it lies on a body, scan frame, metres; tension in the solver's pseudo force.
+struct WornLine {
+  std::string name;
+  std::vector<Eigen::Vector3d> at_rest, worn;  ///< its middle thread, point by point
+  double neutral = 0, final = 0;               ///< lengths
+  double tension = 0;
+};
+
+/// A body's skin before and after, one place per vertex. `rest` in the posture in which it is worn, so that a
+/// posture turns nothing. Only borrowed. Metres, scan frame.
+struct WornSkin {
+  const std::vector<Eigen::Vector3d>& rest;
+  const std::vector<Eigen::Vector3d>& worn;
+  const std::vector<Eigen::Vector3i>& triangles;
+};
+
+/// m, from a point to the polyline through `course`; infinite where that has fewer than two points.
+double from_course(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& course);
+
+/// Triangles connected by their corners, or by `joined`: one list a place, of numbers in `picked`, ascending;
+/// places in the order of their first. `joined`: pairs of numbers in `picked`.
+std::vector<std::vector<int>> places_of(const std::vector<int>& picked,
+                                        const std::vector<Eigen::Vector3i>& triangles,
+                                        const std::vector<std::pair<int, int>>& joined = {});
+
+/// A warning of these triangles: area, middle before and after, vertices, nearest line.
+geometry::FitWarning warning_at(const char* code, const std::vector<int>& triangles, double value,
+                                const WornSkin& skin, const std::vector<WornLine>& lines);
+
+}  // namespace tensegric_fit::tffd
