@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "geometry/parallel_for.hpp"
+#include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::geometry {
 namespace {
@@ -14,7 +15,7 @@ using Eigen::Array3d;
 using Eigen::Array3i;
 using Eigen::Vector3d;
 
-constexpr double kMostCells = 1000000;  // of a grid, however unlike in size the triangles are
+constexpr double kMostCells = 8;  // of a grid, per triangle in it: cells that are mostly empty take time, too
 
 // Six times the volume of the tetrahedron, positive where d is on the side that sees a, b, c
 // counter-clockwise.
@@ -67,8 +68,9 @@ class Grid {
     }
     if (count == 0) return;
     const Array3d extent = whole_.high - whole_.low;
-    cell_ = std::max({size / count, extent.maxCoeff() / kMostCells, std::numeric_limits<double>::min()});
-    while (((extent / cell_).floor() + 1).prod() > kMostCells) cell_ *= 2;  // ends at one cell at the latest
+    const double most = kMostCells * count;
+    cell_ = std::max({size / count, extent.maxCoeff() / most, std::numeric_limits<double>::min()});
+    while (((extent / cell_).floor() + 1).prod() > most) cell_ *= 1.5;  // ends at one cell at the latest
     counts_ = (extent / cell_).floor().cast<int>() + 1;
     starts_.assign(static_cast<std::size_t>(counts_.prod()) + 1, 0);
     // Twice over all boxes: first to count, then to fill.
@@ -141,6 +143,16 @@ std::vector<Vector3d> passages(const Corners& one, const Corners& other) {
   add_passages(one, side_of_one, other, points);
   add_passages(other, side_of_other, one, points);
   return points;
+}
+
+double crossing_depth(const Corners& one, const Corners& other) {
+  const auto behind = [](const Corners& t, const Corners& plane) {
+    const Vector3d normal = area_vector(plane[0], plane[1], plane[2]).normalized();
+    double most = 0;
+    for (const Vector3d& corner : t) most = std::max(most, normal.dot(plane[0] - corner));
+    return most;
+  };
+  return std::min(behind(one, other), behind(other, one));
 }
 
 std::vector<std::pair<int, int>> crossing_pairs(const std::vector<Vector3d>& vertices,

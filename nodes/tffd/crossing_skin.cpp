@@ -1,30 +1,14 @@
 #include "tffd/crossing_skin.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "geometry/crossing_triangles.hpp"
-#include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::tffd {
 namespace {
 
-using Eigen::Vector3d;
 using geometry::Corners;
 using Pairs = std::vector<std::pair<int, int>>;
-
-// How far the farthest corner of a triangle lies behind another's plane.
-double reach_behind(const Corners& t, const Corners& plane) {
-  const Vector3d normal = geometry::area_vector(plane[0], plane[1], plane[2]).normalized();
-  double reach = 0;
-  for (const Vector3d& corner : t) reach = std::max(reach, normal.dot(plane[0] - corner));
-  return reach;
-}
-
-// By how much two triangles that cross would have to be moved apart.
-double depth_of(const Corners& a, const Corners& b) {
-  return std::min(reach_behind(a, b), reach_behind(b, a));
-}
 
 std::vector<int> triangles_in(const Pairs& pairs) {
   std::vector<int> triangles;
@@ -59,7 +43,7 @@ std::vector<geometry::FitWarning> check_crossings(const WornSkin& skin, const st
   std::vector<double> depths(crossing.size());
   for (const auto& [a, b] : pairs) {
     joined.emplace_back(number(a), number(b));
-    const double depth = depth_of(worn(a), worn(b));
+    const double depth = geometry::crossing_depth(worn(a), worn(b));
     for (const int i : {number(a), number(b)}) depths[i] = std::max(depths[i], depth);
   }
   std::vector<geometry::FitWarning> found;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "geometry/crossing_triangles.hpp"
 #include "geometry/parallel_for.hpp"
@@ -68,6 +69,12 @@ std::vector<SkinInside> skin_inside(const TriangleMesh& mesh, const std::vector<
   for (const auto& [a, b] : pairs)
     for (const Vector3d& p : geometry::passages(corners(mesh, a), corners(mesh, b))) points.push_back(p);
   const geometry::PointTree curves(points);
+  std::map<int, double> least;  // by corner of triangles that cross: what they are through each other by
+  for (const auto& [a, b] : pairs) {
+    const double depth = geometry::crossing_depth(corners(mesh, a), corners(mesh, b));
+    for (const int triangle : {a, b})
+      for (const int v : mesh.triangles[triangle]) least[v] = std::max(least[v], depth);
+  }
   for (std::size_t first = 0; first < state.size(); ++first) {
     if (state[first] != kInside || patch_of[first] >= 0) continue;
     const int number = static_cast<int>(patches.size());
@@ -93,7 +100,11 @@ std::vector<SkinInside> skin_inside(const TriangleMesh& mesh, const std::vector<
     const geometry::SurfaceTree tree(others);
     for (const int v : patch.vertices) {
       const Vector3d& at = mesh.vertices[v];
-      patch.depths.push_back(std::min((tree.nearest(at).position - at).norm(), curves.distance(at)));
+      double depth = std::min((tree.nearest(at).position - at).norm(), curves.distance(at));
+      // At the bottom of a crease 10 micrometres outside a corner may be inside.
+      if (const auto crossed = least.find(v); crossed != least.end())
+        depth = std::min(depth, crossed->second);
+      patch.depths.push_back(depth);
     }
     patches.push_back(std::move(patch));
   }

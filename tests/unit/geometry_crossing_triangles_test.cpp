@@ -23,6 +23,11 @@ TEST(CrossingTriangles, AnEdgeHasToGoThroughTheInside) {
   EXPECT_LT((through[0] - Vector3d(0.2, 0.275, 0)).norm() * (through[1] - Vector3d(0.2, 0.275, 0)).norm(),
             1e-12);
   EXPECT_EQ(passages(upright(0.2, -1), flat).size(), 2u);
+  // It reaches 1 behind the flat one, which reaches 0.2 behind it, or 0.8 where it faces the other way.
+  const Corners upright_one = upright(0.2, -1);
+  EXPECT_NEAR(crossing_depth(flat, upright_one), 0.2, 1e-12);
+  EXPECT_NEAR(crossing_depth({upright_one[1], upright_one[0], upright_one[2]}, flat), 0.8, 1e-12);
+  EXPECT_NEAR(crossing_depth(upright(0.2, -0.1), flat), 0.1, 1e-12);
   EXPECT_TRUE(passages(flat, upright(0.2, 1e-9)).empty());  // above it
   EXPECT_TRUE(passages(flat, upright(0.9, -1)).empty());    // beside it
   EXPECT_TRUE(passages(flat, upright(0.2, 0)).empty());     // standing on it
