@@ -7,6 +7,7 @@
 namespace tensegric_fit::tffd {
 namespace {
 
+using Eigen::Vector3d;
 using geometry::Corners;
 using Pairs = std::vector<std::pair<int, int>>;
 
@@ -29,21 +30,24 @@ std::vector<geometry::FitWarning> check_crossings(const WornSkin& skin, const st
   std::fill(looked_at.begin(), looked_at.end(), 0);
   for (const int i : crossing)
     for (const int v : skin.triangles[i]) looked_at[v] = 1;
-  const std::vector<int> at_rest =
-      triangles_in(geometry::crossing_pairs(skin.rest, skin.triangles, looked_at));
+  const auto corners = [&](const std::vector<Vector3d>& places, int triangle) {
+    const Eigen::Vector3i& t = skin.triangles[triangle];
+    return Corners{places[t[0]], places[t[1]], places[t[2]]};
+  };
+  Pairs deep_at_rest;
+  for (const auto& [a, b] : geometry::crossing_pairs(skin.rest, skin.triangles, looked_at))
+    if (geometry::crossing_depth(corners(skin.rest, a), corners(skin.rest, b)) >= kLeastDepth)
+      deep_at_rest.emplace_back(a, b);
+  const std::vector<int> sunken = triangles_in(deep_at_rest);
 
   const auto number = [&](int triangle) {
     return static_cast<int>(std::lower_bound(crossing.begin(), crossing.end(), triangle) - crossing.begin());
-  };
-  const auto worn = [&](int triangle) {
-    const Eigen::Vector3i& t = skin.triangles[triangle];
-    return Corners{skin.worn[t[0]], skin.worn[t[1]], skin.worn[t[2]]};
   };
   Pairs joined;
   std::vector<double> depths(crossing.size());
   for (const auto& [a, b] : pairs) {
     joined.emplace_back(number(a), number(b));
-    const double depth = geometry::crossing_depth(worn(a), worn(b));
+    const double depth = geometry::crossing_depth(corners(skin.worn, a), corners(skin.worn, b));
     for (const int i : {number(a), number(b)}) depths[i] = std::max(depths[i], depth);
   }
   std::vector<geometry::FitWarning> found;
@@ -53,7 +57,7 @@ std::vector<geometry::FitWarning> check_crossings(const WornSkin& skin, const st
     std::vector<int> triangles;
     for (const int i : place) {
       depth = std::max(depth, depths[i]);
-      is_sunken = is_sunken || std::binary_search(at_rest.begin(), at_rest.end(), crossing[i]);
+      is_sunken = is_sunken || std::binary_search(sunken.begin(), sunken.end(), crossing[i]);
       triangles.push_back(crossing[i]);
     }
     if (!is_sunken && depth >= kLeastDepth)

@@ -85,6 +85,8 @@ TEST(CrossingSkin, IsNotNamedWhereItIsShallowOrWasThereOrStays) {
   EXPECT_EQ(count(both.vertices, ridged(both, kGap + kLeastDepth / 2)), 0u);  // half a millimetre through it
   EXPECT_EQ(count(ridged(both, kHeight), ridged(both, kHeight)), 0u);         // as at rest
   EXPECT_EQ(count(ridged(both, kHeight), ridged(both, 0.0125)), 0u);          // deeper than at rest
+  // A trace at rest does not hide what the garment does.
+  EXPECT_EQ(count(ridged(both, kGap + kLeastDepth / 2), ridged(both, kHeight)), 2u);
   // Lines are not needed.
   EXPECT_EQ(check_crossings({both.vertices, ridged(both, kHeight), both.triangles}, {}).size(), 2u);
 }
