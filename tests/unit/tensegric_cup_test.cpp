@@ -1,6 +1,7 @@
 // Cups on a symmetric bust: exact, even, on their own side.
 #include <gtest/gtest.h>
 
+#include "fit/bind_body.hpp"
 #include "fit/chain.hpp"
 #include "geometry/section.hpp"
 #include "refusal_of.hpp"
@@ -80,6 +81,18 @@ TEST_F(Cups, GiveTheSameBitsTwice) {
   const Solution one = wear(both).solution, other = wear(both).solution;
   EXPECT_EQ(one.outer, other.outer);
   EXPECT_EQ(one.lines[0].fibres, other.lines[0].fibres);
+}
+
+TEST_F(Cups, AreLaidAnewWhereOnlyTheirRowChanges) {
+  const auto bound = fit::bind_body([this] { return body.mesh.mesh; }, fitting.control, {}, 0);
+  const auto end_of = [&](const std::vector<std::string>& fan) -> Vector3d {
+    Garment garment{"cups", {"bust"}, {cup('L')}};
+    garment.lines[0].fan = fan;
+    return bound->lay(garment).at(0).fibres.back().points.back().rest;
+  };
+  const auto at = [&](const char* name) { return fitting.control.outer[fitting.control.node(name)]; };
+  EXPECT_LT((end_of({"fold_inner_L", "fold_L"}) - at("fold_L")).norm(), 1e-3);
+  EXPECT_LT((end_of({"fold_inner_L", "fold_outer_L"}) - at("fold_outer_L")).norm(), 1e-3);
 }
 
 TEST_F(Cups, SpreadTheirPullOverTheBreast) {
