@@ -42,23 +42,23 @@ void check_pixels(const sensor_msgs::Image& image) {
 }
 
 void check_lens(const sensor_msgs::CameraInfo& info) {
-  const auto refuse = [](const std::string& why) { throw Refusal(refusal::kWrongFields, why); };
+  const auto wrong = [](const std::string& why) { return Refusal(refusal::kWrongFields, why); };
   if (!all_finite(info.K) || !all_finite(info.P) || !all_finite(info.R) || !all_finite(info.D))
-    refuse("CameraInfo has numbers that are not finite");
+    throw wrong("CameraInfo has numbers that are not finite");
   if (!(info.K[0] > 0) || !(info.K[4] > 0))
-    refuse("CameraInfo has no focal length in K: calibrate the camera");
+    throw wrong("CameraInfo has no focal length in K: calibrate the camera");
   if (!(info.P[0] > 0) || !(info.P[5] > 0))
-    refuse("CameraInfo has no focal length in P: calibrate the camera");
+    throw wrong("CameraInfo has no focal length in P: calibrate the camera");
   static const std::map<std::string, std::set<std::size_t>> kModels = {{"plumb_bob", {4, 5}},
                                                                        {"rational_polynomial", {8, 12, 14}}};
   if (info.D.empty()) return;
   const auto model = kModels.find(info.distortion_model);
   if (model == kModels.end())
-    refuse(fmt::format("the lens model '{}' is not known; plumb_bob and rational_polynomial are",
-                       info.distortion_model.substr(0, 40)));
+    throw wrong(fmt::format("the lens model '{}' is not known; plumb_bob and rational_polynomial are",
+                            info.distortion_model.substr(0, 40)));
   if (model->second.count(info.D.size()) == 0)
-    refuse(fmt::format("CameraInfo has {} numbers in D, which are none of '{}'", info.D.size(),
-                       info.distortion_model));
+    throw wrong(fmt::format("CameraInfo has {} numbers in D, which are none of '{}'", info.D.size(),
+                            info.distortion_model));
 }
 
 }  // namespace

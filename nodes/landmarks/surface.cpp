@@ -46,8 +46,7 @@ std::vector<SectionLoop> cut(const Surface& surface, const Vector3d& origin, con
 Trunk::Trunk(const Surface& surface) : surface_(surface) {
   const auto box = geometry::bounding_box(surface.mesh.vertices);
   bottom_ = box[0].z();
-  slab_ = kSlab;
-  triangles_in_.resize(static_cast<std::size_t>((box[1].z() - bottom_) / slab_) + 1);
+  triangles_in_.resize(static_cast<std::size_t>((box[1].z() - bottom_) / kSlab) + 1);
   for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i) {
     const Eigen::Vector3i& t = surface.mesh.triangles[i];
     if (!(*this)(t)) continue;
@@ -56,8 +55,8 @@ Trunk::Trunk(const Surface& surface) : surface_(surface) {
       low = std::min(low, surface.mesh.vertices[t[k]].z());
       high = std::max(high, surface.mesh.vertices[t[k]].z());
     }
-    for (auto s = static_cast<std::size_t>((low - bottom_) / slab_);
-         s <= static_cast<std::size_t>((high - bottom_) / slab_); ++s)
+    for (auto s = static_cast<std::size_t>((low - bottom_) / kSlab);
+         s <= static_cast<std::size_t>((high - bottom_) / kSlab); ++s)
       triangles_in_[s].push_back(static_cast<int>(i));
   }
 }
@@ -67,7 +66,7 @@ bool Trunk::operator()(const Eigen::Vector3i& t) const {
 }
 
 std::vector<SectionLoop> Trunk::level(double height) const {
-  const double slab = (height - bottom_) / slab_;
+  const double slab = (height - bottom_) / kSlab;
   if (!(slab >= 0 && slab < static_cast<double>(triangles_in_.size()))) return {};
   return without_slivers(
       geometry::plane_section(geometry::submesh(surface_.mesh, triangles_in_[static_cast<std::size_t>(slab)]),

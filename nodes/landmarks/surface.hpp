@@ -49,7 +49,7 @@ class Trunk {
 
  private:
   const Surface& surface_;
-  double bottom_ = 0, slab_ = 1;
+  double bottom_ = 0;
   std::vector<std::vector<int>> triangles_in_;  ///< of each slab: those that reach into it
 };
 

@@ -70,5 +70,22 @@ TEST_F(MatchSkin, ItHoldsAsMuchAsTheSkinAndKeepsWhatMayNotMove) {
   }
 }
 
+TEST_F(MatchSkin, TheOrderOfTheNodesDoesNotMatter) {
+  const std::size_t count = control.outer.size(), turn = count / 2;  // the middle one becomes the first
+  geometry::ControlMesh other = control;
+  std::vector<char> may_move = within;
+  for (std::size_t v = 0; v < count; ++v) {
+    other.outer[v] = control.outer[(v + turn) % count];
+    may_move[v] = within[(v + turn) % count];
+  }
+  for (Eigen::Vector3i& t : other.triangles)
+    for (int i = 0; i < 3; ++i) t[i] = static_cast<int>((t[i] + count - turn) % count);
+  ASSERT_TRUE(may_move[0]);
+  match_skin(control, within, skin);
+  match_skin(other, may_move, skin);
+  for (std::size_t v = 0; v < count; ++v)
+    EXPECT_LT((other.outer[v] - control.outer[(v + turn) % count]).norm(), 1e-12) << v;
+}
+
 }  // namespace
 }  // namespace tensegric_fit::control_mesh

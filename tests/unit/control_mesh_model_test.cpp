@@ -79,6 +79,9 @@ TEST(NodesOnTheModel, LieOnTheSkinAtTheirPlaceOnBothSides) {
     EXPECT_LT((at("below_") - posed.body.skin_point(std::string("underbust_") + side)).norm(),
               3 * tessellation);
   }
+  for (std::size_t v = 0; v < control.outer.size(); ++v)
+    EXPECT_NEAR((control.outer[v] - control.inner[v]).norm(), 0.01, 0.003 + 1e-9)
+        << v;  // outer ones are lifted
   // The mean woman is her own mirror image, whatever way she faces.
   const Vector3d left = posed.body.left();
   const auto across = [&](const std::string& name) {

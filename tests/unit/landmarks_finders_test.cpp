@@ -275,6 +275,20 @@ TEST(NeckFinder, ATiltedHyperboloidsLeastGirth) {
   EXPECT_TRUE(find_neck(neck, middle + along, along).empty());
 }
 
+TEST(NeckFinder, OfANeckThatNarrowsAllTheWayTheGirth40MmUp) {
+  const auto radius = [](double up) { return 0.065 - 0.3 * up; };  // m; under the chin
+  const Surface neck = skin(test::surface_of(
+      [&](const Vector3d& p) {
+        const double slope = std::sqrt(1 + 0.3 * 0.3);
+        return std::max((std::hypot(p.x(), p.y()) - radius(p.z())) / slope, std::abs(p.z() - 0.03) - 0.06);
+      },
+      {-0.09, -0.09, -0.05}, {0.09, 0.09, 0.11}, 0.0041));
+  const auto tape = find_neck(neck, Vector3d::Zero(), Vector3d::UnitZ());
+  ASSERT_GT(tape.size(), 20u);
+  for (const Vector3d& p : tape) EXPECT_NEAR(p.z(), 0.040, 1e-6);
+  EXPECT_NEAR(geometry::length_of(tape, true), 2 * M_PI * radius(0.040), 0.0005);
+}
+
 TEST(SkinAbove, ABallsTop) {
   const Surface ball = skin(test::surface_of([](const Vector3d& p) { return p.norm() - 0.1; },
                                              {-0.11, -0.11, -0.11}, {0.11, 0.11, 0.11}, 0.0047));

@@ -49,7 +49,10 @@ TEST(Member, StiffensWithStrain) {
         EXPECT_NEAR(secant(m, length) * (length - m.natural), tension(m, length), 1e-12);
       }
     }
-  // k (e - prestrain + c e^3) at a strain of 0.2, by hand.
+  // By hand at a strain of 0.2: k l0 ((e - prestrain)^2 / 2 + c e^4 / 4), and k (e - prestrain + c e^3).
+  Model part;
+  part.members = {{0, 1, false, 2, 0.1, 0.09, 300}};
+  EXPECT_NEAR(member_energy(part, {{0, 0, 0}, {0.12, 0, 0}}), 0.2 * (0.045 + 0.12), 1e-12);
   EXPECT_NEAR(tension({0, 1, false, 2, 0.1, 0.09, 300}, 0.12), 2 * (0.3 + 300 * 0.008), 1e-12);
 }
 
@@ -239,6 +242,26 @@ TEST_F(Derivatives, OfALineAlsoWhereItCollapses) {
           add_length_gradient(band, y, free_index, 1, gradient);
           return gradient;
         });
+}
+
+TEST(Band, ARatioOrATensionLimitThatIsNotPositiveIsRefused) {
+  const Model model = build_model(bust_mesh(), {});
+  const auto code = [&](double ratio, double limit) {
+    Garment garment = chest(ratio);
+    garment.lines.front().tension_limit = limit;
+    try {
+      lay_bands(model, garment);
+    } catch (const geometry::Refusal& refusal) {
+      return refusal.code();
+    }
+    return std::string("laid");
+  };
+  EXPECT_EQ(code(0.9, 1), "laid");
+  EXPECT_EQ(code(1e-9, 0), "laid");
+  for (const double ratio : {0.0, -0.9, static_cast<double>(NAN), static_cast<double>(INFINITY)})
+    EXPECT_EQ(code(ratio, 1), "bad_garment") << ratio;
+  for (const double limit : {-1.0, static_cast<double>(NAN)})
+    EXPECT_EQ(code(0.9, limit), "bad_garment") << limit;
 }
 
 TEST(Law, TableIsLinearInBetweenAndGoesOn) {

@@ -133,6 +133,26 @@ TEST_F(Slab, ATautBandBridgesAHollow) {
   EXPECT_NEAR(length_at_rest(lay_line({points, 0, 0, true}, two, bound)), 0.09, 2e-4);
 }
 
+TEST_F(Slab, ATautBandLiesOnSkinThatIsFlatAlongIt) {
+  const auto roof = [](const Vector3d& p) { return -0.5 * std::abs(p.x()); };
+  geometry::TriangleMesh ridge = body;
+  for (std::size_t v = 0; v < 121 * 121; ++v) ridge.vertices[v].z() = roof(ridge.vertices[v]);
+  geometry::ControlMesh over = control;
+  for (std::size_t i = 0; i < over.outer.size(); ++i) {
+    const double rise = roof(over.outer[i]) - over.outer[i].z();
+    over.outer[i].z() += rise;
+    over.inner[i].z() += rise;
+  }
+  std::vector<Vector3d> points;
+  for (int i = 0; i <= 60; ++i) points.emplace_back(-0.09 + 0.003 * i, 0, roof({-0.09 + 0.003 * i, 0, 0}));
+  const auto fibres = lay_line({points, 0, 0, true}, ridge, Binding(ridge, over, {}));
+  ASSERT_EQ(fibres.size(), 1u);
+  const auto& laid = fibres.front().points;
+  for (std::size_t i = 1; i < laid.size();
+       ++i)  // skin carries it all along, not at the ridge and the ends alone
+    EXPECT_LT((laid[i].rest - laid[i - 1].rest).norm(), 0.010) << i;
+}
+
 TEST_F(Slab, NothingCarriesAnEndThatIsHeld) {
   LineOnBody line{over_the_bump(), 0.03, 0.02};
   line.held = {true, false};
