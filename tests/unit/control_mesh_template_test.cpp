@@ -41,8 +41,9 @@ TEST(BustTemplate, FixesItsRimAndTheBreastboneBelowTheSkin) {
 TEST(BustTemplate, NamesWhatGarmentsAskFor) {
   const auto grid = control_mesh::grid_of(control_mesh::load_template(kBust));
   EXPECT_GE(grid.node("sternum"), 0);
-  for (const std::string stem : {"axilla", "bust_point", "collarbone", "upper_breast", "underbust",
-                                 "side_underbust", "below_bust", "underbust_outer", "underbust_inner"})
+  for (const std::string stem :
+       {"axilla", "bust_point", "collarbone", "upper_breast", "underbust", "side_underbust", "below_bust",
+        "underbust_outer", "underbust_inner", "breast_side"})
     for (const char* side : {"_L", "_R"}) EXPECT_GE(grid.node(stem + side), 0) << stem << side;
 }
 
