@@ -20,7 +20,8 @@ constexpr double kLineReach = 0.15;  // m: skin farther from the line than this 
 constexpr double kMarch = 0.0025;    // m, a step over the skin across the band
 constexpr int kCoarsest = 4;         // shortest ways: so many times the spacing at first, then half of it
 constexpr double kStill = 1e-6;      // m: a way none of whose points moves farther has settled
-constexpr int kMostSweeps = 200;     // coarse ways settle in some dozens
+constexpr int kMostSweeps = 200;     // of few points, which settle in 20 to 150
+constexpr int kFineSweeps = 20;      // of more
 
 // One flag per vertex.
 std::vector<char> are_near(const std::vector<Vector3d>& vertices, const std::vector<Vector3d>& line) {
@@ -77,15 +78,17 @@ SurfacePoint SkinNear::march(SurfacePoint from, const Vector3d& direction, doubl
   return from;
 }
 
-// Each point goes half way between its neighbours, back onto the skin: on few points first, which settle
-// soon.
+// Each point goes half way between its neighbours, back onto the skin: a few points until they have settled,
+// then more and more of them, which have only bends of their own spacing left to lose. Farther than half way
+// would settle sooner, but throws points from side to side of a fold.
 std::vector<SurfacePoint> SkinNear::shortest(std::vector<Vector3d> way) const {
   std::vector<SurfacePoint> points;
   for (int coarse = kCoarsest; coarse >= 1; coarse /= 2) {
     points.clear();
     for (const Vector3d& point : evenly(way, coarse * kLineSpacing)) points.push_back(nearest(point));
+    const int sweeps = coarse == kCoarsest ? kMostSweeps : kFineSweeps;
     double moved = 1;
-    for (int sweep = 0; sweep < kMostSweeps && moved > kStill; ++sweep) {
+    for (int sweep = 0; sweep < sweeps && moved > kStill; ++sweep) {
       moved = 0;
       for (std::size_t i = 1; i + 1 < points.size(); ++i) {
         const SurfacePoint half_way = nearest((points[i - 1].position + points[i + 1].position) / 2);
