@@ -27,7 +27,7 @@ class SkinNear {
   geometry::SurfacePoint march(geometry::SurfacePoint from, const Eigen::Vector3d& direction,
                                double way) const;
 
-  /// The shortest way from end to end of `way` beside it, in steps of 3 mm or less. \throw Refusal
+  /// The shortest way from end to end of `way` beside it, in steps of some 3 mm. \throw Refusal
   /// bad_garment: it has no length
   std::vector<geometry::SurfacePoint> shortest(std::vector<Eigen::Vector3d> way) const;
 
