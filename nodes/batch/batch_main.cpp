@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <iostream>
 #include <thread>
 
 #include "batch/merge.hpp"
@@ -34,7 +35,11 @@ int merge_main(int argc, char** argv) {
                  "Runs fit again on so many of the least sure, for their pictures")
       ->check(CLI::Range(0, 1000));
   app.add_flag("--quiet", options.quiet, "No summary");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   return merge(options);
 }
 
@@ -80,6 +85,11 @@ int batch_main(int argc, char** argv) {
 int main(int argc, char** argv) {
   tensegric_fit::files::owner_only();
   const std::string word = argc > 1 ? argv[1] : "";
-  if (word == "worker" && argc == 3) return work(std::stoull(argv[2]));  // WorkerPool starts it
-  return word == "merge" ? merge_main(argc - 1, argv + 1) : batch_main(argc, argv);
+  try {
+    if (word == "worker" && argc == 3) return work(std::stoull(argv[2]));  // WorkerPool starts it
+    return word == "merge" ? merge_main(argc - 1, argv + 1) : batch_main(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "fit_batch: " << error.what() << '\n';
+    return 1;
+  }
 }

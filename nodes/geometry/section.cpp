@@ -157,7 +157,8 @@ std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
 
 std::vector<Eigen::Vector3d> tape(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& normal) {
   if (points.empty()) return {};
-  const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u), origin = points.front();
+  const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
+  const Eigen::Vector3d& origin = points.front();
   std::vector<Eigen::Vector2d> flat;
   flat.reserve(points.size());
   for (const Eigen::Vector3d& p : points) flat.emplace_back(u.dot(p - origin), v.dot(p - origin));

@@ -141,29 +141,31 @@ Eigen::Vector2d evenly(int i) {
 
 }  // namespace
 
-geometry::PointCloud surface_samples(const TriangleMesh& given, int count) {
-  const TriangleMesh mesh = without_repeated(usable(given));
+geometry::PointCloud surface_samples(const TriangleMesh& mesh, int count) {
+  const TriangleMesh cleaned = without_repeated(usable(mesh));
   std::vector<Vector3d> areas;
   double whole = 0;
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    areas.push_back(geometry::area_vector(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]));
+  for (const Eigen::Vector3i& t : cleaned.triangles) {
+    areas.push_back(
+        geometry::area_vector(cleaned.vertices[t[0]], cleaned.vertices[t[1]], cleaned.vertices[t[2]]));
     whole += areas.back().norm();
   }
   if (!(whole > 0)) throw geometry::Refusal(geometry::refusal::kBadMesh, "the mesh has no area");
-  const Sides sides = sides_of(mesh, areas);
+  const Sides sides = sides_of(cleaned, areas);
 
   geometry::PointCloud cloud;
   double before = 0;  // area
   int made = 0;
   for (std::size_t f = 0; f < areas.size(); ++f) {
-    const Eigen::Vector3i& t = mesh.triangles[f];
+    const Eigen::Vector3i& t = cleaned.triangles[f];
     const double area = areas[f].norm();
     before += area;
     for (; made < count && (made + 0.5) * whole <= before * count; ++made) {
       Eigen::Vector2d at = evenly(made);
       if (at.sum() > 1) at = Eigen::Vector2d::Ones() - at;
-      const Vector3d& a = mesh.vertices[t[0]];
-      cloud.points.push_back(a + at.x() * (mesh.vertices[t[1]] - a) + at.y() * (mesh.vertices[t[2]] - a));
+      const Vector3d& a = cleaned.vertices[t[0]];
+      cloud.points.push_back(a + at.x() * (cleaned.vertices[t[1]] - a) +
+                             at.y() * (cleaned.vertices[t[2]] - a));
       if (sides.known) cloud.normals.push_back(sides.turn[f] / area * areas[f]);
     }
   }

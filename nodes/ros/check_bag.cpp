@@ -14,11 +14,16 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  bool all = true;
-  for (const std::string& bag : bags) {
-    const tensegric_fit::node::BagCheck check = tensegric_fit::node::check_bag(bag);
-    std::cout << to_text(check, bag);
-    all = all && check.can_be_replayed();
+  try {
+    bool all = true;
+    for (const std::string& bag : bags) {
+      const tensegric_fit::node::BagCheck check = tensegric_fit::node::check_bag(bag);
+      std::cout << to_text(check, bag);
+      all = all && check.can_be_replayed();
+    }
+    return all ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::cerr << "check_bag: " << error.what() << '\n';
+    return 1;
   }
-  return all ? 0 : 1;
 }

@@ -19,7 +19,7 @@ std::string fit_json(const FitFigures& figures, const std::vector<std::string>& 
 std::string sealed_json(const std::string& scan_id);
 
 /// Which scan a fit.json or sealed.json is of; nothing where the text is neither.
-std::optional<std::string> scan_id_in(const std::string& document);
+std::optional<std::string> scan_id_in(const std::string& text);
 
 /// A row a height and girth, millimetres.
 std::string measurements_csv(const FitFigures& figures);

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <iostream>
 
 #include "geometry/status.hpp"
 #include "ros/export_folders.hpp"
@@ -40,9 +41,26 @@ Forget::Response forget_exports(const Forget::Request& request) {
   return response;
 }
 
-}  // namespace
+int forget(const Forget::Request& request) {
+  if (!ros::master::check()) {
+    if (request.folders.empty()) {
+      fmt::print(stderr, "no booth is running, and no --folder is given\n");
+      return kUsage;
+    }
+    return said(forget_exports(request));
+  }
+  Forget::Response response;
+  ros::NodeHandle node;
+  Forget::Request asked = request;
+  if (!node.serviceClient<Forget>("forget").call(asked, response)) {
+    fmt::print(stderr, "the service '{}' does not answer: is the node vault running?\n",
+               node.resolveName("forget"));
+    return kRefused;
+  }
+  return said(response);
+}
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   ros::init(argc, argv, "forget", ros::init_options::AnonymousName | ros::init_options::NoRosout);
   Forget::Request request;
   bool scan_file = false;
@@ -53,22 +71,23 @@ int main(int argc, char** argv) {
   app.add_option("--folder", request.folders,
                  "exports, or a folder that they lie in; beside those of the node vault");
   app.add_flag("--scan-file", scan_file, "delete also the file that it was played from");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kUsage;
+  }
   request.scan_file = scan_file;
   for (std::string& folder : request.folders) folder = std::filesystem::absolute(folder).string();
-  if (!ros::master::check()) {
-    if (request.folders.empty()) {
-      fmt::print(stderr, "no booth is running, and no --folder is given\n");
-      return kUsage;
-    }
-    return said(forget_exports(request));
-  }
-  Forget::Response response;
-  ros::NodeHandle node;
-  if (!node.serviceClient<Forget>("forget").call(request, response)) {
-    fmt::print(stderr, "the service '{}' does not answer: is the node vault running?\n",
-               node.resolveName("forget"));
+  return forget(request);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {  // a name of a node that cannot be, for one
+    std::cerr << "forget: " << error.what() << '\n';
     return kRefused;
   }
-  return said(response);
 }

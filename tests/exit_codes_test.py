@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+"""Exit codes of all programs that people call: 0 for --help, 2 for a usage error, as their pages say, and never a signal.
+
+Usage: exit_codes_test.py FOLDER_OF_THE_PROGRAMS"""
+import pathlib
+import subprocess
+import sys
+import unittest
+
+PROGRAMS = (("fit",), ("fit_batch",), ("fit_batch", "merge"), ("correlate",), ("history",), ("virtual_booth",), ("forget",), ("check_bag",))
+FOLDER = pathlib.Path()
+
+
+def code_of(*words):
+    return subprocess.run([FOLDER / words[0], *words[1:]], capture_output=True, timeout=60).returncode
+
+
+class ExitCodes(unittest.TestCase):
+    def test_help(self):
+        for program in PROGRAMS:
+            with self.subTest(program):
+                self.assertEqual(code_of(*program, "--help"), 0)
+
+    def test_usage(self):
+        for program in PROGRAMS:
+            for words in ((), ("--no-such-option",)):
+                if (program, words) == (("virtual_booth",), ()):
+                    continue  # it makes a scan
+                with self.subTest(program, words=words):
+                    self.assertEqual(code_of(*program, *words), 2)
+
+    def test_what_nobody_foresaw(self):
+        self.assertEqual(code_of("forget", "scan", "__name:=a/b"), 3)  # no name of a node
+        self.assertEqual(code_of("fit_batch", "worker", "descriptor"), 1)
+
+
+if __name__ == "__main__":
+    FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
+    unittest.main()
