@@ -7,6 +7,7 @@
 #include <map>
 
 #include "geometry/disjoint_sets.hpp"
+#include "geometry/section.hpp"
 #include "geometry/status.hpp"
 #include "geometry/triangle_mesh.hpp"
 
@@ -126,7 +127,7 @@ FitWarning warning_of(const char* code, const std::vector<Change>& piece, double
                          warning.vertices.end());
   double nearest = kNearLine;
   for (const WornLine& line : lines)
-    if (const double distance = from_course(warning.worn, line.worn); distance < nearest) {
+    if (const double distance = geometry::distance_to_line(warning.worn, line.worn); distance < nearest) {
       nearest = distance;
       warning.line = line.name;
     }
@@ -167,17 +168,6 @@ void check_turns(const WornSkin& skin, const std::vector<Change>& changes, const
 }
 
 }  // namespace
-
-double from_course(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& course) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < course.size(); ++i) {
-    const Eigen::Vector3d way = course[i] - course[i - 1], to = point - course[i - 1];
-    const double length = way.squaredNorm(),
-                 part = length > 0 ? std::clamp(to.dot(way) / length, 0.0, 1.0) : 0;
-    nearest = std::min(nearest, (to - part * way).squaredNorm());
-  }
-  return std::sqrt(nearest);
-}
 
 bool turns_over(const WornSkin& skin) {
   double over = 0;

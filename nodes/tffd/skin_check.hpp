@@ -43,9 +43,6 @@ struct WornSkin {
   const std::vector<Eigen::Vector3i>& triangles;
 };
 
-/// m, from a point to the polyline through `course`; infinite where that has fewer than two points.
-double from_course(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& course);
-
 /// Connected places (by corners of triangles), the largest of a kind first:
 /// `shelf`: skin turned by more than kTurned, where in all kLeastPatch or more is turned by more than kShelf;
 ///   one per place that has a tenth of that;
