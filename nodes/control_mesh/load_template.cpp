@@ -181,7 +181,7 @@ std::vector<std::vector<double>> thickness_from(const YAML::Node& root, const Te
   const auto table = required<std::vector<std::vector<double>>>(root, "thickness", path, kCode);
   bool fits = table.size() == static_cast<std::size_t>(pattern.rows);
   for (const auto& row : table) {
-    fits = fits && row.size() == static_cast<std::size_t>(pattern.middle() + 1);
+    fits = fits && row.size() == static_cast<std::size_t>(pattern.middle()) + 1;
     for (double metres : row) fits = fits && metres >= kThinnestTissue && metres <= kThickestTissue;
   }
   if (!fits)
