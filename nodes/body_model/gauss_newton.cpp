@@ -59,7 +59,7 @@ Prior prior_of(const Model& model, const Parameters& p, double stature) {
 /// well.
 class FitPoints {
  public:
-  FitPoints(const Model& model, const Parameters& p, int every) : model_(model) {
+  FitPoints(const Model& model, const Parameters& p, int every) {
     const PosedModel posed(model, p);
     const std::vector<Vector3d> normals = geometry::vertex_normals(posed.vertices(), model.triangles);
     for (std::size_t i = 0; i < model.fit_points.size(); i += every) {
@@ -81,7 +81,6 @@ class FitPoints {
   }
 
  private:
-  const Model& model_;
   std::vector<int> vertices_;
   std::vector<double> weights_;
   std::vector<Vector3d> at_rest_;

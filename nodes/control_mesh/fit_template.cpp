@@ -46,13 +46,12 @@ std::vector<char> inside_rim(const geometry::ControlMesh& control) {
   return inside;
 }
 
-/// Nodes that the template leaves to be spread between others: those that it does not name.
+/// Nodes that the template leaves to be spread between others.
 std::vector<char> spreadable(const Template& pattern, const geometry::ControlMesh& control, Layout layout) {
   std::vector<char> may_move = inside_rim(control);
   for (const Side side : {Side::left, Side::right})
     for (const TemplateNode& node : pattern.nodes)
-      if (!node.name.empty() || node.placing != TemplateNode::Placing::between_others ||
-          (layout == Layout::on_model && !node.or_on_model.empty()))
+      if (!node.spread || (layout == Layout::on_model && !node.or_on_model.empty()))
         may_move[node_at(pattern, node.row, node.column, side)] = 0;
   return may_move;
 }

@@ -93,8 +93,10 @@ std::vector<ModelPoint> model_points_from(const YAML::Node& node, const std::str
 }
 
 TemplateNode node_from(const YAML::Node& map, const Template& pattern, const std::string& where) {
-  check_keys(map, {"row", "column", "name", "landmark", "level", "angle", "axis", "on_model", "or_on_model"},
-             where, kCode);
+  check_keys(
+      map,
+      {"row", "column", "name", "spread", "landmark", "level", "angle", "axis", "on_model", "or_on_model"},
+      where, kCode);
   TemplateNode node;
   node.row = whole_number(map, "row", 0, pattern.rows - 1, where);
   node.column = whole_number(map, "column", 0, pattern.middle(), where);
@@ -120,6 +122,11 @@ TemplateNode node_from(const YAML::Node& map, const Template& pattern, const std
   } else if (node.name.empty() && !map["or_on_model"]) {
     throw Refusal(kCode, where + ": neither a 'name' nor a place");
   }
+  node.spread =
+      optional(map, "spread", node.placing == TemplateNode::Placing::between_others && node.name.empty(),
+               where, kCode);
+  if (map["spread"] && node.placing != TemplateNode::Placing::between_others)
+    throw Refusal(kCode, where + ": 'spread' is for a node without a place");
   if (map["or_on_model"]) node.or_on_model = model_points_from(map, "or_on_model", where);
   if (map["axis"]) {
     if (node.placing != TemplateNode::Placing::level_and_angle || on_middle)
@@ -174,7 +181,7 @@ std::vector<std::vector<double>> thickness_from(const YAML::Node& root, const Te
   const auto table = required<std::vector<std::vector<double>>>(root, "thickness", path, kCode);
   bool fits = table.size() == static_cast<std::size_t>(pattern.rows);
   for (const auto& row : table) {
-    fits = fits && row.size() == static_cast<std::size_t>(pattern.middle() + 1);
+    fits = fits && row.size() == static_cast<std::size_t>(pattern.middle()) + 1;
     for (double metres : row) fits = fits && metres >= kThinnestTissue && metres <= kThickestTissue;
   }
   if (!fits)

@@ -36,6 +36,7 @@ struct TemplateNode {
   int row = 0, column = 0;
   std::string name;  ///< empty, or ending in _L; on the middle column without a side
   Placing placing = Placing::between_others;
+  bool spread = true;    ///< between_others: moves to the mean of its neighbours; else it stays
   std::string landmark;  ///< at_landmark
   Reference level, angle;
   std::vector<std::string> axis;        ///< what angles are seen from, such as a leg's; empty: the template's

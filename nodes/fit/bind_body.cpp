@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <mutex>
 
-#include "tensegric/band.hpp"
+#include "tensegric/course.hpp"
 #include "tffd/body_volume.hpp"
 #include "tffd/skin_check.hpp"
 
@@ -12,7 +12,7 @@ namespace {
 
 bool same(const tffd::LineOnBody& a, const tffd::LineOnBody& b) {
   return a.points == b.points && a.width == b.width && a.smooth == b.smooth && a.taut == b.taut &&
-         a.held == b.held;
+         a.held == b.held && a.fan == b.fan;
 }
 
 class BoundBody : public tensegric::BodyUnderGarment {
@@ -89,7 +89,7 @@ class BoundBody : public tensegric::BodyUnderGarment {
 
 tffd::LineOnBody on_body(const geometry::ControlMesh& control, const tensegric::GarmentLine& line) {
   const tensegric::Course course = tensegric::course_of(control, line);
-  return {course.points, line.width, line.smooth, line.taut, course.held};
+  return {course.points, line.width, line.smooth, line.taut, course.held, course.fan};
 }
 
 std::vector<tensegric::VolumeFunction> body_volumes(const tffd::Binding& binding,

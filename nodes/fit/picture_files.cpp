@@ -50,6 +50,10 @@ inspect::FitScene scene_of(const Body& body, const Fitting& fitting, const Fit& 
   for (const auto& line : fit.solution.lines) {
     for (const auto& [fibres, drawn] :
          {std::pair(&line.fibres_at_rest, &scene.lines_before), {&line.fibres, &scene.lines_after}}) {
+      if (line.cup) {
+        drawn->insert(drawn->end(), fibres->begin(), fibres->end());
+        continue;
+      }
       drawn->push_back(fibres->front());  // both edges of a band
       if (fibres->size() > 1) drawn->push_back(fibres->back());
     }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace tensegric_fit::geometry {
@@ -115,6 +116,17 @@ double length_of(const std::vector<Eigen::Vector3d>& points, bool closed) {
   for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
   if (closed && points.size() > 1) length += (points.front() - points.back()).norm();
   return length;
+}
+
+double distance_to_line(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& line) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Eigen::Vector3d way = line[i] - line[i - 1], to = point - line[i - 1];
+    const double length = way.squaredNorm(),
+                 part = length > 0 ? std::clamp(to.dot(way) / length, 0.0, 1.0) : 0;
+    nearest = std::min(nearest, (to - part * way).squaredNorm());
+  }
+  return std::sqrt(nearest);
 }
 
 std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {

@@ -29,6 +29,9 @@ bool is_outline(const SectionLoop& loop, const Eigen::Vector3d& normal);
 /// Length of a polyline, with the closing segment if closed. Metres.
 double length_of(const std::vector<Eigen::Vector3d>& points, bool closed);
 
+/// m, from a point to an open polyline; infinite where that has fewer than two points.
+double distance_to_line(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& line);
+
 /// A polyline of even steps convolved with a Gaussian of standard deviation `deviation` steps, truncated at
 /// `reach` steps; beyond the ends the end points are repeated.
 std::vector<Eigen::Vector3d> smoothed(const std::vector<Eigen::Vector3d>& line, double deviation, int reach);

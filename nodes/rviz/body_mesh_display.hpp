@@ -45,7 +45,7 @@ class BodyMeshDisplay : public rviz::Display {
   void change_topics();
   void change_look();
 
- private:
+ private:  // NOLINT(readability-redundant-access-specifiers): what comes are no slots
   template <typename Message>
   void subscribe(rviz::RosTopicProperty* topic, void (BodyMeshDisplay::*take)(const Message&));
   void take_body(const TriangleMesh& message);

@@ -39,8 +39,7 @@ void show_to(std::uint32_t views, Ogre::SceneNode* node) {
 }  // namespace
 
 BodyScene::BodyScene(Ogre::SceneManager* scene, Ogre::SceneNode* parent, Parts parts)
-    : scene_(scene),
-      node_(parent->createChildSceneNode()),
+    : node_(parent->createChildSceneNode()),
       parts_(parts),
       before_(scene, parent),
       after_(scene, node_),

@@ -64,7 +64,6 @@ class BodyScene {
   void mark(const Eigen::Vector3d* place, const std::string& words);
 
  private:
-  Ogre::SceneManager* scene_;
   Ogre::SceneNode* node_;
   const Parts parts_;
   OgreBody before_, after_;

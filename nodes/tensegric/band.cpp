@@ -5,6 +5,7 @@
 
 #include "geometry/status.hpp"
 #include "tensegric/band_length.hpp"
+#include "tensegric/course.hpp"
 #include "tensegric/tension_law.hpp"
 
 namespace tensegric_fit::tensegric {
@@ -15,61 +16,6 @@ namespace refusal = geometry::refusal;
 
 constexpr double kSmooth = 1e-3;       // m
 constexpr double kSmoothShare = 0.03;  // of the mean segment at rest, where that is less
-
-/// 'L' or 'R' of a name with such an ending, else 0.
-char side_of(const std::string& name) {
-  const bool sided = name.size() > 2 && name[name.size() - 2] == '_';
-  return sided && (name.back() == 'L' || name.back() == 'R') ? name.back() : '\0';
-}
-
-// A strap may cross her back; a cup whose every sided node is of the other side was mistaken for its mirror
-// image.
-void check_side(const GarmentLine& line) {
-  const char side = side_of(line.name);
-  bool own = false, other = false;
-  for (const std::string& name : line.through) {
-    own |= side_of(name) == side;
-    other |= side_of(name) != '\0' && side_of(name) != side;
-  }
-  if (side != '\0' && other && !own)
-    throw Refusal(refusal::kBadGarment, "line '" + line.name + "' runs over the " +
-                                            (side == 'L' ? "right" : "left") + " side only");
-}
-
-std::vector<int> stops_of(const geometry::ControlMesh& control, const GarmentLine& line) {
-  check_side(line);
-  std::vector<int> stops;
-  for (const std::string& name : line.through) {
-    const int node = control.node(name);
-    if (node < 0)
-      throw Refusal(refusal::kUnknownLine, "line '" + line.name + "' runs through '" + name +
-                                               "', which the control mesh does not have");
-    if (!stops.empty() && stops.back() == node)
-      throw Refusal(refusal::kBadGarment,
-                    "line '" + line.name + "' runs through '" + name + "' twice in a row");
-    stops.push_back(node);
-  }
-  return stops;
-}
-
-// A taut string goes straight from stop to stop; a taut band is pulled off the skin between them.
-std::vector<int> nodes_of(const geometry::ControlMesh& control, const GarmentLine& line) {
-  std::vector<int> nodes;
-  if (!line.through.empty()) {
-    nodes = stops_of(control, line);
-    if (!line.taut || line.on_body()) nodes = geometry::route_over_edges(control, nodes);
-  } else {
-    const auto own =
-        std::find_if(control.lines.begin(), control.lines.end(),
-                     [&line](const geometry::ControlLine& one) { return one.name == line.name; });
-    if (own == control.lines.end())
-      throw Refusal(refusal::kUnknownLine, "the control mesh has no line '" + line.name + "'");
-    nodes = own->nodes;
-  }
-  if (nodes.size() < 2)
-    throw Refusal(refusal::kBadGarment, "line '" + line.name + "' has fewer than two nodes");
-  return nodes;
-}
 
 // A line over the control mesh's own nodes.
 geometry::Fibre over_nodes(const std::vector<int>& nodes, const Positions& rest) {
@@ -115,14 +61,6 @@ const geometry::LaidLine& laid_line(const std::vector<geometry::LaidLine>& laid,
 
 }  // namespace
 
-Course course_of(const geometry::ControlMesh& control, const GarmentLine& line) {
-  if (!line.points.empty()) return {line.points, line.held};
-  const std::vector<int> nodes = nodes_of(control, line);
-  Course course{{}, {control.outer_fixed[nodes.front()] != 0, control.outer_fixed[nodes.back()] != 0}};
-  for (const int node : nodes) course.points.push_back(control.outer[node]);
-  return course;
-}
-
 std::vector<Eigen::Vector3d> points_of(const Thread& thread, const Positions& x) {
   std::vector<Eigen::Vector3d> at;
   at.reserve(thread.offsets.size());
@@ -152,6 +90,7 @@ std::vector<Band> lay_bands(const Model& model, const Garment& garment,
                     "line '" + line.name + "' has a ratio or tension limit that is not positive");
     band.law = line.law;
     band.width = line.width;
+    band.cup = !line.fan.empty();
     band.tension_limit = line.tension_limit;
     band.request = line.ratio;
     band.initial = length_of(band, rest);

@@ -29,7 +29,8 @@ struct Band {
   std::vector<Thread> threads;
   TensionLaw law;
   double tension_limit;
-  double width = 0;                  ///< m; 0: a thread
+  double width = 0;                  ///< m; 0: a thread; of a cup where its fibres begin to spread
+  bool cup = false;                  ///< its threads spread
   double initial, neutral, request;  ///< m, m, neutral / initial
   double smooth;                     ///< m, of shorter segments the length is smoothed
   bool movable;                      ///< it touches a free node
@@ -37,18 +38,9 @@ struct Band {
   double straight = 0;  ///< m, least length: straight between the fixed nodes that it runs over
 };
 
-/// Where a line is to be laid on the body: along its points, or over the skin near the nodes of its route.
-struct Course {
-  std::vector<Eigen::Vector3d> points;  ///< scan frame, m
-  std::array<bool, 2> held;             ///< does bone hold its ends
-};
-/// \throw Refusal as lay_bands
-Course course_of(const geometry::ControlMesh& control, const GarmentLine& line);
-
 /// Bands of the garment's lines. A string runs over the mesh's edges from stop to stop, a taut one
-/// straight; a line on the body is found in `laid` by its name. \throw Refusal unknown_line: a
-/// name that the control mesh does not have; bad_garment: region or ratio, a line on the body that is not in
-/// `laid`, a line "..._L" whose nodes are all "..._R", or the other way round
+/// straight; a line on the body is found in `laid` by its name. \throw Refusal as nodes_of
+/// (course.hpp); bad_garment: a ratio, or a line on the body that is not in `laid`
 std::vector<Band> lay_bands(const Model& model, const Garment& garment,
                             const std::vector<geometry::LaidLine>& laid = {});
 

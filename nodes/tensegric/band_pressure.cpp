@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "geometry/section.hpp"
+
 namespace tensegric_fit::tensegric {
 namespace {
 
@@ -16,22 +18,36 @@ Vector3d inward(const Model& model, const geometry::CarriedPoint& point, const P
   return sum.norm() > 0 ? sum.normalized() : sum;
 }
 
+// Pull per width at a point of a thread, as a multiple of that of a band of this width: a cup's threads lie
+// closer or farther apart than a band's.
+double crowding(const Band& band, const std::vector<std::vector<Vector3d>>& threads, std::size_t t,
+                const Vector3d& point) {
+  if (!band.cup) return 1;
+  double strip = 0;  // half way to the threads beside it
+  if (t > 0) strip += geometry::distance_to_line(point, threads[t - 1]) / 2;
+  if (t + 1 < threads.size()) strip += geometry::distance_to_line(point, threads[t + 1]) / 2;
+  return strip > 0 ? band.threads[t].share * band.width / strip : 0;
+}
+
 }  // namespace
 
 double largest_pressure(const Model& model, const Band& band, const Positions& x, double newtons) {
   if (band.width == 0) return 0;
-  double curvature = 0;  // 1/m, the largest
-  for (const Thread& thread : band.threads) {
-    const std::vector<Vector3d> at = points_of(thread, x);
+  std::vector<std::vector<Vector3d>> threads;
+  for (const Thread& thread : band.threads) threads.push_back(points_of(thread, x));
+  double largest = 0;  // 1/m, of curvature times crowding
+  for (std::size_t t = 0; t < threads.size(); ++t) {
+    const std::vector<Vector3d>& at = threads[t];
     for (std::size_t i = 1; i + 1 < at.size(); ++i) {
       const Vector3d before = at[i] - at[i - 1], after = at[i + 1] - at[i];
       const double span = (before.norm() + after.norm()) / 2;
       if (before.norm() == 0 || after.norm() == 0) continue;
       const Vector3d bend = (after.normalized() - before.normalized()) / span;
-      curvature = std::max(curvature, bend.dot(inward(model, thread.points[i], x)));
+      const double curvature = bend.dot(inward(model, band.threads[t].points[i], x));
+      largest = std::max(largest, crowding(band, threads, t, at[i]) * curvature);
     }
   }
-  return newtons / band.width * curvature;
+  return newtons / band.width * largest;
 }
 
 }  // namespace tensegric_fit::tensegric

@@ -51,10 +51,14 @@ tensegric::GarmentLine line_in(const GarmentLine& message) {
   line.taut = message.taut;
   if (message.points.size() % 3 != 0) refuse(message, "points needs x y z of each point");
   line.points = points_in(message.points);
-  if (line.points.empty())
-    line.through = message.through;
-  else if (!message.through.empty())
+  if (line.points.empty()) {
+    const auto fan = std::find(message.through.begin(), message.through.end(), tensegric::kFan);
+    line.through.assign(message.through.begin(), fan);
+    if (fan != message.through.end()) line.fan.assign(fan + 1, message.through.end());
+    if (fan != message.through.end() && line.fan.empty()) refuse(message, "no nodes come after 'fan'");
+  } else if (!message.through.empty()) {
     line.held = tensegric::held_in(message.through, where + " by points");
+  }
   line.width = message.width;
   line.smooth = message.smooth;
   tensegric::check_line(line, where);
@@ -83,6 +87,10 @@ GarmentLine line_of(const tensegric::GarmentLine& line) {
   }
   message.tension_limit = limit_of(line.tension_limit);
   message.through = line.through;
+  if (!line.fan.empty()) {
+    message.through.push_back(tensegric::kFan);
+    message.through.insert(message.through.end(), line.fan.begin(), line.fan.end());
+  }
   if (!line.points.empty())
     for (const bool held : line.held)
       message.through.emplace_back(held ? tensegric::kHeldByBone : tensegric::kCarriedBySkin);

@@ -85,10 +85,10 @@ std::vector<Eigen::Vector3d> read_points(const YAML::Node& line, const std::stri
 
 GarmentLine read_line(const YAML::Node& node, const std::string& where) {
   if (!node.IsMap()) refuse(where, "must be a map");
-  geometry::check_keys(
-      node,
-      {"name", "ratio", "law", "tension_limit", "through", "follow", "points", "width", "smooth", "ends"},
-      where, kBadGarment);
+  geometry::check_keys(node,
+                       {"name", "ratio", "law", "tension_limit", "through", "fan", "follow", "points",
+                        "width", "smooth", "ends"},
+                       where, kBadGarment);
   const auto number = [&](const char* key, double fallback) {
     return geometry::optional(node, key, fallback, where, kBadGarment);
   };
@@ -100,6 +100,8 @@ GarmentLine read_line(const YAML::Node& node, const std::string& where) {
     line.tension_limit =
         geometry::number_in(node, "tension_limit", kTension.low, kTension.high, where, kBadGarment);
   line.through = words(node, "through", where);
+  line.fan = words(node, "fan", where);
+  if (node["fan"] && line.fan.empty()) refuse(where, "'fan' is empty");
   const auto follow = geometry::optional<std::string>(node, "follow", "skin", where, kBadGarment);
   if (follow != "skin" && follow != "taut") refuse(where, "'follow' is '" + follow + "', not skin or taut");
   line.taut = follow == "taut";
@@ -140,13 +142,17 @@ void check_line(GarmentLine& line, const std::string& where) {
   if (line.law.kind == TensionLaw::Kind::table) check_table(line.law.table, where);
   if (line.tension_limit != std::numeric_limits<double>::infinity())
     check("tension_limit", line.tension_limit, kTension, where);
-  if (line.through.size() == 1) refuse(where, "'through' needs two nodes or more");
+  if (line.through.size() == 1 && line.fan.empty()) refuse(where, "'through' needs two nodes or more");
+  if (line.fan.size() == 1) refuse(where, "'fan' needs two nodes or more");
+  if (!line.fan.empty() && line.through.empty())
+    refuse(where, "'fan' is for lines that are given by 'through'");
   if (line.points.size() == 1) refuse(where, "'points' needs two points or more");
   if (!line.through.empty() && !line.points.empty()) refuse(where, "has both 'through' and 'points'");
   for (const Eigen::Vector3d& point : line.points)
     if (!point.allFinite()) refuse(where, "'points' are not all finite");
   check("width", line.width, kLineWidth, where);
   check("smooth", line.smooth, kLineWidth, where);
+  if (!line.fan.empty() && line.width == 0) refuse(where, "'fan' needs a 'width' above 0, where it begins");
   if (line.smooth > 0 && !line.on_body())
     refuse(where, "'smooth' is for bands and for lines that are given by 'points'");
 }

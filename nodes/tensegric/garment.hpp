@@ -44,6 +44,10 @@ struct GarmentLine {
   /// the posture? Else the skin carries it. A line by `through` ends as its last node does.
   std::array<bool, 2> held{true, true};
 
+  /// Of a cup, else empty: names of control nodes in a row. From the last node of `through` on its fibres
+  /// spread over the skin, and end evenly along that row.
+  std::vector<std::string> fan{};
+
   /// Whether it lies on the dense body, and has to be laid there.
   bool on_body() const { return !points.empty() || width > 0; }
 };
@@ -56,6 +60,8 @@ struct Garment {
 
 /// What holds each end, as files and messages say it.
 inline constexpr const char *kHeldByBone = "bone", *kCarriedBySkin = "skin";
+/// In messages a cup's row of nodes comes after those of `through` and this word.
+inline constexpr const char* kFan = "fan";
 /// \throw Refusal bad_garment beginning with `where`: not two words, or others
 std::array<bool, 2> held_in(const std::vector<std::string>& words, const std::string& where);
 

@@ -85,6 +85,7 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
     line.course_at_rest = rest_of(thread);
     line.course = points_of(thread, x);
     line.width = band.width;
+    line.cup = band.cup;
     for (const Thread& fibre : band.threads) {
       line.fibres_at_rest.push_back(rest_of(fibre));
       line.fibres.push_back(points_of(fibre, x));

@@ -44,7 +44,8 @@ struct LineResult {
   std::vector<Eigen::Vector3d> course_at_rest, course;  ///< its middle thread, scan frame
   /// Of a band from edge to edge, of a string its course.
   std::vector<std::vector<Eigen::Vector3d>> fibres_at_rest, fibres;
-  double width;          ///< m; 0 of a string
+  double width;          ///< m; 0 of a string; of a cup where its fibres begin to spread
+  bool cup = false;      ///< its fibres spread
   double straight = 0;   ///< m, between the fixed nodes that it runs over: it cannot become shorter
   double reachable = 0;  ///< m, the shortest that it came to: `final` where the request is infeasible
 };

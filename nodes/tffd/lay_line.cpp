@@ -10,7 +10,7 @@
 #include "geometry/parallel_for.hpp"
 #include "geometry/section.hpp"
 #include "geometry/status.hpp"
-#include "geometry/surface_tree.hpp"
+#include "tffd/skin_near.hpp"
 
 namespace tensegric_fit::tffd {
 namespace {
@@ -21,73 +21,10 @@ using geometry::Refusal;
 using geometry::SurfacePoint;
 namespace refusal = geometry::refusal;
 
-constexpr double kFarFromSkin = 0.030;  // m
-constexpr double kLineReach = 0.15;     // m: skin farther from the line than this has no part in it
-constexpr double kSpacing = 0.003;      // m, between points along a fibre while it is laid
-constexpr double kMarch = 0.0025;       // m, a step over the skin across the band
 constexpr double kTurn = 0.020;         // m: the way across the band is averaged over so much of it
 constexpr int kFibres = 7;              // of a band; of a thread one
 constexpr double kPointsPerReach = 2;   // of averaged fibres: closer ones add nothing
 constexpr double kOffTheTape = 0.0005;  // m: a point this far inside the tape is bridged
-
-std::vector<Vector3d> evenly(const std::vector<Vector3d>& line) {
-  const double length = geometry::length_of(line, false);
-  if (!(length > kSpacing)) throw Refusal(refusal::kBadGarment, "a line on the body has no length");
-  const int count = std::max(2, static_cast<int>(std::ceil(length / kSpacing)) + 1);
-  std::vector<Vector3d> points = geometry::between_ends(line, count - 2);
-  points.insert(points.begin(), line.front());
-  points.push_back(line.back());
-  return points;
-}
-
-// The body's skin around a line.
-class SkinNear {
- public:
-  SkinNear(const geometry::TriangleMesh& body, const std::vector<Vector3d>& line)
-      : SkinNear(body, are_near(body.vertices, line)) {}
-
-  SurfacePoint nearest(const Vector3d& q) const { return tree_.nearest(q); }
-  const Eigen::Vector3i& corners(const SurfacePoint& at) const { return skin_.triangles[at.triangle]; }
-
-  Vector3d normal(const SurfacePoint& at) const {
-    const Eigen::Vector3i& k = corners(at);
-    return (at.barycentric[0] * normals_[k[0]] + at.barycentric[1] * normals_[k[1]] +
-            at.barycentric[2] * normals_[k[2]])
-        .normalized();
-  }
-
- private:
-  SkinNear(const geometry::TriangleMesh& body, const std::vector<char>& close)
-      : skin_{body.vertices, touching(body, close, 3)},
-        normals_(geometry::vertex_normals(body.vertices, touching(body, close, 1))),
-        tree_(skin_) {}
-
-  // One flag per vertex.
-  static std::vector<char> are_near(const std::vector<Vector3d>& vertices,
-                                    const std::vector<Vector3d>& line) {
-    Eigen::AlignedBox3d box;
-    for (const Vector3d& point : line) box.extend(point);
-    const geometry::PointTree tree(line);
-    std::vector<char> close(vertices.size());
-    for (std::size_t v = 0; v < close.size(); ++v)
-      close[v] = box.exteriorDistance(vertices[v]) < kLineReach && tree.distance(vertices[v]) < kLineReach;
-    return close;
-  }
-
-  // Triangles of which so many corners and more are close.
-  static std::vector<Eigen::Vector3i> touching(const geometry::TriangleMesh& body,
-                                               const std::vector<char>& close, int corners) {
-    std::vector<Eigen::Vector3i> triangles;
-    for (const Eigen::Vector3i& t : body.triangles)
-      if (close[t[0]] + close[t[1]] + close[t[2]] >= corners) triangles.push_back(t);
-    if (triangles.empty()) throw Refusal(refusal::kBadGarment, "a line lies nowhere near the body");
-    return triangles;
-  }
-
-  geometry::TriangleMesh skin_;
-  std::vector<Vector3d> normals_;
-  geometry::SurfaceTree tree_;
-};
 
 // Unit vectors over the skin, square to the band, smooth along it.
 std::vector<Vector3d> across(const std::vector<SurfacePoint>& middle, const SkinNear& skin) {
@@ -97,7 +34,7 @@ std::vector<Vector3d> across(const std::vector<SurfacePoint>& middle, const Skin
     const Vector3d along = middle[std::min(i + 1, count - 1)].position - middle[std::max(i - 1, 0)].position;
     raw.push_back(skin.normal(middle[i]).cross(along));
   }
-  const int reach = static_cast<int>(kTurn / kSpacing);
+  const int reach = static_cast<int>(kTurn / kLineSpacing);
   std::vector<Vector3d> smooth;
   for (int i = 0; i < count; ++i) {
     Vector3d sum = Vector3d::Zero();
@@ -107,23 +44,41 @@ std::vector<Vector3d> across(const std::vector<SurfacePoint>& middle, const Skin
   return smooth;
 }
 
-// The point `way` metres from `from` over the skin, towards `direction`.
-SurfacePoint march(const SkinNear& skin, SurfacePoint from, const Vector3d& direction, double way) {
-  const int steps = static_cast<int>(std::ceil(std::abs(way) / kMarch));
-  for (int i = 0; i < steps; ++i) {
-    const Vector3d normal = skin.normal(from);
-    const Vector3d level = direction - normal.dot(direction) * normal;
-    from = skin.nearest(from.position + way / steps * level.normalized());
-  }
-  return from;
-}
-
 CarriedPoint carried(const SurfacePoint& at, const SkinNear& skin, const SparseRows& m) {
   std::map<int, double> weights;
   for (int k = 0; k < 3; ++k)
     for (SparseRows::InnerIterator entry(m, skin.corners(at)[k]); entry; ++entry)
       weights[static_cast<int>(entry.col())] += at.barycentric[k] * entry.value();
   return {at.position, {weights.begin(), weights.end()}};
+}
+
+// How the fibres of a cup spread: the row on which they end, from right to left, and the ways to its nodes.
+struct Fan {
+  std::vector<Vector3d> row;
+  std::vector<std::vector<Vector3d>> ways;
+
+  Vector3d along() const { return (row.back() - row.front()).normalized(); }
+};
+
+// `left`: beside the point from which they spread.
+Fan fan_of(const LineOnBody& line, const Vector3d& left) {
+  Fan fan{{}, line.fan};
+  for (const std::vector<Vector3d>& way : fan.ways) fan.row.push_back(way.back());
+  if (left.dot(fan.along()) < 0) {
+    std::reverse(fan.row.begin(), fan.row.end());
+    std::reverse(fan.ways.begin(), fan.ways.end());
+  }
+  return fan;
+}
+
+// Takes a fibre on to its end: fibre `f` of `count`.
+void spread(std::vector<SurfacePoint>& fibre, const Fan& fan, int f, int count, const SkinNear& skin) {
+  const auto [segment, share] = geometry::even_places(fan.row, count)[f];
+  std::vector<Vector3d> way = fan.ways[share < 0.5 ? segment : segment + 1];
+  way.front() = fibre.back().position;
+  way.back() = skin.below(fan.row[segment] + share * (fan.row[segment + 1] - fan.row[segment])).position;
+  const std::vector<SurfacePoint> shortest = skin.shortest(way);
+  fibre.insert(fibre.end(), shortest.begin() + 1, shortest.end());
 }
 
 // Mean of the points up to `reach` metres to either side along the fibre; less near its ends, which stay.
@@ -192,7 +147,8 @@ std::vector<CarriedPoint> on_the_tape(const std::vector<CarriedPoint>& points,
 
 // As few points as describe the course of a fibre that was averaged over `reach`.
 std::vector<CarriedPoint> thinned(const std::vector<CarriedPoint>& points, double reach) {
-  const auto step = std::max<std::size_t>(1, static_cast<std::size_t>(reach / kPointsPerReach / kSpacing));
+  const auto step =
+      std::max<std::size_t>(1, static_cast<std::size_t>(reach / kPointsPerReach / kLineSpacing));
   std::vector<CarriedPoint> kept;
   for (std::size_t i = 0; i + 1 < points.size(); i += step) kept.push_back(points[i]);
   kept.push_back(points.back());
@@ -207,25 +163,36 @@ std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::Tr
   if (m.cols() == 0)
     throw Refusal(refusal::kBadOption,
                   "t-FFD: the paper's setting has no constant weights to carry a line by");
-  const std::vector<Vector3d> course = evenly(line.points);
-  const SkinNear skin(body, course);
+  const bool is_cup = !line.fan.empty();
+  const std::vector<Vector3d> course = is_cup && line.points.size() == 1 ? line.points : evenly(line.points);
+  std::vector<Vector3d> everywhere = course;
+  for (const std::vector<Vector3d>& way : line.fan)
+    everywhere.insert(everywhere.end(), way.begin(), way.end());
+  const SkinNear skin(body, everywhere);
   std::vector<SurfacePoint> middle;
-  for (const Vector3d& point : course) {
-    middle.push_back(skin.nearest(point));
-    if ((middle.back().position - point).norm() > kFarFromSkin)
-      throw Refusal(refusal::kBadGarment, "a line's point is more than 30 mm away from the skin");
+  for (const Vector3d& point : course) middle.push_back(skin.below(point));
+  std::vector<Vector3d> sideways = across(middle, skin);
+  Fan fan;
+  if (is_cup && course.size() > 1) {
+    fan = fan_of(line, sideways.back());
+  } else if (is_cup) {
+    const Vector3d down = line.fan[line.fan.size() / 2].back() - course.front();
+    fan = fan_of(line, skin.normal(middle.front()).cross(down));
+    sideways.front() = fan.along();
   }
-  const std::vector<Vector3d> sideways = across(middle, skin);
 
   const int count = line.width > 0 ? kFibres : 1;
   std::vector<geometry::Fibre> fibres(count);
   const auto lay = [&](int f) {
     const double place = count > 1 ? 2.0 * f / (count - 1) - 1 : 0;  // -1 to 1 across the band
     const double share = std::abs(place) == 1 ? 0.5 : 1;  // the trapezoid rule: even over the width
+    std::vector<SurfacePoint> way;
+    for (std::size_t i = 0; i < middle.size(); ++i)
+      way.push_back(skin.march(middle[i], sideways[i], place * line.width / 2));
+    if (is_cup) spread(way, fan, f, count, skin);
     std::vector<CarriedPoint> points;
     std::vector<Vector3d> normals;
-    for (std::size_t i = 0; i < middle.size(); ++i) {
-      const SurfacePoint at = march(skin, middle[i], sideways[i], place * line.width / 2);
+    for (const SurfacePoint& at : way) {
       points.push_back(carried(at, skin, m));
       normals.push_back(skin.normal(at));
     }

@@ -1,25 +1,13 @@
 #include "tffd/skin_place.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
 
 #include "geometry/disjoint_sets.hpp"
+#include "geometry/section.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::tffd {
-
-double from_course(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& course) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < course.size(); ++i) {
-    const Eigen::Vector3d way = course[i] - course[i - 1], to = point - course[i - 1];
-    const double length = way.squaredNorm(),
-                 part = length > 0 ? std::clamp(to.dot(way) / length, 0.0, 1.0) : 0;
-    nearest = std::min(nearest, (to - part * way).squaredNorm());
-  }
-  return std::sqrt(nearest);
-}
 
 std::vector<std::vector<int>> places_of(const std::vector<int>& picked,
                                         const std::vector<Eigen::Vector3i>& triangles,
@@ -66,7 +54,7 @@ geometry::FitWarning warning_at(const char* code, const std::vector<int>& triang
                          warning.vertices.end());
   double nearest = kNearLine;
   for (const WornLine& line : lines)
-    if (const double distance = from_course(warning.worn, line.worn); distance < nearest) {
+    if (const double distance = geometry::distance_to_line(warning.worn, line.worn); distance < nearest) {
       nearest = distance;
       warning.line = line.name;
     }

@@ -29,9 +29,6 @@ struct WornSkin {
   const std::vector<Eigen::Vector3i>& triangles;
 };
 
-/// m, from a point to the polyline through `course`; infinite where that has fewer than two points.
-double from_course(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& course);
-
 /// Triangles connected by their corners, or by `joined`: one list a place, of numbers in `picked`, ascending;
 /// places in the order of their first. `joined`: pairs of numbers in `picked`.
 std::vector<std::vector<int>> places_of(const std::vector<int>& picked,

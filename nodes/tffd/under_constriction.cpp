@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/section.hpp"
 #include "geometry/status.hpp"
 #include "geometry/surface_tree.hpp"
 
@@ -40,7 +41,7 @@ std::vector<int> triangles_about(const std::vector<Vector3d>& course, const Worn
     const Eigen::Vector3i& t = skin.triangles[i];
     const Vector3d& corner = vertices[t[0]];
     if ((corner.array() < low.array()).any() || (corner.array() > high.array()).any()) continue;
-    if (from_course(corner, course) < kAround) triangles.push_back(static_cast<int>(i));
+    if (geometry::distance_to_line(corner, course) < kAround) triangles.push_back(static_cast<int>(i));
   }
   return triangles;
 }

@@ -68,7 +68,9 @@ void change(fuzz::Input& input, Garment& message) {
     line.law = kLaws[input.number(1) % 5];
     line.taut = static_cast<std::uint8_t>(input.number(1) % 2);
     if (input.number(1) % 2 != 0) line.stretch = line.tension = {1, 1.1, 1.3};
-    if (input.number(1) % 4 == 0) line.through = {"axilla_L", "sternum", "axilla_R"};
+    const std::uint32_t course = input.number(1) % 4;
+    if (course == 0) line.through = {"axilla_L", "sternum", "axilla_R"};
+    if (course == 1) line.through = {"bust_point_L", "fan", "axilla_L", "sternum"};
     if (input.number(1) % 4 == 0) line.points = {0.1, -0.12, 1.2, 0, -0.13, 1.2, -0.1, -0.12, 1.2};
     change_all(input, line.stretch, line.tension, line.through, line.points);
   }

@@ -1,5 +1,5 @@
-// Every shipped garment on bodies, for shelves.py: BODY.ply, BODY_GARMENT_PERCENT.ply, warnings.csv and
-// moves.csv.
+// Shipped garments on bodies, for shelves.py: BODY.ply, BODY_GARMENT_PERCENT.ply, warnings.csv, moves.csv and
+// lines.csv.
 //   worn_skins --out DIR BODY.ply...
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* const kGarments[] = {"B1", "B2", "B3", "B4", "H1", "H2", "H3", "H4"};
+const std::vector<std::string> kGarments{"B1", "B2", "B3", "B4", "H1", "H2", "H3", "H4"};
 
 // The largest of a vertex's move over the farthest of the nodes that carry it, of vertices that move a
 // millimetre and more; and what share of these vertices is above 1.3.
@@ -47,11 +47,12 @@ std::pair<double, double> overshoot(const fit::Body& body, const fit::Fitting& f
 }
 
 struct Tables {
-  std::FILE *warnings, *moves;
+  std::FILE *warnings, *moves, *lines;
 };
 
-void wear_all(const std::string& file, const std::vector<double>& ratios, bool strings,
-              const fit::Settings& settings, const fs::path& out, const Tables& tables) {
+void wear_all(const std::string& file, const std::vector<std::string>& garments,
+              const std::vector<double>& ratios, bool strings, const fit::Settings& settings,
+              const fs::path& out, const Tables& tables) {
   fit::StageTimes times;
   const fit::Body body = fit::measure_mesh(geometry::read_ply_mesh(file), settings, times);
   const std::string name = fs::path(file).stem().string();
@@ -62,21 +63,23 @@ void wear_all(const std::string& file, const std::vector<double>& ratios, bool s
                      std::vector<control_mesh::Template>{control_mesh::load_template(geometry::yaml_file(
                          geometry::shipped_folder("templates"), region, geometry::refusal::kBadGarment))},
                      settings, times);
-    for (const std::string garment_name : kGarments) {
-      tensegric::Garment garment =
-          tensegric::take_garment(garment_name, geometry::shipped_folder("garments"));
+    for (const std::string& words : garments) {
+      tensegric::Garment garment = tensegric::take_garment(words, geometry::shipped_folder("garments"));
       if (garment.regions.front() != region) continue;
       if (strings)
         for (tensegric::GarmentLine& line : garment.lines) line.width = line.smooth = 0;
       for (const double ratio : ratios) {
-        tensegric::set_ratio(garment, "", ratio);
+        if (ratio > 0) tensegric::set_ratio(garment, "", ratio);
         const fit::Fit fit = fit::wear(body, fitting, garment, settings, times);
-        const std::string run = fmt::format("{}_{}_{:.0f}", name, garment_name, 100 * ratio);
+        const std::string run = fmt::format("{}_{}_{:.0f}", name, garment.name, 100 * ratio);
         geometry::write_ply_mesh((out / (run + ".ply")).string(), {fit.deformed, body.mesh.mesh.triangles});
         const std::string ended =
             fmt::format("{},{},{},{}", name, run, to_string(fit.solution.status), fit.solution.iterations);
         const auto [most, above] = overshoot(body, fitting, fit);
         fmt::print(tables.moves, "{},{},{:.3f},{:.5f}\n", name, run, most, above);
+        for (const tensegric::LineResult& line : fit.solution.lines)
+          fmt::print(tables.lines, "{},{},{},{:.6f},{:.3f},{:.3f}\n", name, run, line.name,
+                     line.final / line.initial, line.newtons, 1e-3 * line.pressure);
         const auto warnings = fit::warnings_of(body, fitting, fit, settings);
         if (warnings.empty()) fmt::print(tables.warnings, "{},,,,,\n", ended);
         for (const geometry::FitWarning& warning : warnings)
@@ -96,8 +99,13 @@ int main(int argc, char** argv) {
   std::vector<double> ratios{0.95, 0.92, 0.88, 0.85};
   std::string out;
   app.add_option("bodies", bodies, "Body meshes, BODY.ply")->required();
-  app.add_option("--ratio", ratios, "Ratios of all lines")->capture_default_str()->allow_extra_args(false);
+  app.add_option("--ratio", ratios, "Ratios of all lines; 0: the garment's own")
+      ->capture_default_str()
+      ->allow_extra_args(false);
   app.add_option("--out", out, "Folder")->required();
+  std::vector<std::string> garments = tensegric_fit::kGarments;
+  app.add_option("--garment", garments, "Shipped garments, or FILE.yaml; default: all of the papers")
+      ->allow_extra_args(false);
   tensegric_fit::fit::Settings settings;
   std::string tissue;
   app.add_option("--tissue", tissue, "Parameter file of another tissue");
@@ -110,13 +118,15 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   std::filesystem::create_directories(out);
   const tensegric_fit::Tables tables{std::fopen((out + "/warnings.csv").c_str(), "w"),
-                                     std::fopen((out + "/moves.csv").c_str(), "w")};
-  if (tables.warnings == nullptr || tables.moves == nullptr) {
+                                     std::fopen((out + "/moves.csv").c_str(), "w"),
+                                     std::fopen((out + "/lines.csv").c_str(), "w")};
+  if (tables.warnings == nullptr || tables.moves == nullptr || tables.lines == nullptr) {
     fmt::print(stderr, "{}: cannot be written\n", out);
     return 1;
   }
   fmt::print(tables.warnings, "body,run,status,iterations,code,line,area_cm2,shelf_cm2,value\n");
   fmt::print(tables.moves, "body,run,overshoot,share_above_1.3\n");
+  fmt::print(tables.lines, "body,run,line,ratio,newtons,kilopascals\n");
   try {
     if (!tissue.empty()) tensegric_fit::fit::take_tissue(tissue, settings);
   } catch (const tensegric_fit::geometry::Refusal& refusal) {
@@ -125,12 +135,13 @@ int main(int argc, char** argv) {
   }
   for (const std::string& body : bodies) {
     try {
-      tensegric_fit::wear_all(body, ratios, strings, settings, out, tables);
+      tensegric_fit::wear_all(body, garments, ratios, strings, settings, out, tables);
     } catch (const tensegric_fit::geometry::Refusal& refusal) {
       fmt::print(stderr, "{} refused {}: {}\n", body, refusal.code(), refusal.what());
     }
   }
   std::fclose(tables.warnings);
   std::fclose(tables.moves);
+  std::fclose(tables.lines);
   return 0;
 }

@@ -96,7 +96,7 @@ std::map<std::string, Worn::Fitted>* Worn::fitted_ = nullptr;
 INSTANTIATE_TEST_SUITE_P(SlimAndFull, Worn, testing::Values(1.0, 1.1));
 
 TEST_P(Worn, NoControlTriangleTurnsOver) {
-  for (const char* name : {"B1", "B2", "B3", "B4", "H1", "H2", "H3", "H4"})
+  for (const char* name : {"B1", "B2", "B3", "B4", "cups", "H1", "H2", "H3", "H4"})
     for (double ratio : {0.95, 0.90}) EXPECT_EQ(wear(name, ratio).turned, 0) << name << " at " << ratio;
 }
 
@@ -106,7 +106,7 @@ TEST_P(Worn, GatheringGarmentsMoveTheTipsTogether) {
 
 // The crossed one draws the buttocks apart as well, and lifts least.
 TEST_P(Worn, LiftingGarmentsLift) {
-  for (const char* name : {"B2", "H2", "H3"})
+  for (const char* name : {"B2", "cups", "H2", "H3"})
     for (double ratio : {0.95, 0.90}) {
       const Effect effect = wear(name, ratio);
       EXPECT_GT(std::min(effect.lift_left, effect.lift_right), 0.0005) << name << " at " << ratio;

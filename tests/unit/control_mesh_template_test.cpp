@@ -42,7 +42,8 @@ TEST(BustTemplate, NamesWhatGarmentsAskFor) {
   const auto grid = control_mesh::grid_of(control_mesh::load_template(kBust));
   EXPECT_GE(grid.node("sternum"), 0);
   for (const std::string stem :
-       {"axilla", "bust_point", "collarbone", "upper_breast", "underbust", "side_underbust", "below_bust"})
+       {"axilla", "bust_point", "collarbone", "upper_breast", "underbust", "side_underbust", "below_bust",
+        "underbust_outer", "underbust_inner", "breast_side"})
     for (const char* side : {"_L", "_R"}) EXPECT_GE(grid.node(stem + side), 0) << stem << side;
 }
 
@@ -91,6 +92,10 @@ TEST(BustTemplate, RefusesWhatDoesNotFit) {
             std::string::npos);
   EXPECT_NE(refusal_with(kBust, "through: [axilla_L", "through: [armpit_L").find("'armpit_L'"),
             std::string::npos);
+  EXPECT_NE(
+      refusal_with(kBust, "name: bust_point_L, ", "name: bust_point_L, spread: true, ").find("'spread'"),
+      std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "spread: true", "spread: wide").find("'spread'"), std::string::npos);
   EXPECT_NE(refusal_with(kBust, "rows: [0, 6]", "rows: [0, 7]").find("'rows'"), std::string::npos);
   EXPECT_NE(refusal_with(kBust, "name: sternum", "name: sternum_L").find("'name'"), std::string::npos);
   EXPECT_NE(refusal_with(kBust,

@@ -18,7 +18,7 @@ TEST(FitMessages, GarmentComesBackAsItWas) {
   GarmentRequest request;
   request.garment.name = "mine";
   request.garment.regions = {"bust"};
-  tensegric::GarmentLine rigid, elastic, table, laid;
+  tensegric::GarmentLine rigid, elastic, table, laid, cup;
   rigid.name = "chest";
   rigid.ratio = 0.9;
   rigid.through = {"side_L", "sternum", "side_R"};
@@ -35,7 +35,11 @@ TEST(FitMessages, GarmentComesBackAsItWas) {
   laid.width = 0.03;
   laid.smooth = 0.02;
   laid.held = {true, false};
-  request.garment.lines = {rigid, elastic, table, laid};
+  cup.name = "cup";
+  cup.through = {"bust_point_L"};
+  cup.fan = {"underbust_inner_L", "underbust_L"};
+  cup.width = 0.03;
+  request.garment.lines = {rigid, elastic, table, laid, cup};
   request.solver = "relaxation";
 
   const GarmentRequest back = request_in(to_message(std_msgs::Header(), request));
@@ -43,8 +47,8 @@ TEST(FitMessages, GarmentComesBackAsItWas) {
   EXPECT_EQ(back.solver, "relaxation");
   EXPECT_EQ(back.garment.name, "mine");
   EXPECT_EQ(back.garment.regions, request.garment.regions);
-  ASSERT_EQ(back.garment.lines.size(), 4u);
-  for (std::size_t i = 0; i < 4; ++i) {
+  ASSERT_EQ(back.garment.lines.size(), request.garment.lines.size());
+  for (std::size_t i = 0; i < back.garment.lines.size(); ++i) {
     const auto &was = request.garment.lines[i], &is = back.garment.lines[i];
     EXPECT_EQ(is.name, was.name);
     EXPECT_EQ(is.ratio, was.ratio);
@@ -53,6 +57,7 @@ TEST(FitMessages, GarmentComesBackAsItWas) {
     EXPECT_EQ(is.law.table, was.law.table);
     EXPECT_EQ(is.tension_limit, was.tension_limit);
     EXPECT_EQ(is.through, was.through);
+    EXPECT_EQ(is.fan, was.fan);
     EXPECT_EQ(is.taut, was.taut);
     EXPECT_EQ(is.points, was.points);
     EXPECT_EQ(is.width, was.width);
@@ -97,6 +102,23 @@ TEST(FitMessages, ImpossibleGarmentsAreRefusedByName) {
   bad = good;
   bad.solver = "magic";
   EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_option");
+}
+
+TEST(FitMessages, CupsFollowTheRulesOfGarmentFiles) {
+  const auto outcome = [](std::vector<std::string> through, double width) {
+    Garment garment;
+    garment.lines.resize(1);
+    garment.lines[0].name = "cup";
+    garment.lines[0].ratio = 0.9;
+    garment.lines[0].through = std::move(through);
+    garment.lines[0].width = width;
+    return code_of([&garment] { request_in(garment); });
+  };
+  EXPECT_EQ(outcome({"tip", "fan", "a", "b"}, 0.03), "accepted");
+  EXPECT_EQ(outcome({"tip", "fan", "a", "b"}, 0), "bad_garment");
+  EXPECT_EQ(outcome({"tip", "fan", "a"}, 0.03), "bad_garment");
+  EXPECT_EQ(outcome({"neck", "tip", "fan"}, 0.03), "bad_garment");
+  EXPECT_EQ(outcome({"fan", "a", "b"}, 0.03), "bad_garment");
 }
 
 TEST(FitMessages, LinesByPointsFollowTheRulesOfGarmentFiles) {

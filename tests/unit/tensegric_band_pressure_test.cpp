@@ -50,5 +50,36 @@ TEST(BandPressure, IsNoneWhereTheBandBendsAwayFromTheBodyOrHasNoWidth) {
   EXPECT_EQ(pressure(0.02, 0), 0);
 }
 
+// Threads round a cylinder, `gap` apart: the pull of each is spread over the skin half way to its neighbours.
+TEST(BandPressure, OfACupIsThatOfThePullWhereItsThreadsLie) {
+  constexpr int kThreads = 7;
+  const auto pressure = [&](double gap, double width) {
+    Model model;
+    Band band;
+    band.width = width;
+    band.cup = true;
+    for (int t = 0; t < kThreads; ++t) {
+      Thread thread{t == 0 || t == kThreads - 1 ? 1 / 12.0 : 1 / 6.0, {}, {}, {}};
+      for (int i = 0; i < kNodes; ++i) {
+        const double angle = M_PI * i / (kNodes - 1);
+        const Eigen::Vector3d out(std::cos(angle), std::sin(angle), 0), along(0, 0, gap * t);
+        thread.points.push_back(
+            {Eigen::Vector3d::Zero(), {{static_cast<int>(model.control.outer.size()), 1.0}}});
+        thread.offsets.emplace_back(Eigen::Vector3d::Zero());
+        model.control.outer.push_back(kRadius * out + along);
+        model.control.inner.push_back(0.8 * kRadius * out + along);
+      }
+      band.threads.push_back(thread);
+    }
+    return largest_pressure(model, band, model.rest_positions(), kPull);
+  };
+  for (const double gap : {0.005, 0.015}) {
+    const double wanted = kPull / (6 * gap) / kRadius;
+    // The chords' curvature is off by half a part in (pi / 40)^2 / 4.
+    EXPECT_NEAR(pressure(gap, 0.03), wanted, 0.002 * wanted);
+    EXPECT_NEAR(pressure(gap, 0.01), wanted, 0.002 * wanted) << "whatever its width where it begins";
+  }
+}
+
 }  // namespace
 }  // namespace tensegric_fit::tensegric

@@ -124,8 +124,23 @@ TEST(Garment, ALineThroughNodesIsABandUnlessItSaysOtherwise) {
   EXPECT_NE(refusal(with_line("through: [a, b], width: 0.3")).find("'width'"), std::string::npos);
 }
 
+TEST(Garment, ALineThatSpreadsIsACup) {
+  const std::string cup = "through: [a], fan: [p, q, r]";
+  const GarmentFile file(with_line(cup));
+  const GarmentLine line = load_garment(file.path()).lines.front();
+  EXPECT_EQ(line.through, std::vector<std::string>{"a"});
+  EXPECT_EQ(line.fan, (std::vector<std::string>{"p", "q", "r"}));
+  EXPECT_EQ(line.width, kBandWidth);  // where it begins
+  EXPECT_EQ(line.smooth, kBandSmooth);
+  for (const char* fan : {"through: [a], fan: p", "through: [a], fan: []", "through: [a], fan: {p: q}",
+                          "fan: [p, q]", "points: [[0, 0, 1], [0.1, 0, 1]], fan: [p, q]"})
+    EXPECT_NE(refusal(with_line(fan)).find("'fan'"), std::string::npos) << fan;
+  EXPECT_NE(refusal(with_line(cup + ", width: 0")).find("'width'"), std::string::npos);
+  EXPECT_NE(refusal(with_line(cup + ", ends: [bone, skin]")).find("'ends'"), std::string::npos);
+}
+
 TEST(Garment, ShippedGarmentsAreRead) {
-  for (const char* name : {"B1", "B2", "B3", "B4"}) {
+  for (const char* name : {"B1", "B2", "B3", "B4", "cups"}) {
     const Garment g =
         load_garment(std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/garments/" + name + ".yaml");
     EXPECT_EQ(g.name, name);

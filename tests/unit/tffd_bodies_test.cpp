@@ -92,7 +92,7 @@ class WornKnownBody : public testing::TestWithParam<test::KnownBody> {};
 TEST_P(WornKnownBody, NoTriangleTurnsOverAndNoSkinGoesBeyondItsNodes) {
   const bool open = GetParam().name[0] == 'F';
   Worn worn(GetParam().surface().surface, {"bust", "hips"});
-  for (const std::string name : {"B1", "B2", "B3", "B4", "H1", "H2", "H3", "H4"}) {
+  for (const std::string name : {"B1", "B2", "B3", "B4", "cups", "H1", "H2", "H3", "H4"}) {
     const fit::Fit fit = worn.wear(name, !open ? 0.95 : name == "B3" ? 0.92 : 0.88);
     const Points& after = fit.deformed;
     EXPECT_GT(worn.beyond_nodes(fit), 0.5) << name;  // some skin moves
