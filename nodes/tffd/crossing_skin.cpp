@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/crossing_triangles.hpp"
+#include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::tffd {
 namespace {
@@ -19,12 +20,29 @@ std::vector<int> triangles_in(const Pairs& pairs) {
   return triangles;
 }
 
+// Triangles that cross where skin faces skin: of one rounded skin, needles cross their neighbours, too.
+Pairs facing_pairs(const std::vector<Vector3d>& places, const std::vector<Eigen::Vector3i>& triangles,
+                   const std::vector<char>& looked_at) {
+  Pairs pairs = geometry::crossing_pairs(places, triangles, looked_at);
+  if (pairs.empty()) return pairs;
+  const std::vector<Vector3d> normals = geometry::vertex_normals(places, triangles);
+  const auto outward = [&](int triangle) -> Vector3d {
+    const Eigen::Vector3i& t = triangles[triangle];
+    return normals[t[0]] + normals[t[1]] + normals[t[2]];
+  };
+  const auto one_skin = [&](const std::pair<int, int>& pair) {
+    return outward(pair.first).dot(outward(pair.second)) >= 0;
+  };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), one_skin), pairs.end());
+  return pairs;
+}
+
 }  // namespace
 
 std::vector<geometry::FitWarning> check_crossings(const WornSkin& skin, const std::vector<WornLine>& lines) {
   std::vector<char> looked_at(skin.rest.size());
   for (std::size_t v = 0; v < looked_at.size(); ++v) looked_at[v] = skin.rest[v] != skin.worn[v];
-  const Pairs pairs = geometry::crossing_pairs(skin.worn, skin.triangles, looked_at);
+  const Pairs pairs = facing_pairs(skin.worn, skin.triangles, looked_at);
   if (pairs.empty()) return {};
   const std::vector<int> crossing = triangles_in(pairs);
   std::fill(looked_at.begin(), looked_at.end(), 0);
@@ -35,7 +53,7 @@ std::vector<geometry::FitWarning> check_crossings(const WornSkin& skin, const st
     return Corners{places[t[0]], places[t[1]], places[t[2]]};
   };
   Pairs deep_at_rest;
-  for (const auto& [a, b] : geometry::crossing_pairs(skin.rest, skin.triangles, looked_at))
+  for (const auto& [a, b] : facing_pairs(skin.rest, skin.triangles, looked_at))
     if (geometry::crossing_depth(corners(skin.rest, a), corners(skin.rest, b)) >= kLeastDepth)
       deep_at_rest.emplace_back(a, b);
   const std::vector<int> sunken = triangles_in(deep_at_rest);

@@ -91,6 +91,25 @@ TEST(CrossingSkin, IsNotNamedWhereItIsShallowOrWasThereOrStays) {
   EXPECT_EQ(check_crossings({both.vertices, ridged(both, kHeight), both.triangles}, {}).size(), 2u);
 }
 
+TEST(CrossingSkin, TrianglesOfOneRoundedSkinThatSlideOverEachOtherAreNotNamed) {
+  Sheets skin = sheets();
+  const std::size_t count = skin.vertices.size() / 2;  // the lower sheet alone, on a cylinder
+  skin.vertices.resize(count);
+  skin.triangles.resize(skin.triangles.size() / 2);
+  constexpr double kRadius = 0.040;
+  const auto bent = [](const Vector3d& p) {
+    return Vector3d(kRadius * std::sin(p.x() / kRadius), p.y(), kRadius * std::cos(p.x() / kRadius));
+  };
+  const auto on_cylinder = [&](std::vector<Vector3d> flat) {
+    for (Vector3d& p : flat) p = bent(p - Vector3d(kSide * kSquares / 2, 0, 0));
+    return flat;
+  };
+  std::vector<Vector3d> slid = skin.vertices;
+  slid[count / 2].x() += 2.3 * kSide;  // over the next one but one
+  slid[count / 2].y() += 0.3 * kSide;
+  EXPECT_TRUE(check_crossings({on_cylinder(skin.vertices), on_cylinder(slid), skin.triangles}, {}).empty());
+}
+
 TEST(CrossingSkin, StandsAmongAGarmentsWarnings) {
   const Sheets both = sheets();
   const std::vector<Vector3d> worn = ridged(both, kHeight);
