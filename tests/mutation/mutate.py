@@ -3,6 +3,7 @@
 
     tests/mutation/mutate.py CLONE --count 300 --results tests/mutation/results.jsonl
     tests/mutation/mutate.py CLONE --again --results tests/mutation/results.jsonl    # survivors, against the tests of today
+    tests/mutation/mutate.py CLONE --doubted --results tests/mutation/results.jsonl  # kills that may be another mutant's
     tests/mutation/mutate.py --report tests/mutation/results.jsonl
 
 CLONE is a clean clone of its own, built in CLONE/build; its sources are changed and put back. Each mutant is one line
@@ -178,19 +179,26 @@ def place_today(clone, mutant):
     return dict(mutant, line=min(same, key=lambda number: abs(number - mutant['line']))) if same else None
 
 
-def try_again(clone, results):
+def is_doubted(mutant):
+    """Killed while another room's library may still have been a mutant's: by the first campaign, whose results name no commit."""
+    return mutant['verdict'].startswith('killed') and 'commit' not in mutant
+
+
+def try_again(clone, results, wanted):
     mutants = [json.loads(line) for line in results.read_text().splitlines()]
     commit = subprocess.check_output(['git', '-C', clone, 'rev-parse', '--short', 'HEAD'], text=True).strip()
     for room in ROOMS:
-        survivors = [m for m in mutants if m['room'] == room and m['verdict'] == 'survived' and m.get('tried_again') != commit]
-        tests = baseline(clone, room) if survivors else []
-        for mutant in survivors:
+        chosen = [m for m in mutants if m['room'] == room and wanted(m) and m.get('tried_again') != commit]
+        tests = baseline(clone, room) if chosen else []
+        for mutant in chosen:
             today = place_today(clone, mutant)
             mutant['tried_again'] = commit
             if today:
                 verdict = verdict_on(clone, today, tests)
-                if verdict.startswith('killed'):
-                    mutant.update(verdict=verdict, at_first='survived')
+                if mutant['verdict'] == 'survived' and verdict.startswith('killed'):
+                    mutant['at_first'] = 'survived'
+                if verdict != 'does not compile':
+                    mutant['verdict'] = verdict
             else:
                 mutant['note'] = 'its line is gone'
             results.write_text(''.join(json.dumps(m) + '\n' for m in mutants))
@@ -221,13 +229,19 @@ def main():
     parser.add_argument('--count', type=int, default=300)
     parser.add_argument('--seed', type=int, default=1)
     parser.add_argument('--again', action='store_true', help='only try survivors again')
+    parser.add_argument('--doubted', action='store_true', help='only try those again that may have been killed by another mutant')
     parser.add_argument('--report', type=pathlib.Path, help='results to be summed up')
     asked = parser.parse_args()
     if asked.report:
         report(asked.report)
     elif asked.clone and asked.results:
         clone, results = asked.clone.resolve(), asked.results.resolve()
-        try_again(clone, results) if asked.again else campaign(clone, results, asked.count, asked.seed)
+        if asked.again:
+            try_again(clone, results, lambda mutant: mutant['verdict'] == 'survived')
+        elif asked.doubted:
+            try_again(clone, results, is_doubted)
+        else:
+            campaign(clone, results, asked.count, asked.seed)
     else:
         parser.error('either CLONE and --results, or --report')
 
