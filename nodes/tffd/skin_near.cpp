@@ -21,7 +21,7 @@ constexpr double kMarch = 0.0025;    // m, a step over the skin across the band
 constexpr int kCoarsest = 4;         // shortest ways: so many times the spacing at first, then half of it
 constexpr double kStill = 1e-6;      // m: a way none of whose points moves farther has settled
 constexpr int kMostSweeps = 200;     // of few points, which settle in 20 to 150
-constexpr int kFineSweeps = 20;      // of more
+constexpr int kFineSweeps = 20;      // of more, which begin on the way of the fewer (a cap: see shortest)
 
 // One flag per vertex.
 std::vector<char> are_near(const std::vector<Vector3d>& vertices, const std::vector<Vector3d>& line) {

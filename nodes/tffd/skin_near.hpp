@@ -39,8 +39,8 @@ class SkinNear {
   geometry::SurfaceTree tree_;
 };
 
-constexpr double kFarFromSkin = 0.030;  ///< m
-constexpr double kLineSpacing = 0.003;  ///< m, between points along a fibre while it is laid
+inline constexpr double kFarFromSkin = 0.030;  ///< m
+inline constexpr double kLineSpacing = 0.003;  ///< m, between points along a fibre while it is laid
 
 /// Points along a polyline, as far apart or less. \throw Refusal bad_garment: it is shorter than kLineSpacing
 std::vector<Eigen::Vector3d> evenly(const std::vector<Eigen::Vector3d>& line, double spacing = kLineSpacing);

@@ -30,11 +30,7 @@ std::vector<std::vector<int>> places_of(const std::vector<int>& picked,
   return found;
 }
 
-geometry::FitWarning warning_at(const char* code, const std::vector<int>& triangles, double value,
-                                const WornSkin& skin, const std::vector<WornLine>& lines) {
-  geometry::FitWarning warning;
-  warning.code = code;
-  warning.value = value;
+void take_place(const std::vector<int>& triangles, const WornSkin& skin, geometry::FitWarning& warning) {
   std::vector<double> areas;
   for (const int i : triangles) {
     const Eigen::Vector3i& t = skin.triangles[i];
@@ -52,6 +48,14 @@ geometry::FitWarning warning_at(const char* code, const std::vector<int>& triang
   std::sort(warning.vertices.begin(), warning.vertices.end());
   warning.vertices.erase(std::unique(warning.vertices.begin(), warning.vertices.end()),
                          warning.vertices.end());
+}
+
+geometry::FitWarning warning_at(const char* code, const std::vector<int>& triangles, double value,
+                                const WornSkin& skin, const std::vector<WornLine>& lines) {
+  geometry::FitWarning warning;
+  warning.code = code;
+  warning.value = value;
+  take_place(triangles, skin, warning);
   double nearest = kNearLine;
   for (const WornLine& line : lines)
     if (const double distance = geometry::distance_to_line(warning.worn, line.worn); distance < nearest) {

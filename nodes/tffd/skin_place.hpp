@@ -35,6 +35,9 @@ std::vector<std::vector<int>> places_of(const std::vector<int>& picked,
                                         const std::vector<Eigen::Vector3i>& triangles,
                                         const std::vector<std::pair<int, int>>& joined = {});
 
+/// Gives a new warning its place: area, middle before and after, vertices of these triangles.
+void take_place(const std::vector<int>& triangles, const WornSkin& skin, geometry::FitWarning& warning);
+
 /// A warning of these triangles: area, middle before and after, vertices, nearest line.
 geometry::FitWarning warning_at(const char* code, const std::vector<int>& triangles, double value,
                                 const WornSkin& skin, const std::vector<WornLine>& lines);

@@ -90,28 +90,16 @@ void take_skin(const Lie& lie, const WornSkin& skin, FitWarning& warning) {
   std::vector<Vector3d> feet;
   for (std::size_t i = 0; i < lie.feet.size(); ++i)
     if (!parts || lie.off(i)) feet.push_back(lie.feet[i]);
+  std::vector<int> triangles;
   for (const int i : lie.triangles) {
     const Eigen::Vector3i& t = skin.triangles[i];
     const Vector3d middle = (skin.worn[t[0]] + skin.worn[t[1]] + skin.worn[t[2]]) / 3;
-    if (std::none_of(feet.begin(), feet.end(), [&](const Vector3d& foot) {
+    if (std::any_of(feet.begin(), feet.end(), [&](const Vector3d& foot) {
           return (foot - middle).squaredNorm() < kHeldSkin * kHeldSkin;
         }))
-      continue;
-    const double area = geometry::area_vector(skin.rest[t[0]], skin.rest[t[1]], skin.rest[t[2]]).norm() / 2;
-    warning.area += area;
-    for (const int v : t) {
-      warning.at_rest += area / 3 * skin.rest[v];
-      warning.worn += area / 3 * skin.worn[v];
-      warning.vertices.push_back(v);
-    }
+      triangles.push_back(i);
   }
-  std::sort(warning.vertices.begin(), warning.vertices.end());
-  warning.vertices.erase(std::unique(warning.vertices.begin(), warning.vertices.end()),
-                         warning.vertices.end());
-  if (warning.area > 0) {
-    warning.at_rest /= warning.area;
-    warning.worn /= warning.area;
-  }
+  take_place(triangles, skin, warning);
 }
 
 }  // namespace

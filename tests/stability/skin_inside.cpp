@@ -1,13 +1,13 @@
 #include "skin_inside.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "geometry/crossing_triangles.hpp"
 #include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/surface_tree.hpp"
+#include "winding_number.hpp"
 
 namespace tensegric_fit::stability {
 namespace {
@@ -23,14 +23,7 @@ geometry::Corners corners(const TriangleMesh& mesh, int triangle) {
 }
 
 bool is_inside(const TriangleMesh& mesh, const Vector3d& point) {
-  double sum = 0;
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    const Vector3d a = mesh.vertices[t[0]] - point, b = mesh.vertices[t[1]] - point,
-                   c = mesh.vertices[t[2]] - point;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return sum > M_PI;  // half of the whole solid angle, 4 pi, as each term is half of a triangle's
+  return test::winding_number(mesh, point) > 0.5;
 }
 
 }  // namespace

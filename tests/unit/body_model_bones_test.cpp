@@ -10,6 +10,7 @@
 #include "body_model/registration.hpp"
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
+#include "winding_number.hpp"
 
 namespace tensegric_fit::body_model {
 namespace {
@@ -35,19 +36,6 @@ Parameters random_woman(std::mt19937& random) {
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (int i = 0; i < 3; ++i) parameters.turns[g][i] = 0.5 * groups[g].spread[i] * normal(random);
   return parameters;
-}
-
-/// Solid angle of a closed mesh seen from a point over that of a sphere: 1 inside, 0 outside (van Oosterom,
-/// Strackee 1983).
-double winding(const geometry::TriangleMesh& mesh, const Vector3d& point) {
-  double sum = 0;
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    const Vector3d a = mesh.vertices[t[0]] - point, b = mesh.vertices[t[1]] - point,
-                   c = mesh.vertices[t[2]] - point;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return sum / (2 * M_PI);
 }
 
 double depth_at(const RegisteredBody& body, const Vector3d& skin) {
@@ -101,7 +89,8 @@ TEST(Bones, LieUnderTheSkinOfEveryWomanInEveryPose) {
         EXPECT_GE((tree.nearest(p).position - p).norm(), kThinnestTissue - 1e-9)
             << "woman " << woman << ", " << bone.name << ", point " << i;
         if (i % 8 != 0) continue;
-        EXPECT_GT(winding(skin, p), 0.5) << "woman " << woman << ", " << bone.name << ", point " << i;
+        EXPECT_GT(test::winding_number(skin, p), 0.5)
+            << "woman " << woman << ", " << bone.name << ", point " << i;
       }
     }
     const Tissue tissue(bones);
