@@ -15,6 +15,7 @@
 #include <mutex>
 #include <regex>
 #include <set>
+#include <utility>
 
 #include "depth_cameras/camera_message.hpp"
 #include "depth_cameras/camera_poses.hpp"
@@ -90,11 +91,11 @@ class Camera {
                                        [this](const CameraInfo::ConstPtr& info) {
                                          both_.add<1>(ros::MessageEvent<CameraInfo const>(info));
                                        });
-    const std::string self = ros::this_node::getName(), here = node.resolveName("cameras/" + name);
-    load(loader, self + "_points_" + name, "depth_image_proc/point_cloud_xyz",
+    const std::string here = node.resolveName("cameras/" + name);
+    load(loader, ros::this_node::getName() + "_points_" + name, "depth_image_proc/point_cloud_xyz",
          {{node.resolveName("image_rect"), here + "/taken/image"},
           {node.resolveName("points"), here + "/points"}});
-    both_.registerCallback(boost::bind(pair, boost::placeholders::_1, boost::placeholders::_2));
+    both_.registerCallback(boost::bind(std::move(pair), boost::placeholders::_1, boost::placeholders::_2));
   }
 
   /// Both with `frame`, unless it is empty.
@@ -143,7 +144,7 @@ class Camera {
 
 class DepthCameras {
  public:
-  DepthCameras(ros::NodeHandle node, ros::NodeHandle private_node)
+  DepthCameras(const ros::NodeHandle& node, ros::NodeHandle private_node)
       : setup_(setup_from(Parameters(private_node))), loader_(false), stage_("depth_cameras", node) {
     publish_poses();
     for (std::size_t i = 0; i < setup_.cameras.size(); ++i)

@@ -21,13 +21,12 @@ bool is_for_this_machine_only() {
 
 }  // namespace
 
-extern "C" int bind(int socket, const sockaddr* address, socklen_t length) noexcept {
+extern "C" int bind(int fd, const sockaddr* addr, socklen_t len) noexcept {
   sockaddr_in any{};
-  if (is_for_this_machine_only() && address != nullptr && address->sa_family == AF_INET &&
-      length == sizeof any) {
-    std::memcpy(&any, address, sizeof any);
+  if (is_for_this_machine_only() && addr != nullptr && addr->sa_family == AF_INET && len == sizeof any) {
+    std::memcpy(&any, addr, sizeof any);
     if (any.sin_addr.s_addr == htonl(INADDR_ANY)) any.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    return static_cast<int>(syscall(SYS_bind, socket, &any, length));
+    return static_cast<int>(syscall(SYS_bind, fd, &any, len));
   }
-  return static_cast<int>(syscall(SYS_bind, socket, address, length));
+  return static_cast<int>(syscall(SYS_bind, fd, addr, len));
 }

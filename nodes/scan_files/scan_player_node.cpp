@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "files/checked_message.hpp"
 #include "ros/parameters.hpp"
@@ -95,7 +96,7 @@ std::vector<FileScan> scans_in(const std::string& path, const std::regex& custom
 
 class ScanPlayer {
  public:
-  ScanPlayer(ros::NodeHandle node, const ros::NodeHandle& private_node)
+  ScanPlayer(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
       : setup_(setup_from(Parameters(private_node))),
         node_(node),
         private_node_(private_node),
@@ -175,7 +176,7 @@ class ScanPlayer {
     if (at_ < scans_.size())
       publish(scans_[at_++]);
     else if (!files_.empty())
-      read(files_.front());
+      read_next();
   }
 
   void look() {
@@ -196,7 +197,8 @@ class ScanPlayer {
 
   void remember() { private_node_.setParam("played_files", folder_->played()); }
 
-  void read(const std::string path) {
+  void read_next() {
+    const std::string path = std::move(files_.front());
     files_.pop_front();
     busy_ = true;
     playing_ = path;
