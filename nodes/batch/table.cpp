@@ -62,9 +62,8 @@ struct Folder {
 };
 
 Folder read_folder(const std::string& path) {
-  Folder folder;
   std::ifstream stream(fs::path(path) / "batch.json");
-  folder.description = Json::parse(stream, nullptr, false);
+  Folder folder{Json::parse(stream, nullptr, false), {}};
   if (!folder.description.is_object() || !folder.description.contains("rows"))
     throw Refusal(kBroken, path + " has no batch.json: it is not a folder of fit_batch");
   std::vector<std::string> files;

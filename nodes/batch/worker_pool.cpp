@@ -83,30 +83,28 @@ std::vector<Finished> WorkerPool::wait(std::chrono::milliseconds patience) {
   poll(channels.data(), channels.size(), static_cast<int>(patience.count()));
   std::vector<Finished> all;
   for (std::size_t i = 0; i < busy.size(); ++i) {
-    Finished finished;
-    if (channels[i].revents != 0 && receive(*busy[i], finished))
-      all.push_back(std::move(finished));
+    std::optional<Finished> finished;
+    if (channels[i].revents != 0) finished = receive(*busy[i]);
+    if (finished)
+      all.push_back(std::move(*finished));
     else if (busy[i]->busy && seconds_since(busy[i]->started) >= limits_.seconds)
       all.push_back(lost(*busy[i], "timed_out", fmt::format("took more than {:g} s", limits_.seconds)));
   }
   return all;
 }
 
-/// True where a job is finished by it.
-bool WorkerPool::receive(Worker& worker, Finished& finished) const {
+/// None where no job is finished by it.
+std::optional<Finished> WorkerPool::receive(Worker& worker) const {
   std::array<char, kBlock> block;
   const ssize_t n = recv(worker.process.channel, block.data(), block.size(), MSG_DONTWAIT);
-  if (n < 0 && (errno == EAGAIN || errno == EINTR)) return false;
-  if (n <= 0) {
-    finished = lost(worker, "crashed", "");
-    return true;
-  }
+  if (n < 0 && (errno == EAGAIN || errno == EINTR)) return std::nullopt;
+  if (n <= 0) return lost(worker, "crashed", "");
   worker.received.append(block.data(), static_cast<std::size_t>(n));
-  if (worker.received.back() != '\n') return false;
-  finished = {worker.job, Json::parse(worker.received)};
+  if (worker.received.back() != '\n') return std::nullopt;
+  Finished finished{worker.job, Json::parse(worker.received)};
   worker.received.clear();
   worker.busy = false;
-  return true;
+  return finished;
 }
 
 /// Without a message: how the worker ended.

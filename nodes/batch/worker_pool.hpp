@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,7 @@ class WorkerPool {
 
   void start(Worker& worker) const;
   static int stop(Worker& worker);
-  bool receive(Worker& worker, Finished& finished) const;
+  std::optional<Finished> receive(Worker& worker) const;
   Finished lost(Worker& worker, const char* status, const std::string& message) const;
 
   WorkerLimits limits_;

@@ -1,4 +1,6 @@
 /// correlate: a fit and a worn scan -> result files.
+#include <iostream>
+
 #include "files/owner_only.hpp"
 #include "fit/correlate_line.hpp"
 #include "fit/correlation_report.hpp"
@@ -130,7 +132,12 @@ int run(const CorrelateLine& line) {
 
 int main(int argc, char** argv) {
   tensegric_fit::files::owner_only();
-  tensegric_fit::fit::CorrelateLine line;
-  if (const auto exit_code = tensegric_fit::fit::parse(argc, argv, line)) return *exit_code;
-  return tensegric_fit::fit::run(line);
+  try {
+    tensegric_fit::fit::CorrelateLine line;
+    if (const auto exit_code = tensegric_fit::fit::parse(argc, argv, line)) return *exit_code;
+    return tensegric_fit::fit::run(line);
+  } catch (const std::exception& error) {
+    std::cerr << "correlate: " << error.what() << '\n';
+    return 1;
+  }
 }

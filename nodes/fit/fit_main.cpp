@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 
 #include "files/owner_only.hpp"
 #include "fit/command_line.hpp"
@@ -111,7 +112,12 @@ int run(const CommandLine& line) {
 
 int main(int argc, char** argv) {
   tensegric_fit::files::owner_only();
-  tensegric_fit::fit::CommandLine line;
-  if (const auto exit_code = tensegric_fit::fit::parse(argc, argv, line)) return *exit_code;
-  return tensegric_fit::fit::run(line);
+  try {
+    tensegric_fit::fit::CommandLine line;
+    if (const auto exit_code = tensegric_fit::fit::parse(argc, argv, line)) return *exit_code;
+    return tensegric_fit::fit::run(line);
+  } catch (const std::exception& error) {
+    std::cerr << "fit: " << error.what() << '\n';
+    return 1;
+  }
 }

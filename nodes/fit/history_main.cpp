@@ -10,8 +10,8 @@ namespace {
 
 using namespace tensegric_fit;
 
-int run(const std::vector<std::string>& folders, const std::string& customer,
-        const std::vector<std::size_t>& pair, const std::string& out) {
+int compare(const std::vector<std::string>& folders, const std::string& customer,
+            const std::vector<std::size_t>& pair, const std::string& out) {
   const std::vector<fit::Visit> visits = fit::find_visits(folders, customer);
   if (customer.empty()) {
     std::cout << fit::customers_text(visits);
@@ -37,9 +37,7 @@ int run(const std::vector<std::string>& folders, const std::string& customer,
   return 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   std::vector<std::string> folders;
   std::string customer, out;
   std::vector<std::size_t> pair;
@@ -56,8 +54,14 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  return compare(folders, customer, pair, out);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    return run(folders, customer, pair, out);
+    return run(argc, argv);
   } catch (const geometry::Refusal& refusal) {
     std::cerr << "history: " << refusal.code() << ": " << refusal.what() << '\n';
     return 3;

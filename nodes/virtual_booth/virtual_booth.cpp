@@ -191,15 +191,16 @@ void parse(int argc, char** argv, CLI::App& app, Request& request) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Scans a virtual body with virtual depth sensors. Metres, radians.");
-  Request request;
   try {
-    parse(argc, argv, app, request);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUsage;
-  }
-  try {
+    CLI::App app("Scans a virtual body with virtual depth sensors. Metres, radians.");
+    Request request;
+    try {
+      parse(argc, argv, app, request);
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error) == 0 ? 0 : kUsage;
+    }
     run(request);
+    return 0;
   } catch (const geometry::Refusal& refusal) {
     std::cerr << "virtual_booth: " << refusal.code() << ": " << refusal.what() << '\n';
     return kRefused;
@@ -207,5 +208,4 @@ int main(int argc, char** argv) {
     std::cerr << "virtual_booth: " << error.what() << '\n';
     return 1;
   }
-  return 0;
 }
