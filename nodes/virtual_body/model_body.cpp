@@ -85,8 +85,8 @@ void check_parameters(const ModelBodyParameters& p) {
   check("tilt", p.tilt, {-0.26, 0.26});
 }
 
-StandingModel stand(const Model& model, const ModelBodyParameters& wanted) {
-  StandingModel standing{posed(model, wanted), {}};
+StandingModel stand(const Model& model, const ModelBodyParameters& parameters) {
+  StandingModel standing{posed(model, parameters), {}};
   const body_model::PosedModel raised(model, standing.parameters);
   const Vector3d feet =
       (raised.joint(bone_named(model, "foot.L")) + raised.joint(bone_named(model, "foot.R"))) / 2;
