@@ -118,7 +118,8 @@ std::vector<StraightPush> straight_pushes(const std::vector<UnitVolume>& units, 
     const double share = volume_share(units[i], x),
                  push = pushes.size() > 0 ? pushes[static_cast<Eigen::Index>(i)] : 0;
     if (push <= 0 && share >= kBegins) continue;
-    const double touched = push > 0 ? share_of_push(units[i], push) : share;
+    const bool ends = push < 0 && push > barrier(units[i], share).slope;
+    const double touched = ends ? kBegins : push > 0 ? share_of_push(units[i], push) : share;
     const Barrier f = barrier(units[i], touched);
     lines.push_back(
         {static_cast<int>(i), share, -f.slope, -f.slope - f.curvature * (share - touched), -f.curvature});

@@ -39,7 +39,7 @@ void add_fold_gradient(const std::vector<UnitVolume>& units, const Positions& x,
 struct StraightPush {
   int unit;
   double share;  ///< of volume, at `x`
-  double push;   ///< where the line touches the barrier's curve
+  double push;   ///< where the line touches the barrier's curve; 0: of a unit that will not push
   double at_x;   ///< on the line
   double slope;  ///< of the line, negative
 };
@@ -49,7 +49,9 @@ struct StraightPush {
 /// (s0 - s), and Newton's method on a square only halves the distance in each step: with a unit that is
 /// nearly flat at rest, and so pushes with many times what acts on it, this takes ten steps and more. The
 /// push that a step foresees is nearly right, so the next line is laid there (the primal-dual view of a
-/// barrier: J. Nocedal, S. J. Wright, "Numerical Optimization", 2006, ch. 19).
+/// barrier: J. Nocedal, S. J. Wright, "Numerical Optimization", 2006, ch. 19). So is a push below zero, as
+/// long as it is smaller than what the unit pushes at its share: nothing is left of it. A larger one only
+/// shows that the last line was laid too far away.
 std::vector<StraightPush> straight_pushes(const std::vector<UnitVolume>& units, const Positions& x,
                                           const Eigen::VectorXd& pushes = {});
 

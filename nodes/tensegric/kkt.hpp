@@ -29,7 +29,8 @@ struct Balance {
   Eigen::VectorXd pressures;    ///< one per region, times its area: a force
   Eigen::VectorXd tensions;     ///< one per band
   std::vector<Hold> holds;      ///< one per band
-  Eigen::VectorXd pushes = {};  ///< of units about to fold, as the last step foresaw them; empty: not known
+  Eigen::VectorXd pushes = {};  ///< of units about to fold, as the last step foresaw them, below zero where
+                                ///< it would have had them pull; empty: not known
 };
 
 /// What is asked for: changes as the load is followed.

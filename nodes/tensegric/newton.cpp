@@ -144,7 +144,7 @@ bool Newton::advance(Balance& at, const Load& load, KktResidual& defect, const S
     trial.pushes.setZero(static_cast<Eigen::Index>(problem_.units.size()));
     for (std::size_t k = 0; k < step.lines.size(); ++k)
       trial.pushes[step.lines[k].unit] =
-          std::max(0.0, step.lines[k].push + length * step.push_change[static_cast<Eigen::Index>(k)]);
+          step.lines[k].push + length * step.push_change[static_cast<Eigen::Index>(k)];
     KktResidual there = kkt_.defect(trial, load);
     if (length == 1) {
       Eigen::VectorXd broken = there.conditions;

@@ -132,6 +132,15 @@ TEST_F(Folding, LinesTouchTheBarrier) {
     for (const StraightPush& line : straight_pushes(units, x, share * pushes))
       EXPECT_NEAR(line.push / (share * pushes[line.unit]), 1, 1e-6) << share;
   }
+  // Foreseen to pull: by less than it pushes, it will do neither; by more, that says nothing.
+  for (const StraightPush& line : straight_pushes(units, x, -0.9 * pushes)) {
+    EXPECT_EQ(line.push, 0);
+    EXPECT_EQ(line.at_x, 0);
+    EXPECT_EQ(line.slope, 0);
+  }
+  const std::vector<StraightPush> far = straight_pushes(units, x, -1.1 * pushes);
+  ASSERT_EQ(far.size(), own.size());
+  for (std::size_t k = 0; k < own.size(); ++k) EXPECT_EQ(far[k].push, own[k].push);
   Eigen::VectorXd difference = Eigen::VectorXd::Zero(3 * model.free_nodes()), gradient = difference;
   add_straight_difference(units, x, own, free_index, difference);
   EXPECT_EQ(difference.norm(), 0);
