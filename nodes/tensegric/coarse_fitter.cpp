@@ -44,6 +44,7 @@ void CoarseFitter::take(const geometry::ControlMesh& coarse, const geometry::Con
 
 std::optional<CoarseFitter::Answer> CoarseFitter::fit(const Garment& garment, SolverName solver, int rest,
                                                       const std::function<bool()>& go_on) {
+  if (!skin_) return std::nullopt;
   const auto solution =
       fitter_.fit(garment, solver, rest, [&go_on](const auto&, const auto&, const auto&) { return go_on(); });
   if (!solution) return std::nullopt;

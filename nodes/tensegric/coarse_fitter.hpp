@@ -27,7 +27,7 @@ class CoarseFitter {
     std::vector<Eigen::Vector3d> outer, inner;  ///< nodes of the fine mesh, carried by the coarse one
     int triangles;                              ///< of the coarse mesh
   };
-  /// Nothing where `go_on` stopped it. \pre take() \throw Refusal as GarmentFitter::fit
+  /// Nothing where `go_on` stopped it, or no meshes are taken. \throw Refusal as GarmentFitter::fit
   std::optional<Answer> fit(const Garment& garment, SolverName solver, int rest,
                             const std::function<bool()>& go_on);
 

@@ -75,7 +75,7 @@ std::vector<UnitPressure> unit_pressures(const Model& model, const std::vector<i
     }
     const Corners corners = corners_of(unit, rest);
     unit.rest = unit_volume(corners);
-    const double area = geometry::area_vector(corners[0], corners[1], corners[2]).norm();
+    const double area = geometry::area_vector(corners[0], corners[1], corners[2]).norm() / 2;
     const double depth = ((corners[0] - corners[3]).norm() + (corners[1] - corners[4]).norm() +
                           (corners[2] - corners[5]).norm()) /
                          3;

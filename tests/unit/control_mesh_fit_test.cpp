@@ -221,6 +221,16 @@ TEST(FitTemplate, FoldsThatAreNotLevelTurnNoTriangle) {
   }
 }
 
+// Of finer triangles the middles of edges would lie across the fold; they slide along it first.
+TEST(FitTemplate, FinerTrianglesOverAFoldAreWellShaped) {
+  for (const double tilt : {-0.3, 0.0, 0.2}) {
+    const Trunk trunk = make_trunk({0.06, tilt});
+    const auto fine = fit(trunk, 480);
+    EXPECT_EQ(turned_triangles(fine, trunk.mesh), 0) << tilt;
+    EXPECT_GT(smallest_angle(fine), 8) << tilt;
+  }
+}
+
 /// How far out of the bare trunk, as a share of it.
 double out_of_trunk(const Vector3d& p) {
   return std::hypot(p.x() / 0.11, p.y() / 0.15) - 1;

@@ -70,6 +70,30 @@ TEST_F(MatchSkin, ItHoldsAsMuchAsTheSkinAndKeepsWhatMayNotMove) {
   }
 }
 
+// A mesh over level ground, some nodes of which lie farther off than they may move: the others make up for
+// it, where the mesh holds too much as where it holds too little.
+TEST_F(MatchSkin, WhatIsTooMuchIsEvenedOutAsWhatIsTooLittle) {
+  geometry::TriangleMesh ground = fine;
+  for (Vector3d& p : ground.vertices) p.z() = 0;
+  const Skin level(ground);
+  std::vector<Vector3d> ends[2];
+  for (const double side : {1.0, -1.0}) {
+    geometry::ControlMesh off = control;
+    for (std::size_t v = 0; v < within.size(); ++v)
+      off.outer[v].z() = within[v] && off.outer[v].x() < -0.02 ? side * 0.005 : 0;
+    const double before = volume_under(off.outer, off.triangles);
+    const std::vector<Vector3d> start = off.outer;
+    match_skin(off, within, level);
+    EXPECT_LT(std::abs(volume_under(off.outer, off.triangles)), 0.001 * std::abs(before)) << side;
+    std::size_t held = 0;
+    for (std::size_t v = 0; v < within.size(); ++v) held += (off.outer[v] - start[v]).norm() > 0.00299;
+    EXPECT_GT(held, 4u);
+    ends[side < 0] = off.outer;
+  }
+  for (std::size_t v = 0; v < within.size(); ++v)
+    EXPECT_LT((ends[0][v] - ends[1][v].cwiseProduct(Vector3d(1, 1, -1))).norm(), 1e-12) << v;
+}
+
 TEST_F(MatchSkin, TheOrderOfTheNodesDoesNotMatter) {
   const std::size_t count = control.outer.size(), turn = count / 2;  // the middle one becomes the first
   geometry::ControlMesh other = control;

@@ -5,6 +5,8 @@
 
 #include "body_model/registration.hpp"
 #include "control_mesh/fit_template.hpp"
+#include "control_mesh/placing.hpp"
+#include "control_mesh_templates.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit {
@@ -48,6 +50,11 @@ struct Posed {
           {std::string("axilla_") + side,
            body.skin_point(std::string("bust_point_") + side) + 0.15 * body.parameters.rotation.col(1), 1, "",
            0});
+  }
+
+  geometry::TriangleMesh in_body_frame(geometry::TriangleMesh moved) const {
+    for (Vector3d& p : moved.vertices) p = measures.body_from_scan * p;
+    return moved;
   }
 
   body_model::RegisteredBody body;
@@ -122,6 +129,102 @@ TEST(NodesOnTheModel, StandInForLandmarksThatAreMissing) {
   posed.measures.landmarks.push_back({"underbust_L", left, 1, "", 0});
   posed.measures.landmarks.push_back({"underbust_R", right, 1, "", 0});
   EXPECT_GT((below() - posed.body.skin_point("underbust_L")).norm(), 0.01) << "the landmark comes first";
+}
+
+// Of skin that is farther off than the nearest: a fold's other side, an edge of a strap.
+TEST(NodesOnTheModel, GoAlongTheModelsNormalNotToTheNearestSkin) {
+  const Posed posed(0);
+  constexpr double kOff = 0.010, kAside = 0.003;  // m
+  geometry::TriangleMesh mesh = posed.mesh;
+  const std::vector<Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
+  for (std::size_t v = 0; v < normals.size(); ++v) mesh.vertices[v] += kOff * normals[v];
+  const int tip = posed.body.model->skin_points.front().vertices.front().first;
+  const Vector3d there = posed.body.skin[tip], outward = normals[tip],
+                 aside = outward.cross(Vector3d::UnitZ()).normalized(), along = outward.cross(aside);
+  const int first = static_cast<int>(mesh.vertices.size());
+  for (const double up : {-0.008, 0.008})
+    for (const double far : {-0.008, 0.008})
+      mesh.vertices.push_back(there + kAside * aside + far * outward + up * along);
+  mesh.triangles.emplace_back(first, first + 1, first + 2);
+  mesh.triangles.emplace_back(first + 1, first + 3, first + 2);
+  const Eigen::Isometry3d& frame = posed.measures.body_from_scan;
+  const control_mesh::Skin skin(posed.in_body_frame(mesh));
+  ASSERT_LT((skin.nearest(frame * there) - frame * there).norm(), kAside + 1e-9);
+  const control_mesh::ModelSurface surface(posed.body, frame);
+  const auto pattern = small_template(std::to_string(tip));
+  const auto nodes =
+      control_mesh::place_nodes(pattern, posed.measures, skin, control_mesh::Layout::as_drawn, &surface);
+  const Vector3d node = nodes[control_mesh::node_at(pattern, 0, 0, control_mesh::Side::left)];
+  EXPECT_LT((node - frame * (there + kOff * outward)).norm(), 0.001);
+}
+
+TEST(NodesOnTheModel, WhereTheFramesOriginLiesDoesNotMatter) {
+  Posed posed(0.4);
+  control_mesh::Options coarse;
+  coarse.control_triangles = 4;
+  const auto pattern = small_template("bust_point_L");
+  const auto fit = [&] {
+    return control_mesh::fit_template(pattern, posed.mesh, posed.measures, coarse, &posed.body);
+  };
+  const auto here = fit();
+  for (const Vector3d& off : {Vector3d(1, 0, 0), Vector3d(-2, 3, 0)}) {
+    Posed other = posed;
+    posed.measures.body_from_scan.pretranslate(off);
+    const auto there = fit();
+    posed = other;
+    EXPECT_EQ(there.triangles, here.triangles);  // they face the same way, too
+    for (std::size_t v = 0; v < here.outer.size(); ++v)
+      EXPECT_LT((there.outer[v] - here.outer[v]).norm(), 1e-9);  // rounding
+  }
+}
+
+// Arms are left out where they hang beside the trunk; what is above the armpits is the shoulder's skin.
+TEST(NodesOnTheModel, ArmsAreThereAboveTheArmpitsOnly) {
+  const Posed posed(0);
+  const body_model::Model& model = *posed.body.model;
+  const double armpits = posed.measures.landmark("axilla_L").z();
+  int above = -1, below = -1;  // vertices of the arm, the highest, and the highest below the armpits
+  for (int v = 0; v < static_cast<int>(model.part.size()); ++v) {
+    if (model.parts[model.part[v]].rfind("upper_arm", 0) != 0 || posed.body.skin[v].x() < 0) continue;
+    const double z = posed.body.skin[v].z();
+    if (above < 0 || z > posed.body.skin[above].z()) above = v;
+    if (z < armpits - 0.03 && (below < 0 || z > posed.body.skin[below].z())) below = v;
+  }
+  ASSERT_GE(below, 0);
+  ASSERT_GT(posed.body.skin[above].z(), armpits + 0.03);
+  control_mesh::Options coarse;
+  coarse.control_triangles = 4;
+  const auto off_skin = [&](int vertex) {
+    const auto control = control_mesh::fit_template(small_template(std::to_string(vertex)), posed.mesh,
+                                                    posed.measures, coarse, &posed.body);
+    return (control.outer[control.node("tip_L")] - posed.body.skin[vertex]).norm();
+  };
+  EXPECT_LT(off_skin(above), 0.001);
+  EXPECT_GT(off_skin(below), 0.010);
+}
+
+// A level that is on a breast by the landmarks, whose own fold is lower: the node goes on down to the chest.
+TEST(NodesOnTheModel, BelowAFoldTheyAreOffTheBreast) {
+  Posed posed(0);
+  for (const char side : {'L', 'R'})
+    for (const auto& [name, higher] :
+         {std::pair<std::string, double>("bust_point_", 0.02), {"underbust_", 0.06}})
+      posed.measures.landmarks.push_back(
+          {name + side, posed.body.skin_point(name + side) + Vector3d(0, 0, higher), 1, "", 0});
+  posed.measures.landmarks.push_back({"neck_front", posed.body.skin_point("neck_front"), 1, "", 0});
+  const auto pattern = control_mesh::load_template(kBust);
+  const control_mesh::Skin skin(posed.in_body_frame(posed.mesh));
+  const control_mesh::ModelSurface surface(posed.body, posed.measures.body_from_scan);
+  const auto node = [&](control_mesh::Layout layout) {
+    return control_mesh::place_nodes(
+        pattern, posed.measures, skin, layout,
+        &surface)[control_mesh::node_at(pattern, 5, 4, control_mesh::Side::left)];
+  };
+  const auto on_breast = [&](const Vector3d& p) { return surface.on_breast(p, skin.normal_near(p)); };
+  const Vector3d drawn = node(control_mesh::Layout::as_drawn), over = node(control_mesh::Layout::over_folds);
+  ASSERT_TRUE(on_breast(drawn));
+  EXPECT_FALSE(on_breast(over));
+  EXPECT_LT(over.z(), drawn.z());
 }
 
 TEST(NodesOnTheModel, NeedAModelThatHasThem) {

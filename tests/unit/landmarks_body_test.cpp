@@ -300,28 +300,6 @@ TEST(LandmarksOfBodies, WhatNoPointBacksIsLessSure) {
             0.02);  // the model knows about where
 }
 
-TEST(LandmarksOfBodies, TheLevelOfTheFoldsIsSeenWhereBothFoldsAre) {
-  const TriangleMesh& mesh = woman(3).body.mesh;
-  const auto model = body_model::register_mesh(body_model::shipped_registrar(), mesh);
-  const Vector3d left = woman(3).measures.landmark("underbust_L"),
-                 right = woman(3).measures.landmark("underbust_R");
-  for (const auto& [left_seen, right_seen] :
-       {std::pair(true, true), {true, false}, {false, true}, {false, false}}) {
-    std::vector<char> filled;
-    for (const Vector3d& v : mesh.vertices)
-      filled.push_back((!left_seen && (v - left).norm() < 0.08) ||
-                       (!right_seen && (v - right).norm() < 0.08));
-    const landmarks::Reading reading =
-        landmarks::read_figures(mesh, filled, model, landmarks::shipped_precision());
-    const auto level =
-        std::find_if(reading.figures.begin(), reading.figures.end(), [](const landmarks::Figure& figure) {
-          return figure.kind == landmarks::Kind::height && figure.name == "underbust";
-        });
-    ASSERT_NE(level, reading.figures.end());
-    EXPECT_EQ(level->seen, left_seen && right_seen) << left_seen << ' ' << right_seen;
-  }
-}
-
 std::string refusal_of(const TriangleMesh& mesh, const std::vector<char>& filled) {
   static const body_model::RegisteredBody model =
       body_model::register_mesh(body_model::shipped_registrar(), woman(1).body.mesh);

@@ -57,8 +57,11 @@ TEST_F(Folding, BarrierIsNothingAboveItsBeginAndWithoutBoundAtZero) {
   EXPECT_EQ(flattened(0.71), 0);
   double last = 0;
   for (double share : {0.6, 0.4, 0.2, 0.05, 1e-3, 1e-9}) {
-    EXPECT_GT(flattened(share), last);
-    last = flattened(share);
+    const double energy = flattened(share);
+    EXPECT_GT(energy, last);
+    const double s = volume_share(unit, x);  // as it is rounded
+    EXPECT_NEAR(energy, -unit.stiffness * (s - 0.7) * (s - 0.7) * std::log(s / 0.7), 1e-12 * energy);
+    last = energy;
   }
   EXPECT_TRUE(std::isinf(flattened(-0.1)));
 }

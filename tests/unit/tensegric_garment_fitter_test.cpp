@@ -3,7 +3,7 @@
 
 #include "fit/bind_body.hpp"
 #include "geometry/status.hpp"
-#include "tensegric/garment_fitter.hpp"
+#include "tensegric/coarse_fitter.hpp"
 #include "tensegric_bust.hpp"
 #include "tffd/binding.hpp"
 
@@ -45,6 +45,49 @@ TEST_F(GarmentFitterTest, AStoppedFitIsNoneAndTheNextIsAsIfItHadNotBeen) {
   ASSERT_TRUE(after && expected);
   EXPECT_EQ(after->iterations, expected->iterations);
   EXPECT_EQ(after->outer, expected->outer);  // to the bit
+}
+
+// What was worn on one body is no start on another, though both have the same bones.
+TEST_F(GarmentFitterTest, ANewBodyIsFittedAsIfItWereTheFirst) {
+  geometry::ControlMesh other = control_;
+  for (std::size_t v = 0; v < other.outer.size(); ++v)
+    if (!other.outer_fixed[v]) other.outer[v] += 0.1 * (other.outer[v] - other.inner[v]);
+  fitter_.take(control_, nullptr, nullptr);
+  ASSERT_TRUE(fit(fitter_, 0.95));
+  fitter_.take(other, nullptr, nullptr);
+  GarmentFitter fresh{FitterOptions(), fit::bind_body};
+  fresh.take(other, nullptr, nullptr);
+  const auto second = fit(fitter_, 0.94), alone = fit(fresh, 0.94);
+  ASSERT_TRUE(second && alone);
+  EXPECT_EQ(second->iterations, alone->iterations);
+  EXPECT_EQ(second->outer, alone->outer);  // to the bit
+}
+
+// Nothing of the body before is answered for the one that was refused.
+TEST(CoarseFitterTest, AfterARefusedMeshThereIsNoAnswer) {
+  const geometry::ControlMesh coarse = bust_mesh();
+  BustShape shape;
+  shape.columns *= 2;
+  shape.rows *= 2;
+  const geometry::ControlMesh fine = bust_mesh(shape);
+  CoarseFitter fitter(FitterOptions(), fit::bind_body);
+  const auto answer = [&] {
+    return fitter.fit(chest(0.95), SolverName::equilibrium, 0, [] { return true; });
+  };
+  EXPECT_FALSE(answer());
+  fitter.take(coarse, fine, nullptr, nullptr);
+  const auto first = answer();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->outer.size(), fine.outer.size());
+  EXPECT_EQ(first->triangles, 120);
+  geometry::ControlMesh flat = coarse;
+  flat.inner = flat.outer;
+  EXPECT_THROW(fitter.take(flat, fine, nullptr, nullptr), geometry::Refusal);
+  EXPECT_FALSE(answer());
+  fitter.take(coarse, fine, nullptr, nullptr);
+  const auto again = answer();
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->outer, first->outer);  // to the bit
 }
 
 TEST_F(GarmentFitterTest, GarmentsAreCheckedAgainstTheNewestModel) {

@@ -11,6 +11,7 @@
 #include "geometry/status.hpp"
 #include "tensegric/band_length.hpp"
 #include "tensegric/members.hpp"
+#include "tensegric/prestress.hpp"
 #include "tensegric/region_volume.hpp"
 #include "tensegric/tension_law.hpp"
 #include "tensegric_bust.hpp"
@@ -111,6 +112,41 @@ TEST(Model, OneFreeNodeOnADomeHasAPrestress) {
   const Model model = build_model(control, {});
   EXPECT_EQ(model.free_nodes(), 1);
   for (const Member& m : model.members) EXPECT_TRUE(m.strut || tension(m, m.rest) >= 0);
+}
+
+// A piece of fixed nodes alone stands, wherever it comes in the list.
+TEST(Model, ATriangleThatIsFixedStands) {
+  geometry::ControlMesh lone;
+  lone.outer = {{0, 0, 0}, {0.02, 0, 0}, {0, 0.02, 0}};
+  for (const Eigen::Vector3d& p : lone.outer) lone.inner.push_back(p - Eigen::Vector3d(0, 0, 0.01));
+  lone.triangles = {{0, 1, 2}};
+  lone.outer_fixed = lone.inner_fixed = {1, 1, 1};
+  lone.names.resize(3);
+  lone.regions.push_back({"lone", {0}});
+  for (const auto& parts : {std::vector{lone, bust_mesh()}, std::vector{bust_mesh(), lone}})
+    EXPECT_EQ(build_model(geometry::joined(parts), papers_model()).free_nodes(), 90);
+}
+
+// Only the ratios of the ideal densities count: in other units the densities are the same ones.
+TEST(Model, DensitiesBalanceInAnyUnit) {
+  const Model model = build_model(bust_mesh(), {});
+  const Positions rest = model.rest_positions();
+  const std::vector<int> free_index = model.free_index();
+  for (const double unit : {1.0, 0.01, 100.0}) {
+    std::vector<double> ideal;
+    for (const Member& m : model.members) ideal.push_back(m.strut ? unit : 0.6 * unit);
+    const Eigen::VectorXd density = force_densities(model, ideal);
+    std::vector<Eigen::Vector3d> net(model.free_nodes(), Eigen::Vector3d::Zero());
+    double largest = 0;
+    for (std::size_t i = 0; i < model.members.size(); ++i) {
+      const Member& m = model.members[i];
+      const Eigen::Vector3d force = density[i] * (rest[m.b] - rest[m.a]);
+      largest = std::max(largest, force.norm());
+      if (free_index[m.a] >= 0) net[free_index[m.a]] += force;
+      if (free_index[m.b] >= 0) net[free_index[m.b]] -= force;
+    }
+    for (const Eigen::Vector3d& force : net) EXPECT_LE(force.norm(), 1e-12 * largest) << unit;
+  }
 }
 
 TEST(Model, RefusesWhatCannotStand) {

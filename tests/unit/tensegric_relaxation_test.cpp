@@ -2,7 +2,9 @@
 // numbers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "point_lists.hpp"
 #include "tensegric/solver.hpp"
@@ -36,6 +38,23 @@ TEST_F(Relaxation, UndeformedModelStaysStillForAThousandCycles) {
     for (std::size_t i = 0; i < problem.rest.size(); ++i)
       farthest = std::max(farthest, (relaxation.state().x[i] - problem.rest[i]).norm());
     EXPECT_LE(farthest, 1e-9);
+  }
+}
+
+TEST_F(Relaxation, ANodeThreeSizesOfTheModelAwayHasLeftIt) {
+  const SolverOptions options;
+  const Problem problem = lay_garment(model, chest(1), options);
+  double size = 0;
+  for (const Eigen::Vector3d& p : problem.rest) size = std::max(size, (p - problem.rest.front()).norm());
+  const auto node = std::find_if(problem.free_index.begin(), problem.free_index.end(),
+                                 [](int index) { return index >= 0; }) -
+                    problem.free_index.begin();
+  for (const double away : {0.0, 2.9, 3.1, std::numeric_limits<double>::quiet_NaN()}) {
+    StrutRelaxation relaxation(problem, nullptr, false);
+    Eigen::VectorXd state = relaxation.packed();
+    state[3 * node] += away * size;
+    relaxation.unpack(state);
+    EXPECT_EQ(relaxation.sane(), away < 3) << away;
   }
 }
 

@@ -81,6 +81,26 @@ TEST(UnitPressure, DerivativesAreThoseOfItsEnergy) {
   EXPECT_LE((change - product).norm(), 1e-6 * change.norm());
 }
 
+// A unit that leans so far that it is nearly flat resists nothing: where it holds less than a thousandth of
+// an upright one.
+TEST(UnitPressure, NearlyFlatUnitsHaveNone) {
+  for (const double share : {0.8e-3, 0.95e-3, 1.05e-3, 1.2e-3}) {
+    geometry::ControlMesh control = bust_mesh();
+    constexpr double kDepth = 0.02;  // m, of the edges from upper to lower corners
+    for (std::size_t i = 0; i < control.outer.size(); ++i) {
+      control.outer[i] = Vector3d(0.03 * (i % 11), 0.03 * (i / 11), 0);
+      const double height = share * kDepth;
+      control.inner[i] = control.outer[i] - Vector3d(std::sqrt(kDepth * kDepth - height * height), 0, height);
+    }
+    Model model;
+    model.control = control;
+    model.options = stiff_tissue(1);
+    model.times.assign(control.triangles.size(), 1);
+    const std::size_t moving = unit_pressures(model, std::vector<int>(2 * control.outer.size(), 0)).size();
+    EXPECT_EQ(moving, share > 1e-3 ? control.triangles.size() : 0) << share;
+  }
+}
+
 // Root of the mean square relative change of the units' volumes under the chest line at 0.95.
 double volume_change(double volume_stiffness) {
   const Model model = build_model(bust_mesh(), stiff_tissue(volume_stiffness));

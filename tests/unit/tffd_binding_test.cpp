@@ -98,13 +98,13 @@ TEST(Binding, FlatUnitsDoNotCarrySkinFarBeyondTheirNodes) {
   const Binding binding(body, control, {});
   double largest = 0;
   const SparseRows& rows = binding.weights().nodes;
-  for (Eigen::Index row = 0; row < rows.outerSize(); ++row) {
+  for (const Anchor& anchor : binding.anchors()) {
     double sum = 0;
-    for (SparseRows::InnerIterator entry(rows, row); entry; ++entry) sum += std::abs(entry.value());
-    largest = std::max(largest, sum);
+    for (SparseRows::InnerIterator entry(rows, anchor.vertex); entry; ++entry) sum += std::abs(entry.value());
+    largest = std::max(largest, sum / anchor.share);
   }
-  EXPECT_LE(largest, 3 + 1e-9);
-  EXPECT_GT(largest, 2.9) << "none of these units stretches anything";
+  // No more is taken from such units than need be: 30 halvings of a power that is 64 at most.
+  EXPECT_NEAR(largest, 3, 1e-7);
   const Points after = binding.deform(affine_image(control.outer), affine_image(control.inner));
   const Points image = affine_image(body.vertices);
   for (const Anchor& anchor : binding.anchors()) {
@@ -187,6 +187,8 @@ TEST(Binding, IsConstantMatrixOfNodeMotion) {
   const Moved moved = squeezed(control, 0.02);
   const Points after = binding.deform(moved.outer, moved.inner);
   const std::size_t nodes = control.outer.size();
+  ASSERT_EQ(binding.weights().nodes.cols(), 2 * nodes);
+  ASSERT_EQ(binding.weights().values.cols(), nodes);
   Eigen::MatrixXd motion(2 * nodes, 3);
   for (std::size_t i = 0; i < nodes; ++i) {
     motion.row(i) = (moved.outer[i] - control.outer[i]).transpose();
@@ -276,6 +278,10 @@ TEST(PaperSetting, OneTriangleByHand) {
   // A quarter turn about x: z becomes -y for the normal, y becomes z.
   after = binding.deform({{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, control.inner);
   EXPECT_LT((after[0] - Eigen::Vector3d(0.2, -0.1, 0.3)).norm(), 1e-15);
+  // Values come from the place below a vertex; what the triangle does not reach has none.
+  Eigen::Matrix3d values;
+  values << 0.5, 0.2, 0.3, 1 / 3., 1 / 3., 1 / 3., 0, 0, 0;
+  EXPECT_LT((Eigen::Matrix3d(binding.weights().values) - values).norm(), 1e-15);
 }
 
 TEST(PaperSetting, TwoTrianglesByHand) {

@@ -135,6 +135,20 @@ TEST(BodyVolume, NodesOutsideAllRegionsCarryNone) {
   const auto carried = carried_triangles(binding, body.triangles, control).at(0);
   ASSERT_GT(carried.size(), 500U);
   for (const Eigen::Vector3i& t : carried) EXPECT_LT(body.vertices[t[0]].y(), 0.027);  // one row of nodes on
+
+  std::vector<char> in_region(control.outer.size(), 0);
+  for (const int t : triangles)
+    for (const int node : control.triangles[t]) in_region[node] = 1;
+  const Eigen::MatrixXd values = binding.weights().values;
+  std::size_t count = 0;
+  for (const Eigen::Vector3i& t : body.triangles) {
+    double inside = 0, outside = 0;
+    for (const int v : t)
+      for (Eigen::Index node = 0; node < values.cols(); ++node)
+        (in_region[node] ? inside : outside) += values(v, node);
+    count += inside > 0 && inside >= outside;
+  }
+  EXPECT_EQ(carried.size(), count);
 }
 
 TEST(BodyVolume, RefusesByName) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <random>
+#include <set>
 
 #include "tffd/triangle_grid.hpp"
 #include "tffd_shapes.hpp"
@@ -43,6 +44,28 @@ TEST(TriangleGrid, FindsEveryTriangleInReach) {
       EXPECT_LT(found - in_reach,
                 0.5 * static_cast<double>(out_of_reach));  // and it does leave triangles out
     }
+}
+
+// A cell is half as wide as a triangle's reach: of equal triangles none is found from farther than that and
+// a cell's diagonal, and there are no more cells than that makes.
+TEST(TriangleGrid, CellsAreHalfAsWideAsTheReach) {
+  std::vector<Frame> frames(400, frames_of(patch(), Axis::inner_to_outer).front());
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    frames[i].centroid = Eigen::Vector3d(0.02 * (i % 20), 0.02 * (i / 20), 0);
+  constexpr double kReach = 1.3;
+  const TriangleGrid grid(frames, kReach);
+  const double reach = (kReach + 1.5) * frames.front().radius, far = reach * (1 + std::sqrt(3) / 2);
+  std::size_t found = 0;
+  for (const Frame& frame : frames)
+    for (const int t : grid.near(frame.centroid)) {
+      EXPECT_LT((frames[t].centroid - frame.centroid).norm(), 1.0001 * far);
+      ++found;
+    }
+  EXPECT_GT(found, frames.size());
+  EXPECT_LT(far, 0.1);  // of 0.4 m
+  std::set<const int*> cells;
+  for (double x = 0; x < 0.38; x += 0.0005) cells.insert(grid.near({x, 0.1, 0}).begin());
+  EXPECT_LE(cells.size(), 0.38 / (reach / 2) + 2);
 }
 
 }  // namespace
