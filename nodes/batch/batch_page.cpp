@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "files/html.hpp"
+#include "geometry/percentile.hpp"
 
 namespace tensegric_fit::batch {
 namespace {
@@ -31,10 +31,6 @@ std::string number(double value) {
   return "<td class=n>" + fmt::format("{:.4g}", value) + "</td>";
 }
 
-double quantile(const std::vector<double>& sorted, double share) {
-  return sorted[static_cast<std::size_t>(std::lround(share * static_cast<double>(sorted.size() - 1)))];
-}
-
 /// A histogram from the smallest to the largest value; median and 95 % below it.
 std::string histogram(const std::string& title, const std::string& unit, std::vector<double> values) {
   if (values.empty()) return {};
@@ -56,7 +52,7 @@ std::string histogram(const std::string& title, const std::string& unit, std::ve
       "{10:.4g} "
       "{7}</figcaption></figure>\n",
       kWidth, kHeight + 14, html_escaped(title), bars, kHeight + 12, low, values.back(), unit, values.size(),
-      quantile(values, 0.5), quantile(values, 0.95));
+      geometry::percentile(values, 0.5), geometry::percentile(values, 0.95));
 }
 
 std::string summary(const Table& table) {

@@ -5,16 +5,16 @@
 #include "ros/bag_check.hpp"
 
 int main(int argc, char** argv) {
-  std::vector<std::string> bags;
-  CLI::App app(
-      "Says whether bags can be replayed through the chain. Exit: 0 all can, 1 one cannot, 2 usage.");
-  app.add_option("BAG", bags, "bags")->required();
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+    std::vector<std::string> bags;
+    CLI::App app(
+        "Says whether bags can be replayed through the chain. Exit: 0 all can, 1 one cannot, 2 usage.");
+    app.add_option("BAG", bags, "bags")->required();
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error) == 0 ? 0 : 2;
+    }
     bool all = true;
     for (const std::string& bag : bags) {
       const tensegric_fit::node::BagCheck check = tensegric_fit::node::check_bag(bag);

@@ -13,6 +13,7 @@
 #include "control_mesh/fit_template.hpp"
 #include "fit/chain.hpp"
 #include "fit/tissue_file.hpp"
+#include "geometry/percentile.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
@@ -31,11 +32,6 @@ struct Solves {
   std::map<std::string, int> statuses;
 };
 
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(std::llround(share * static_cast<double>(values.size() - 1)))];
-}
-
 std::string row_of(const std::string& name, const Solves& all) {
   std::string ends;
   for (const auto& [status, count] : all.statuses)
@@ -43,9 +39,10 @@ std::string row_of(const std::string& name, const Solves& all) {
   const std::vector<double> iterations(all.iterations.begin(), all.iterations.end());
   const auto above = std::count_if(iterations.begin(), iterations.end(), [](double i) { return i > 15; });
   return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {:.1f} / {:.1f} / {:.0f} |\n", name,
-                     iterations.size(), ends, quantile(iterations, 0.5), quantile(iterations, 0.95),
-                     quantile(iterations, 1), above, quantile(all.ms, 0.5), quantile(all.ms, 0.95),
-                     quantile(all.ms, 1));
+                     iterations.size(), ends, geometry::percentile(iterations, 0.5),
+                     geometry::percentile(iterations, 0.95), geometry::percentile(iterations, 1), above,
+                     geometry::percentile(all.ms, 0.5), geometry::percentile(all.ms, 0.95),
+                     geometry::percentile(all.ms, 1));
 }
 
 class Bodies {
