@@ -49,9 +49,9 @@ struct StraightPush {
 /// (s0 - s), and Newton's method on a square only halves the distance in each step: with a unit that is
 /// nearly flat at rest, and so pushes with many times what acts on it, this takes ten steps and more. The
 /// push that a step foresees is nearly right, so the next line is laid there (the primal-dual view of a
-/// barrier: J. Nocedal, S. J. Wright, "Numerical Optimization", 2006, ch. 19). So is a push below zero, as
-/// long as it is smaller than what the unit pushes at its share: nothing is left of it. A larger one only
-/// shows that the last line was laid too far away.
+/// barrier: J. Nocedal, S. J. Wright, "Numerical Optimization", 2006, ch. 19). Where it is below zero, but by
+/// less than the unit pushes at its own share, the unit pushes nothing in the next step; by more, it says
+/// only that the last line was laid too far away, and the line touches at the unit's own share.
 std::vector<StraightPush> straight_pushes(const std::vector<UnitVolume>& units, const Positions& x,
                                           const Eigen::VectorXd& pushes = {});
 
