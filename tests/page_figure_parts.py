@@ -15,24 +15,6 @@ PICTURES = ROOT / "launch/pictures"
 SKIN = np.array([0.86, 0.74, 0.68])
 
 
-def read_ply(path):
-    """(vertices n x 3, triangles m x 3) of a binary PLY as the project writes it."""
-    data = path.read_bytes()
-    end = data.index(b"end_header\n") + len(b"end_header\n")
-    kinds = {"double": "<f8", "float": "<f4", "uchar": "u1", "int": "<i4"}
-    counts, fields, element = {}, {}, None
-    for line in data[:end].decode().splitlines():
-        words = line.split()
-        if words[0] == "element":
-            element = words[1]
-            counts[element], fields[element] = int(words[2]), []
-        elif words[0] == "property" and words[1] != "list":
-            fields[element].append((words[2], kinds[words[1]]))
-    vertex = np.frombuffer(data, np.dtype(fields["vertex"]), counts["vertex"], end)
-    face = np.frombuffer(data, np.dtype([("count", "u1"), ("corners", "<i4", 3)]), counts["face"], end + vertex.nbytes)
-    return np.stack([vertex[axis].astype(float) for axis in "xyz"], 1), face["corners"]
-
-
 def write_points(path, points):
     header = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n"
     header += "".join(f"property float {axis}\n" for axis in "xyz") + "end_header\n"
@@ -52,20 +34,6 @@ def read_arrays(path):
         arrays[entry["name"]] = np.frombuffer(data, kind, size, at).reshape(entry["shape"])
         at += size * kind.itemsize
     return header, arrays
-
-
-def section(vertices, triangles, axis, at):
-    """Segments (n x 2 x 2, the other two axes) in which a plane across `axis` cuts a mesh."""
-    corners = vertices[triangles]
-    heights = corners[:, :, axis] - at
-    others = [k for k in range(3) if k != axis]
-    ends = []
-    cut = (heights.min(1) < 0) & (heights.max(1) >= 0)
-    for t, h in zip(corners[cut], heights[cut]):
-        points = [t[a] + h[a] / (h[a] - h[b]) * (t[b] - t[a])
-                  for a, b in ((0, 1), (1, 2), (2, 0)) if (h[a] < 0) != (h[b] < 0)]
-        ends.append([points[0][others], points[1][others]])
-    return np.array(ends)
 
 
 def draw_section(axes, segments, **style):

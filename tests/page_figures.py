@@ -17,8 +17,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
 
-from page_figure_parts import (ROOT, draw_body, draw_section, level_axes, read_arrays, read_ply, report_of, save, section,
-                               to_body, write_points)
+from meshes import read_ply, section
+from page_figure_parts import (ROOT, draw_body, draw_section, level_axes, read_arrays, report_of, save, to_body,
+                               write_points)
 
 NOISE = 0.001  # m, of the second scan that the correlation's figure makes
 

@@ -15,37 +15,24 @@ import numpy as np
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import ConvexHull, cKDTree
 
+sys.dont_write_bytecode = True  # not into the sources
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from meshes import read_ply, section
+
 APART = 0.025  # m: points of a level section that far from all others are another limb's
 TAPES = ('bust', 'underbust', 'waist', 'hip')
 FEWEST = 3  # scans of a woman, for a deviation
 
 
-def read_mesh(path):
-    """Vertices (n x 3, m) and triangles of a PLY as make_set.py writes it."""
-    with open(path, 'rb') as file:
-        counts = {}
-        while (words := file.readline().split()) != [b'end_header']:
-            if words[0] == b'element':
-                counts[words[1]] = int(words[2])
-        vertices = np.fromfile(file, '<f4', 3 * counts[b'vertex']).reshape(-1, 3).astype(float)
-        faces = np.fromfile(file, [('count', 'u1'), ('corners', '<i4', 3)], counts[b'face'])
-    return vertices, faces['corners']
-
-
 def torso_tape(vertices, triangles, height):
     """Corners of the convex tape round the widest limb at a height, counterclockwise (n x 3)."""
-    above = vertices[triangles][:, :, 2] - height
-    points = []
-    for a, b in ((0, 1), (1, 2), (2, 0)):
-        crossed = (above[:, a] > 0) != (above[:, b] > 0)
-        p, q = vertices[triangles[crossed, a]], vertices[triangles[crossed, b]]
-        points.append(p + (above[crossed, a] / (above[crossed, a] - above[crossed, b]))[:, None] * (q - p))
-    points = np.vstack(points)
-    near = cKDTree(points).sparse_distance_matrix(cKDTree(points), APART)
-    limb = connected_components(near, directed=False)[1]
-    widest = max(set(limb), key=lambda i: np.ptp(points[limb == i, :2], 0).max())
+    points = section(vertices, triangles, 2, height).reshape(-1, 2)
+    tree = cKDTree(points)
+    limb = connected_components(tree.sparse_distance_matrix(tree, APART), directed=False)[1]
+    widest = max(set(limb), key=lambda i: np.ptp(points[limb == i], 0).max())
     points = points[limb == widest]
-    return points[ConvexHull(points[:, :2]).vertices]
+    corners = points[ConvexHull(points).vertices]
+    return np.c_[corners, np.full(len(corners), height)]
 
 
 def by_columns(tape, scan):
@@ -83,10 +70,10 @@ def main(folder, population):
     for line in open(population):
         body = json.loads(line)
         truth = json.loads((folder / f"{body['body']}_truth.json").read_text())
-        mesh = read_mesh(folder / f"{body['body']}_body.ply")
+        mesh = read_ply(folder / f"{body['body']}_body.ply")
         for figure in body['figures']:
             kind, _, name = figure['name'].partition(' ')
-            if kind == 'girth' and name in TAPES and figure['counts'] and figure['error'] is not None:
+            if kind == 'girth' and name in TAPES and figure['counts'] and not figure['hidden'] and figure['error'] is not None:
                 columns = by_columns(torso_tape(*mesh, truth['heights'][name]), truth['scan'])
                 moved = truth['scan']['settings']['fracture'] is not None
                 girths[name][body['body'].rsplit('_', 1)[0]].append((figure['error'], figure['error'] - columns, moved, columns))

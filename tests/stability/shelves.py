@@ -8,27 +8,17 @@ import argparse
 import collections
 import csv
 import pathlib
+import sys
 
 import numpy as np
 
+sys.dont_write_bytecode = True  # not into the sources
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from meshes import read_ply
+
 SHELF = 60  # degrees
-WARNINGS = {"shelf", "turned_over"}
-
-
-def read_mesh(path):
-    """Vertices (n x 3) and triangles (m x 3) of a binary PLY with float or double x, y, z first."""
-    with open(path, "rb") as file:
-        counts, kinds, element = {}, [], None
-        while (words := file.readline().split()) != [b"end_header"]:
-            if words[0] == b"element":
-                element = words[1]
-                counts[element] = int(words[2])
-            elif words[0] == b"property" and element == b"vertex":
-                kinds.append((words[2].decode(), {b"float": "<f4", b"double": "<f8", b"uchar": "u1"}[words[1]]))
-        vertex = np.fromfile(file, np.dtype(kinds), counts[b"vertex"])
-        face = np.fromfile(file, np.dtype([("count", "u1"), ("corners", "<i4", 3)]), counts[b"face"])
-    assert (face["count"] == 3).all(), path
-    return np.stack([vertex[axis] for axis in "xyz"], 1).astype(float), face["corners"]
+FOLDS = {"shelf", "turned_over"}
+WARNINGS = FOLDS | {"skin_crosses"}  # the other codes are notices
 
 
 def area_vectors(vertices, triangles):
@@ -61,23 +51,24 @@ def main():
     rest = {}
     for run, body in bodies.items():
         if body not in rest:
-            rest = {body: read_mesh(options.folder / f"{body}.ply")}
+            rest = {body: read_ply(options.folder / f"{body}.ply")}
         vertices, triangles = rest[body]
-        worn, _ = read_mesh(options.folder / f"{run}.ply")
+        worn, _ = read_ply(options.folder / f"{run}.ply")
         shelf = turned_area(vertices, worn, triangles, SHELF)
-        is_shelf, is_warned = bool(shelf >= options.least), bool(codes[run] & WARNINGS)
+        is_shelf, is_warned = bool(shelf >= options.least), bool(codes[run] & FOLDS)
         garment, percent = run.split("_")[-2:]
         for key in ((garment, percent), ("all", percent), ("all", "all")):
             table[key].update(runs=1, shelf=is_shelf, warned=is_warned, missed=is_shelf and not is_warned,
                               idle=is_warned and not is_shelf, turned_over="turned_over" in codes[run],
                               converged=statuses[run] == "converged",
+                              quiet=statuses[run] == "converged" and not codes[run] & WARNINGS,
                               **{code: code in codes[run] for code in
                                  ("skin_turns", "over_stretched", "pressed_together", "under_constricted")})
         if is_shelf and not is_warned:
             missed.append(f"{run} ({shelf:.2f} cm2)")
         if is_warned and not is_shelf:
             idle.append(f"{run} ({shelf:.2f} cm2)")
-    columns = ("runs", "converged", "shelf", "warned", "missed", "idle", "turned_over", "skin_turns", "over_stretched",
+    columns = ("runs", "converged", "quiet", "shelf", "warned", "missed", "idle", "turned_over", "skin_turns", "over_stretched",
                "pressed_together", "under_constricted")
     print("| garment | ratio |", " | ".join(columns), "|")
     print("| --- | --- |" + " --- |" * len(columns))

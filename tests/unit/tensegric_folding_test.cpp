@@ -133,7 +133,9 @@ TEST_F(Folding, LinesTouchTheBarrier) {
       EXPECT_NEAR(line.push / (share * pushes[line.unit]), 1, 1e-6) << share;
   }
   // Foreseen to pull: by less than it pushes, it will do neither; by more, that says nothing.
-  for (const StraightPush& line : straight_pushes(units, x, -0.9 * pushes)) {
+  const std::vector<StraightPush> ended = straight_pushes(units, x, -0.9 * pushes);
+  ASSERT_EQ(ended.size(), own.size());
+  for (const StraightPush& line : ended) {
     EXPECT_EQ(line.push, 0);
     EXPECT_EQ(line.at_x, 0);
     EXPECT_EQ(line.slope, 0);
