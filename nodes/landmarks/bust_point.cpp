@@ -67,8 +67,8 @@ Bump bump_at(const Patch& patch, const Vector2d& at) {
 
 }  // namespace
 
-std::optional<Vector3d> find_nipple(const Surface& surface, const Vector3d& expected, double deviation,
-                                    const Vector3d& outward) {
+std::optional<Nipple> find_nipple(const Surface& surface, const Vector3d& expected, double deviation,
+                                  const Vector3d& outward) {
   const std::vector<Vector3d> normals =
       geometry::vertex_normals(surface.mesh.vertices, surface.mesh.triangles);
   const Patch patch = patch_of(surface, normals, expected, outward, kSearch * deviation + kPatch);
@@ -91,7 +91,8 @@ std::optional<Vector3d> find_nipple(const Surface& surface, const Vector3d& expe
   look(Vector2d::Zero(), kSearch * deviation, kSteps);
   look(Vector2d(best), kSearch * deviation / kSteps, kFineSteps);
   if (clearest.clearness < kClear) return std::nullopt;
-  return patch.origin + patch.axes * Vector3d(best.x(), best.y(), clearest.top);
+  return Nipple{patch.origin + patch.axes * Vector3d(best.x(), best.y(), clearest.top),
+                kBump / clearest.clearness};
 }
 
 }  // namespace tensegric_fit::landmarks

@@ -22,12 +22,13 @@ constexpr double kNormal = 1.96;  // quantile of the normal distribution at 97.5
 constexpr double kGross = 4;  // spreads between two readings of one thing: with Gaussian errors 1 in 16,000
 
 Spread spread_in(const YAML::Node& node, const std::string& where) {
-  geometry::check_keys(node, {"bias", "base", "growth", "support", "outside"}, where, kCode);
+  geometry::check_keys(node, {"bias", "base", "growth", "support", "outside", "shift"}, where, kCode);
   return {geometry::number_in(node, "bias", -kLargest, kLargest, where, kCode),
           geometry::number_in(node, "base", 0, kLargest, where, kCode),
           geometry::number_in(node, "growth", 0, kSteepest, where, kCode),
           geometry::number_in(node, "support", 0, kLargest, where, kCode),
-          geometry::number_in(node, "outside", 0, kLargest, where, kCode)};
+          geometry::number_in(node, "outside", 0, kLargest, where, kCode),
+          node["shift"] ? geometry::number_in(node, "shift", 0, kLargest, where, kCode) : 0};
 }
 
 Span span_in(const YAML::Node& node, const std::string& where) {
@@ -64,8 +65,9 @@ std::string key_of(const Figure& figure) {
 }
 
 double deviation(const Spread& spread, const Figure& figure) {
-  return std::hypot(spread.base * std::pow(figure.misfit / kUnit, spread.growth),
-                    spread.support * figure.support);
+  return std::hypot(std::hypot(spread.base * std::pow(figure.misfit / kUnit, spread.growth),
+                               spread.support * figure.support),
+                    spread.shift * figure.shift);
 }
 
 /// 0 to 1: how far the body is outside what the model can make.

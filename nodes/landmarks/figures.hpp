@@ -11,11 +11,12 @@
 namespace tensegric_fit::landmarks {
 
 /// How far off a reading is, m, on bodies whose truth is known: on average by `bias` (of heights and girths;
-/// of points 0), round that by the root of (base * (Figure::misfit / 2 mm)^growth)^2 and (support *
-/// Figure::support)^2. Readings on the mesh may grow with misfit, too: some are looked for near the model's.
-/// On a body that the model cannot make, by `outside` more, as squares.
+/// of points 0), round that by the root of (base * (Figure::misfit / 2 mm)^growth)^2, (support *
+/// Figure::support)^2 and, on the mesh, (shift * Figure::shift)^2. Readings on the mesh may grow with misfit,
+/// too: some are looked for near the model's. On a body that the model cannot make, by `outside` more, as
+/// squares.
 struct Spread {
-  double bias, base, growth, support, outside = 0;
+  double bias, base, growth, support, outside = 0, shift = 0;
 };
 
 /// From misfits that 95 % of scanned women stay below to the median of bodies outside the model's span, m:
@@ -58,6 +59,7 @@ struct Figure {
   bool seen =
       false;  ///< the reading on the mesh lies on skin that the scan backs: it may be far from the model's
   double ground = 0;  ///< m: of heights, RegisteredBody::ground_deviation: both readings are off by the same
+  double shift = 0;   ///< m: Nipple::shift; 0 of figures without
 };
 
 /// A settled figure.

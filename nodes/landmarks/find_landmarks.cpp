@@ -112,14 +112,14 @@ class Reader {
   }
 
   void add(Kind kind, const std::string& name, std::optional<Vector3d> on_mesh,
-           std::optional<Vector3d> on_model, double support, bool seen, Tape loop = {}) {
+           std::optional<Vector3d> on_model, double support, bool seen, Tape loop = {}, double shift = 0) {
     if (!on_mesh && !on_model) return;
     figures_.push_back({kind, name, std::move(on_mesh), std::move(on_model), support, body_.residual,
-                        std::move(loop), seen, kind == Kind::height ? body_.ground_deviation : 0});
+                        std::move(loop), seen, kind == Kind::height ? body_.ground_deviation : 0, shift});
   }
   void add_point(const std::string& name, const std::optional<Vector3d>& on_mesh,
-                 const std::optional<Vector3d>& on_model, double support) {
-    add(Kind::point, name, on_mesh, on_model, support, is_seen(on_mesh));
+                 const std::optional<Vector3d>& on_model, double support, double shift = 0) {
+    add(Kind::point, name, on_mesh, on_model, support, is_seen(on_mesh), {}, shift);
   }
   bool is_seen(const std::optional<Vector3d>& on_mesh) const {
     return on_mesh && unseen_share(mesh_.surface, *on_mesh, kSeen) < 0.5;
@@ -149,8 +149,11 @@ class Reader {
       if ((skin_.surface.mesh.vertices[v] - there).norm() < kBreast && skin_.surface.arm[v] < 0.5)
         outward += normals_[v];
     const double deviation = kNippleSpreads * spread_of_model(name, support_at(there));
-    add_point(name, find_nipple(mesh_.surface, there, deviation, outward.normalized()), there,
-              support_at(there));
+    const auto nipple = find_nipple(mesh_.surface, there, deviation, outward.normalized());
+    if (nipple)
+      add_point(name, nipple->place, there, support_at(there), nipple->shift);
+    else
+      add_point(name, std::nullopt, there, support_at(there));
   }
 
   void fold(Side side) {
@@ -171,7 +174,7 @@ class Reader {
   /// The mean height of points.
   void level(const std::string& name, const std::vector<std::string>& points) {
     std::optional<double> on_mesh = 0.0, on_model = 0.0;
-    double support = 0;
+    double support = 0, shift = 0;
     bool seen = true;
     for (const std::string& p : points) {
       const Figure* figure = find(Kind::point, p);
@@ -185,9 +188,10 @@ class Reader {
       take(on_mesh, figure->on_mesh);
       take(on_model, figure->on_model);
       support = std::max(support, figure->support);
+      shift += figure->shift / static_cast<double>(points.size());
       seen = seen && figure->seen;
     }
-    add(Kind::height, name, as_figure(on_mesh), as_figure(on_model), support, seen);
+    add(Kind::height, name, as_figure(on_mesh), as_figure(on_model), support, seen, {}, shift);
   }
 
   void level_of_folds() {

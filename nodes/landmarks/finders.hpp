@@ -11,11 +11,15 @@ namespace tensegric_fit::landmarks {
 
 using Eigen::Vector3d;
 
+struct Nipple {
+  Vector3d place;
+  double shift;  ///< m: by which skin as rough as what the fit leaves over moves such a bump
+};
 /// The nipple: where a bump of its size stands out most clearly from a smooth breast, some deviations (m)
-/// round `expected`, seen along `outward` (unit). Nothing where none stands out of the noise, as under
-/// clothes.
-std::optional<Vector3d> find_nipple(const Surface& surface, const Vector3d& expected, double deviation,
-                                    const Vector3d& outward);
+/// round `expected`, seen along `outward` (unit). Nothing where none stands out of the noise. Under clothes
+/// a pointed breast is such a bump, less clear, and further from where the nipple is.
+std::optional<Nipple> find_nipple(const Surface& surface, const Vector3d& expected, double deviation,
+                                  const Vector3d& outward);
 
 /// The inframammary fold from below the bust point 55 mm inwards: most concave places of sagittal profiles 5
 /// mm apart.

@@ -36,14 +36,17 @@ def outside_of(errors, inside, shares):
     return float(best.x) if best.fun < loss(0) and best.x > LEAST else 0.
 
 
+def inside_of(known, row):
+    return np.sqrt((known['base'] * (row.misfit / UNIT) ** known['growth']) ** 2 + (known['support'] * row.support) ** 2 + (known.get('shift', 0.) * row.shift) ** 2)
+
+
 def with_outside(row, known, share):
     """The row's spreads of both readings for `settle`, of one row: what is added has no power and no slope."""
     fit = dict(growth=dict(mesh=0., model=0.))
     for key in ('mesh', 'model'):
         s = known[key]
         if s['base'] < MOST:
-            inside = np.hypot(s['base'] * (row.misfit / UNIT) ** s['growth'], s['support'] * row.support)
-            fit[key] = np.array([np.hypot(inside, share * s.get('outside', 0.)), 0., s['bias']])
+            fit[key] = np.array([np.hypot(inside_of(s, row), share * s.get('outside', 0.)), 0., s['bias'], 0.])
     return fit
 
 
@@ -82,7 +85,7 @@ def main():
                 if figure not in CONVENTIONAL and len(use) >= FEWEST and LEAST < s['base'] < MOST:  # it is read there, and not true by definition
                     bias = np.array([s['bias'], 0, 0])
                     errors = np.array([max(np.linalg.norm(reading_error(rows[k], key) - bias), LEAST) for k in use])
-                    inside = np.array([np.hypot(s['base'] * (rows[k].misfit / UNIT) ** s['growth'], s['support'] * rows[k].support) for k in use])
+                    inside = np.array([inside_of(s, rows[k]) for k in use])
                     s['outside'] = outside_of(errors, inside, shares[use])
                 tail = re.sub(r'^(  %s: .*?%s: \{[^}]*)' % (figure, key), lambda m, d=s['outside']: '%s, outside: %.3g' % (m.group(1), d), tail,
                               count=1, flags=re.M)

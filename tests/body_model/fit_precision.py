@@ -1,13 +1,15 @@
 #!/usr/bin/python3
-"""fit_precision.py --mesh READINGS TRUTHS --scan READINGS TRUTHS [--earlier PRECISION] --out precision.yaml
+"""fit_precision.py --mesh READINGS TRUTHS [READINGS TRUTHS] --scan READINGS TRUTHS [READINGS TRUTHS] [--earlier PRECISION] --out precision.yaml
 
 How far off each figure's readings on mesh and body model are, fitted to training bodies: READINGS as `readings` writes them (a line of
 JSON per body), TRUTHS a folder with NAME_truth.json. READINGS with the model cut to fewer components stand for bodies outside its span: how
 fast its errors grow with its misfit is fitted to them, too, or taken over from an earlier file (PRECISION), with what fit_outside.py added there. Figures that a truth calls vague take no part. What the truths measure by other
-definitions (limbs, sides, gluteal folds) is true where it is read on the true surface. Needs python3-numpy, python3-scipy, python3-yaml.
+definitions (limbs, sides, gluteal folds) is true where it is read on the true surface. A second pair is of the same women with covered breasts (`again.py
+covered`): what their nipples or a pointed breast would be moved by (`shift`) is fitted to both, and of the second no other figures are taken. Needs python3-numpy,
+python3-scipy, python3-yaml.
 
 A reading's error has a Student-t distribution (4 degrees of freedom, so that a few gross errors do not rule) round a bias (of heights and
-girths; of points 0), with the scale sqrt(base^2 + (slope * support)^2); the base grows with a power of the registration's residual (base: at 2 mm), on the mesh, too, as it is
+girths; of points 0), with the scale sqrt(base^2 + (slope * support)^2 + (factor * shift)^2); the base grows with a power of the registration's residual (base: at 2 mm), on the mesh, too, as it is
 looked for near where the model has it. Of heights what the ground was off by is taken off first: it is one error of all heights, its deviation is known
 (Figure::ground), and it joins the interval afterwards. Half-widths, in spreads, are the quantile that holds 95 % of the settled errors of bodies left out of
 the fit, in five parts, to which the whole model was registered: one for figures in which the mesh has a say, one for those that rest on the model. Where
@@ -34,11 +36,12 @@ NORMAL = 1.96                                     # as there: deviations that ho
 LEAST = 1e-4                                      # m: no reading is taken to be better
 STEEPEST = 4                                      # power of the misfit: beyond it a few gross errors rule
 UNIT = 2e-3                                       # m of misfit: as kUnit in landmarks/figures.cpp
+KEPT = 'powers of the misfit'                     # what is taken over from an earlier file
 FEWEST = 20                                       # readings that a spread is fitted to
 FEWEST_HELD = 40                                  # errors that a half-width is the quantile of: two of them lie outside
 
 # Errors are vectors in metres, None where there is no reading; `ground` is the deviation of the ground, `sunk` its error.
-Row = collections.namedtuple('Row', 'mesh model support misfit body cut seen ground sunk')
+Row = collections.namedtuple('Row', 'mesh model support misfit body cut seen ground sunk shift')
 
 OWN = ('upper_arm', 'thigh', 'hip_side', 'waist_side', 'gluteal_fold')  # read on the true surface
 
@@ -110,8 +113,8 @@ def samples(readings, truths, surfaces):
                     e = e - loose * (e @ loose) / (loose @ loose)
                 return e
             key = '%s %s' % (kind, name[:-2] if name[-2:] in ('_L', '_R') else name)
-            out.setdefault(key, []).append(Row(error('mesh'), error('model'), f['support'], r['residual'], r['name'], bool(r.get('cut', 0)), f['seen'],
-                                               *((ground, sunk) if kind == 'height' else (0., 0.))))
+            out.setdefault(key, []).append(Row(error('mesh'), error('model'), f['support'], r['residual'], r['name'].split('_')[0], bool(r.get('cut', 0)),
+                                               f['seen'], *((ground, sunk) if kind == 'height' else (0., 0.)), f.get('shift', 0.)))
     return out
 
 
@@ -121,17 +124,19 @@ def reading_error(row, key):
     return None if e is None else e - [row.sunk, 0, 0]
 
 
-def scale(errors, base_of, support, biased):
-    """base, slope and bias of |errors|, by likelihood."""
+def scale(errors, base_of, support, biased, shift):
+    """base, slope, bias and factor of |errors|, by likelihood; no factor (0) where no reading has a shift."""
     e = np.array(errors)
     start = np.median(np.linalg.norm(e, axis=1) / base_of)
 
     def loss(q):
-        s = np.hypot(np.exp(q[0]) * base_of, np.exp(q[1]) * support)
+        s = np.hypot(np.hypot(np.exp(q[0]) * base_of, np.exp(q[1]) * support), np.exp(q[3]) * shift if len(q) > 3 else 0)
         size = np.linalg.norm(e - [q[2] * start * np.median(base_of) if biased else 0, 0, 0], axis=1)
-        return np.mean(np.log(s) + (FREEDOM + 1) / 2 * np.log1p((size / s) ** 2 / FREEDOM)) + 1e-3 * (q[1] + 1) ** 2
-    best = min((minimize(loss, (np.log(start), b, 0.), method='Nelder-Mead', options=dict(xatol=1e-3, fatol=1e-6, maxiter=2000)) for b in (-3., -1., 0.)), key=lambda m: m.fun)
-    return np.array([max(np.exp(best.x[0]), LEAST / np.median(base_of)), np.exp(best.x[1]), best.x[2] * start * np.median(base_of) if biased else 0.])
+        return np.mean(np.log(s) + (FREEDOM + 1) / 2 * np.log1p((size / s) ** 2 / FREEDOM)) + 1e-3 * ((q[1] + 1) ** 2 + sum((q[3:] - 1) ** 2))
+    best = min((minimize(loss, (np.log(start), b, 0.) + (1.,) * any(shift > 0), method='Nelder-Mead', options=dict(xatol=1e-3, fatol=1e-6, maxiter=4000)) for b in (-3., -1., 0.)),
+               key=lambda m: m.fun)
+    return np.array([max(np.exp(best.x[0]), LEAST / np.median(base_of)), np.exp(best.x[1]), best.x[2] * start * np.median(base_of) if biased else 0.,
+                     np.exp(best.x[3]) if len(best.x) > 3 else 0.])
 
 
 def growth_of(rows, key):
@@ -149,8 +154,8 @@ def growth_of(rows, key):
     return float(np.clip(best.x[1], 0., STEEPEST))
 
 
-def spread(coefficients, base_of, support):
-    return np.hypot(coefficients[0] * base_of, coefficients[1] * support)
+def spread(coefficients, base_of, support, shift):
+    return np.hypot(np.hypot(coefficients[0] * base_of, coefficients[1] * support), coefficients[3] * shift)
 
 
 def limit(figure):
@@ -164,7 +169,7 @@ def limit(figure):
 def settle(row, fit):
     """Settled error, its spread, and whether it rests on the model: as landmarks/figures.cpp has it."""
     mesh, model = (None if e is None else e - [fit[k][2] if k in fit else 0, 0, 0] for e, k in zip(row, ('mesh', 'model')))
-    m, b = (spread(fit[k], (row.misfit / UNIT) ** fit['growth'][k], row.support) if k in fit else None for k in ('mesh', 'model'))
+    m, b = (spread(fit[k], (row.misfit / UNIT) ** fit['growth'][k], row.support, row.shift) if k in fit else None for k in ('mesh', 'model'))
     if mesh is None or m is None:
         return model, b, 0., True
     if model is None or b is None:
@@ -183,10 +188,10 @@ def fitted(figure, rows, growth):
     for key in keys:
         use = [r for r in rows if reading_error(r, key) is not None and not r.cut]
         if len(use) >= FEWEST and not any(np.any(getattr(r, key)) for r in use):
-            fit[key], fit['growth'][key] = np.array([LEAST, 0., 0.]), 0.
+            fit[key], fit['growth'][key] = np.array([LEAST, 0., 0., 0.]), 0.
         elif len(use) >= FEWEST:
             fit[key] = scale([reading_error(r, key) for r in use], np.array([r.misfit / UNIT for r in use]) ** fit['growth'][key], np.array([r.support for r in use]),
-                             not figure.startswith('point'))
+                             not figure.startswith('point'), np.array([r.shift if key == 'mesh' else 0. for r in use]))
     use = [r for r in rows if not r.cut]
     settled = [settle(r, fit) for r in use]
     e = np.array([max(np.linalg.norm(error - [r.sunk, 0, 0]), LEAST) for r, (error, _, _, _) in zip(use, settled)])
@@ -224,17 +229,25 @@ def half_widths(error, deviation, ground, resting, cut):
 
 def main():
     a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    a.add_argument('--mesh', nargs=2, required=True)
-    a.add_argument('--scan', nargs=2, required=True)
+    a.add_argument('--mesh', nargs='+', required=True)
+    a.add_argument('--scan', nargs='+', required=True)
     a.add_argument('--earlier')
     a.add_argument('--out', required=True)
     o = a.parse_args()
     earlier = yaml.safe_load(open(o.earlier)) if o.earlier else None
+    kept = earlier['bodies'].split('; ')[-1] if earlier else ''
+    if earlier and not kept.startswith(KEPT):
+        kept = '%s, and %s, of %s' % (KEPT, kept, earlier['made'])
     text, names, surfaces = '', set(), read_on_surfaces(o.mesh[0])
     for source in ('mesh', 'scan'):
         text += '%s:\n' % source
         print('%-20s %4s %9s %9s %9s  cut; mesh, model: bias mm, base mm, growth, slope; disagreement' % (source, 'n', 'median mm', '95 % mm', 'covered'))
-        for key, rows in sorted(samples(*getattr(o, source), surfaces).items()):
+        files = getattr(o, source)
+        women = samples(*files[:2], surfaces)
+        for key, rows in samples(*files[2:], surfaces).items() if files[2:] else ():
+            if any(r.shift > 0 for r in women.get(key, ())):
+                women[key] += rows
+        for key, rows in sorted(women.items()):
             names |= {r.body for r in rows if not r.cut}
             growth = earlier and earlier[source][key]
             fit = fitted(key, rows, growth)
@@ -248,8 +261,8 @@ def main():
             far = '%3.0f%% of %d' % (100 * np.mean(held[cut]), sum(cut)) if any(cut) else '-'
             error, held, width = error[~cut], held[~cut], width[~cut]
             m, b = fit.get('mesh'), fit.get('model')
-            c = lambda k: '{bias: %.5f, base: %.3g, growth: %.3g, support: %.3g%s}' % (
-                *((fit[k][2], fit[k][0], fit['growth'][k], fit[k][1]) if k in fit else (0., .1, 0., 0.)), ', outside: %.3g' % growth[k]['outside'] if growth else '')
+            c = lambda k: '{bias: %.5f, base: %.3g, growth: %.3g, support: %.3g%s%s}' % (
+                *((fit[k][2], fit[k][0], fit['growth'][k], fit[k][1], ', shift: %.3g' % fit[k][3] if fit[k][3] else '') if k in fit else (0., .1, 0., 0., '')), ', outside: %.3g' % growth[k]['outside'] if growth else '')
             text += '  %s: {mesh: %s, model: %s, disagreement: %.3g, half_width: %.3g, half_width_of_model: %.3g, error: %.2g, covered: %.3f, n: %d}\n' % (
                 key, c('mesh'), c('model'), fit['disagreement'], *half_width, np.median(error), held.mean(), len(error))
             print('%-20s %4d %9.2f %9.2f %8.1f%% %10s  %s  %s  %.2f   median half width %.2f mm' % (
@@ -258,7 +271,7 @@ def main():
     with open(o.out, 'w') as out:
         out.write('# How far off each figure may be: tests/body_model/fit_precision.py wrote this; error (m, median) and covered are of bodies left out.\n')
         out.write('made: %s\nbodies: %d training women (%s to %s)%s\n' % (
-            datetime.date.today(), len(names), min(names), max(names), '; powers of the misfit, and ' + earlier['bodies'].split('; ')[-1] + ', of ' + str(earlier['made']) if earlier else ''))
+            datetime.date.today(), len(names), min(names), max(names), '; ' + kept if earlier else ''))
         if earlier:
             out.write('span: {mesh: [%g, %g], scan: [%g, %g]}\n' % (*earlier['span']['mesh'], *earlier['span']['scan']))
         out.write(text)

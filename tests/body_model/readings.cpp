@@ -46,6 +46,7 @@ Json readings_of(const landmarks::Reading& reading, const body_model::Registered
                {"name", figure.name},
                {"support", figure.support},
                {"seen", figure.seen}};
+    if (figure.shift > 0) entry["shift"] = figure.shift;
     if (figure.on_mesh) entry["mesh"] = json_of(*figure.on_mesh);
     if (figure.on_model) entry["model"] = json_of(*figure.on_model);
     result["figures"].push_back(std::move(entry));

@@ -48,6 +48,18 @@ TEST(Settle, OneReadingIsTakenAsItIs) {
   EXPECT_NEAR(model.half_width, kHalfWidthOfModel * kOfModel, 1e-12);
 }
 
+TEST(Settle, AReadingThatSkinMayHaveMovedCountsForLess) {
+  const double apart = 0.004, factor = 2, shift = 0.002;  // 3 mm and 4 mm: 5 mm, as the model
+  Precision known = precision();
+  known.of_mesh.at("girth bust").mesh.shift = factor;
+  Figure figure = girth(0.9 + apart, 0.9);
+  figure.shift = shift;
+  const Settled settled = settle(figure, known, false);
+  EXPECT_NEAR(settled.value.x(), 0.9 + apart / 2, 1e-12);
+  EXPECT_NEAR(settled.half_width, kHalfWidth * std::hypot(kOfModel * std::sqrt(0.5), kDisagreement * apart),
+              1e-12);
+}
+
 TEST(Settle, TwoReadingsCountByTheirPrecision) {
   const double apart = 0.004;
   const Settled both = settle(girth(0.9 + apart, 0.9), precision(), false);
@@ -213,6 +225,13 @@ TEST_F(PrecisionFile, IsReadAsWritten) {
   EXPECT_EQ(bust.half_width_of_model, 3);
 }
 
+TEST_F(PrecisionFile, MayHaveAFactorOfShifts) {
+  ASSERT_EQ(refusal_of(file_with(replaced(kFigure, "base: 0.001", "shift: 4.5, base: 0.001"))), "");
+  const Precision read = load_precision(path_);
+  EXPECT_EQ(read.of_mesh.at("girth bust").mesh.shift, 4.5);
+  EXPECT_EQ(read.of_scan.at("girth bust").mesh.shift, 0);
+}
+
 TEST_F(PrecisionFile, IsRefusedByTheNameOfWhatIsWrong) {
   const auto expect_named = [&](const std::string& text, const std::string& word) {
     EXPECT_NE(refusal_of(text).find(word), std::string::npos) << refusal_of(text);
@@ -221,6 +240,7 @@ TEST_F(PrecisionFile, IsRefusedByTheNameOfWhatIsWrong) {
   expect_named(file_with(replaced(kFigure, "growth: 1.5", "growth: 11")), "growth");
   expect_named(file_with(replaced(kFigure, "support: 0.1", "slope: 0.1")), "slope");
   expect_named(file_with(replaced(kFigure, "half_width: 2", "half_width: -2")), "half_width");
+  expect_named(file_with(replaced(kFigure, "base: 0.001", "shift: -1, base: 0.001")), "shift");
   expect_named(file_with(replaced(kFigure, "base: 0.001", "base: .nan")), "base");
   expect_named(file_with(replaced(kFigure, "base: 0.001", "base: 1000")), "base");
   expect_named(file_with(replaced(kFigure, "base: 0.001", "base: wide")), "base");

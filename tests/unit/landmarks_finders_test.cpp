@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "implicit_surface.hpp"
@@ -143,9 +144,21 @@ TEST(NippleFinder, ABumpsTop) {
       const Vector3d expected = NippledBall::kRadius * (tip + off).normalized();
       const auto found = find_nipple(surface, expected, kDeviation, expected.normalized());
       ASSERT_TRUE(found) << noise;
-      EXPECT_LT((*found - tip).norm(), limit) << noise << " " << off.transpose();
+      EXPECT_LT((found->place - tip).norm(), limit) << noise << " " << off.transpose();
     }
   }
+}
+
+TEST(NippleFinder, TheLessClearABumpTheFurtherItMayBeMoved) {
+  const auto shift_of = [](double height, double noise) {
+    const NippledBall ball{height};
+    const auto found =
+        find_nipple(ball.surface(noise, 1), NippledBall::kRadius * ball.way, kDeviation, ball.way);
+    return found ? found->shift : std::numeric_limits<double>::infinity();
+  };
+  EXPECT_LT(shift_of(0.005, 0), shift_of(0.003, 0));
+  EXPECT_LT(shift_of(0.005, 0), shift_of(0.005, 0.0005));
+  EXPECT_LT(shift_of(0.005, 0.0005), shift_of(0.003, 0.0005));
 }
 
 TEST(NippleFinder, NoiseIsNoNipple) {
