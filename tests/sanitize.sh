@@ -12,12 +12,13 @@ case $kind in
   *) echo "neither address nor thread: $kind" >&2; exit 2 ;;
 esac
 folder=$root/build/sanitize_$kind
-cmake -S "$root" -B "$folder" -DCATKIN_ENABLE_TESTING=ON -DCMAKE_BUILD_TYPE=None -DTENSEGRIC_FIT_SANITIZE="$sanitizers" >/dev/null
-read -ra targets <<<"${TARGETS:-all}"
-cmake --build "$folder" --parallel "$(nproc)" --target "${targets[@]}"
+# For the build, too: it runs programs that make scans for tests.
 export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:detect_stack_use_after_return=1
 export LSAN_OPTIONS=suppressions=$root/tests/sanitize.leaks.txt:print_suppressions=0
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export TSAN_OPTIONS=suppressions=$root/tests/sanitize.threads.txt:halt_on_error=1
+cmake -S "$root" -B "$folder" -DCATKIN_ENABLE_TESTING=ON -DCMAKE_BUILD_TYPE=None -DTENSEGRIC_FIT_SANITIZE="$sanitizers" >/dev/null
+read -ra targets <<<"${TARGETS:-all}"
+cmake --build "$folder" --parallel "$(nproc)" --target "${targets[@]}"
 if (($# == 0)); then set -- -R gtest; fi
 ctest --test-dir "$folder" --output-on-failure --timeout 3000 "$@"
