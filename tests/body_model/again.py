@@ -18,7 +18,7 @@ import numpy as np
 import scipy.sparse
 import scipy.sparse.linalg
 
-COVER = .022                                      # m round a bust point: nipple and areola of all training women lie within
+COVER = .022                                      # m round a bust point: three times the width of the bump that bust_point.cpp looks for
 
 
 def without_nipples(points, triangles, nipples):

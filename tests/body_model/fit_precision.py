@@ -238,7 +238,7 @@ def main():
     kept = earlier['bodies'].split('; ')[-1] if earlier else ''
     if earlier and not kept.startswith(KEPT):
         kept = '%s, and %s, of %s' % (KEPT, kept, earlier['made'])
-    text, names, surfaces = '', set(), read_on_surfaces(o.mesh[0])
+    text, names, covered, surfaces = '', set(), set(), read_on_surfaces(o.mesh[0])
     for source in ('mesh', 'scan'):
         text += '%s:\n' % source
         print('%-20s %4s %9s %9s %9s  cut; mesh, model: bias mm, base mm, growth, slope; disagreement' % (source, 'n', 'median mm', '95 % mm', 'covered'))
@@ -247,6 +247,7 @@ def main():
         for key, rows in samples(*files[2:], surfaces).items() if files[2:] else ():
             if any(r.shift > 0 for r in women.get(key, ())):
                 women[key] += rows
+                covered |= {r.body for r in rows}
         for key, rows in sorted(women.items()):
             names |= {r.body for r in rows if not r.cut}
             growth = earlier and earlier[source][key]
@@ -270,8 +271,8 @@ def main():
                 *('-' if v is None else '%+.2f %.2f %.2f %.2f' % (1e3 * v[2], 1e3 * v[0], fit['growth'][k], v[1]) for k, v in (('mesh', m), ('model', b))), fit['disagreement'], 1e3 * np.median(width)))
     with open(o.out, 'w') as out:
         out.write('# How far off each figure may be: tests/body_model/fit_precision.py wrote this; error (m, median) and covered are of bodies left out.\n')
-        out.write('made: %s\nbodies: %d training women (%s to %s)%s\n' % (
-            datetime.date.today(), len(names), min(names), max(names), '; ' + kept if earlier else ''))
+        out.write('made: %s\nbodies: %d training women (%s to %s)%s%s\n' % (
+            datetime.date.today(), len(names), min(names), max(names), ', %d of them with covered breasts, too' % len(covered) if covered else '', '; ' + kept if earlier else ''))
         if earlier:
             out.write('span: {mesh: [%g, %g], scan: [%g, %g]}\n' % (*earlier['span']['mesh'], *earlier['span']['scan']))
         out.write(text)

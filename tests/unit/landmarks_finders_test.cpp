@@ -154,7 +154,8 @@ TEST(NippleFinder, TheLessClearABumpTheFurtherItMayBeMoved) {
     const NippledBall ball{height};
     const auto found =
         find_nipple(ball.surface(noise, 1), NippledBall::kRadius * ball.way, kDeviation, ball.way);
-    return found ? found->shift : std::numeric_limits<double>::infinity();
+    EXPECT_TRUE(found) << height << " " << noise;
+    return found ? found->shift : std::numeric_limits<double>::quiet_NaN();
   };
   EXPECT_LT(shift_of(0.005, 0), shift_of(0.003, 0));
   EXPECT_LT(shift_of(0.005, 0), shift_of(0.005, 0.0005));
