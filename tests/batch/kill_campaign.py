@@ -7,7 +7,7 @@ the same --results: each of --parts is a batch of its own, and has a line there.
 9,000 points (--kind scan).
 
 Usage: kill_campaign.py FOLDER_OF_THE_PROGRAMS --work DIR [--results FILE] [--rows N] [--parts P] [--full-scans F] [--bodies M] [--kind scan|mesh]
-[--seed S]"""
+[--seed S] [--jobs J] [--between-kills SECONDS]"""
 import argparse
 import csv
 import json
@@ -54,15 +54,15 @@ def manifest_of(folder, work, rows, arguments):
     return manifest
 
 
-def run_killed(command, seed, count):
-    """Kills the batch and its workers, as a power cut would, until it ends by itself; how often, over all starts, stands in the file
-    `count`."""
+def run_killed(command, seed, count, between):
+    """Kills the batch and its workers, as a power cut would, every `between` seconds on average, until it ends by itself; how often, over all
+    starts, stands in the file `count`."""
     kills = int(count.read_text()) if count.exists() else 0
     dice = random.Random(f"{seed} {kills}")
     while True:
         process = subprocess.Popen(command, start_new_session=True)
         try:
-            code = process.wait(dice.expovariate(1 / 25) + 1)
+            code = process.wait(dice.expovariate(1 / between) + 1)
             if code != 0:
                 raise RuntimeError(f"fit_batch ended with {code}")
             return kills
@@ -80,10 +80,12 @@ def run_part(part, work, arguments):
     rows = range(part * arguments.rows // arguments.parts, (part + 1) * arguments.rows // arguments.parts)
     manifest = manifest_of(folder, work, rows, arguments)
     fit_batch = arguments.programs / "fit_batch"
+    options = ["--quiet", *(["--jobs", str(arguments.jobs)] if arguments.jobs else [])]
     begin = time.monotonic()
-    kills = run_killed([fit_batch, manifest, "--out", folder / "killed", "--quiet"], f"{arguments.seed} {part}", folder / "kills.txt")
+    kills = run_killed([fit_batch, manifest, "--out", folder / "killed", *options], f"{arguments.seed} {part}", folder / "kills.txt",
+                       arguments.between_kills)
     middle = time.monotonic()
-    subprocess.run([fit_batch, manifest, "--out", folder / "alone", "--quiet"], check=True)
+    subprocess.run([fit_batch, manifest, "--out", folder / "alone", *options], check=True)
     end = time.monotonic()
     for name in ("killed", "alone"):
         subprocess.run([fit_batch, "merge", folder / name, "--out", folder / f"{name}_table", "--quiet"], check=True)
@@ -105,6 +107,8 @@ def main():
     parser.add_argument("--bodies", type=int, default=100)
     parser.add_argument("--kind", choices=("scan", "mesh"), default="scan")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, help="scans at once; default: one per core")
+    parser.add_argument("--between-kills", type=float, default=25, help="seconds, on average")
     arguments = parser.parse_args()
     work = arguments.work.resolve()
     work.mkdir(parents=True, exist_ok=True)
