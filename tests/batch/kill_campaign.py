@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A batch that is killed again and again: `fit_batch` with all its workers by SIGKILL at random times, until it is through. The merged
 table must have the same bytes as one of a batch that was left alone. Resumable: run it again with the same --work, or, where that is gone, with
-the same --results: each of --parts is a batch of its own, and has a line there.
+the same --results: each of --parts is a batch of its own, and has a line there. The seconds of a part that was resumed are those since then.
 
 --full-scans: so many of the rows, spread evenly, are clouds of full size; the others are meshes of 6,000 triangles (--kind mesh) or clouds of
 9,000 points (--kind scan).
