@@ -31,7 +31,8 @@ def nodes_at(master_uri, names):
         except OSError:  # ended meanwhile, or another user's
             continue
         name = next((word[8:] for word in words if word.startswith("__name:=")), None)
-        if name in names and f"ROS_MASTER_URI={master_uri}" in environment:
+        uri = next((word[15:] for word in environment if word.startswith("ROS_MASTER_URI=")), "").rstrip("/")  # roslaunch may add a /
+        if name in names and uri == master_uri:
             space = next((word[14:] for word in environment if word.startswith("ROS_NAMESPACE=")), "").strip("/")
             found[f"{space}/{name}"] = int(command.parent.name)
     return found

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Many scans through one launched chain: does a node grow, keep descriptors or threads, or get slower?
 
-Usage: build/devel/env.sh python3 tests/soak/soak.py [--scans N] [--points N] [--out FILE.csv]
+Usage: build/devel/env.sh python3 tests/soak/soak.py [--scans N] [--points N] [--config FILE.yaml] [--out FILE.csv]
 
-The same few scans come again and again, each when the one before is through. After each a row: seconds from scan to deformed body, and
+The same few scans come again and again, each when the one before is through; every 33rd is of full size. After each a row: seconds from scan to deformed body, and
 of each node anonymous memory (kB, /proc/PID/smaps_rollup), descriptors and threads. A run that was stopped goes on where it was: with the
 same chain where that still runs (the chain outlives a run that is killed), else with a new one, whose rows are another part. The verdict
 is by part; it leaves out the first scans of it, while heaps fill up, and compares medians of the first and the last rows after them.
@@ -26,6 +26,7 @@ from launched import free_port, nodes_at, points_of, program, wait_until
 
 NODES = ("reconstruction", "landmarks", "control_mesh", "tensegric", "tffd", "vault")
 POINTS, BODIES = 9000, 4
+FULL_POINTS, FULL_EVERY = 180000, 33  # 303 of 10,000 scans are of full size
 MEMORY = 0.01  # a node may have so much more at the end
 SLOWER = 0.25  # and a scan take so much longer: machines are shared
 
@@ -33,9 +34,9 @@ SLOWER = 0.25  # and a scan take so much longer: machines are shared
 class Chain:
     """roslaunch with a master of its own, and a client that sends scans and waits for the deformed body."""
 
-    def __init__(self, out):
+    def __init__(self, out, config):
         self.note, self.is_new = out.with_suffix(".chain"), False  # where it runs
-        port, self.pid = self.running() or self.launch(out.with_suffix(".log"))
+        port, self.pid = self.running() or self.launch(out.with_suffix(".log"), config)
         self.address(port)
         import rospy  # after the master's address is set
         from sensor_msgs.msg import PointCloud2
@@ -62,11 +63,11 @@ class Chain:
         except (OSError, ValueError):
             return None
 
-    def launch(self, log_path):
+    def launch(self, log_path, config):
         port = free_port()
         self.address(port)
         with open(log_path, "a", encoding="utf-8") as log:
-            process = subprocess.Popen(["roslaunch", "-p", str(port), "tensegric_fit", "pipeline.launch"], stdout=log, stderr=log, start_new_session=True)
+            process = subprocess.Popen(["roslaunch", "-p", str(port), "tensegric_fit", "pipeline.launch", *config], stdout=log, stderr=log, start_new_session=True)
         self.note.write_text(f"{port} {process.pid}")
         self.is_new = True
         return port, process.pid
@@ -84,13 +85,11 @@ class Chain:
         """Node -> process."""
         return {name.strip("/"): process for name, process in nodes_at(os.environ["ROS_MASTER_URI"], NODES).items()}
 
-    def scan(self, points, seconds):
-        from sensor_msgs import point_cloud2
-        from std_msgs.msg import Header
+    def scan(self, cloud, seconds):
         self.done.clear()
-        self.stamp = self.rospy.Time.now()
+        cloud.header.stamp = self.stamp = self.rospy.Time.now()
         begin = time.monotonic()
-        self.publisher.publish(point_cloud2.create_cloud_xyz32(Header(stamp=self.stamp, frame_id="booth"), points))
+        self.publisher.publish(cloud)
         if not self.done.wait(seconds):
             raise TimeoutError("no deformed body")
         return time.monotonic() - begin
@@ -123,7 +122,20 @@ def rows_of(path):
         return [row for row in csv.DictReader(file) if all(row.get(column) for column in columns())]
 
 
-def record(chain, clouds, scans, path):
+def clouds_of(points):
+    """A message per body, of scans of so many points."""
+    from sensor_msgs import point_cloud2
+    from std_msgs.msg import Header
+    clouds = []
+    with tempfile.TemporaryDirectory(prefix="soak_") as folder:
+        for n in range(BODIES):
+            subprocess.run([program("virtual_booth"), "--seed", str(n + 1), "--points", str(points), "--out", f"{folder}/{n}"],
+                           check=True, stdout=subprocess.DEVNULL)
+            clouds.append(point_cloud2.create_cloud_xyz32(Header(frame_id="booth"), points_of(pathlib.Path(folder) / f"{n}/scan.ply")))
+    return clouds
+
+
+def record(chain, small, full, scans, path):
     rows = rows_of(path)
     part = int(rows[-1]["part"]) + chain.is_new if rows else 1
     with open(path, "w", encoding="utf-8", newline="") as file:
@@ -132,7 +144,8 @@ def record(chain, clouds, scans, path):
         writer.writerows(rows)
         processes = chain.processes()
         for i in range(len(rows), scans):
-            seconds = chain.scan(clouds[i % len(clouds)], 120)
+            is_full = i % FULL_EVERY == FULL_EVERY - 1
+            seconds = chain.scan((full if is_full else small)[i % BODIES], 120)
             costs = [value for node in NODES for value in costs_of(processes[node])]
             writer.writerow(dict(zip(columns(), [part, i, f"{seconds:.3f}"] + costs)))
             file.flush()
@@ -167,19 +180,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scans", type=int, default=10000, help="rows of the file in all")
     parser.add_argument("--points", type=int, default=POINTS, help="of a scan")
+    parser.add_argument("--config", type=pathlib.Path, help="of the chain; launch/config/pipeline.yaml without it")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("soak.csv"))
     parser.add_argument("--verdict", action="store_true", help="of the rows that are there, and no scan")
     arguments = parser.parse_args()
     if not arguments.verdict:
-        with tempfile.TemporaryDirectory(prefix="soak_") as folder:
-            clouds = []
-            for n in range(BODIES):
-                subprocess.run([program("virtual_booth"), "--seed", str(n + 1), "--points", str(arguments.points), "--out", f"{folder}/{n}"],
-                               check=True, stdout=subprocess.DEVNULL)
-                clouds.append(points_of(pathlib.Path(folder) / f"{n}/scan.ply"))
-        chain = Chain(arguments.out)
+        chain = Chain(arguments.out, [f"config:={arguments.config.resolve()}"] if arguments.config else [])
         try:
-            record(chain, clouds, arguments.scans, arguments.out)
+            record(chain, clouds_of(arguments.points), clouds_of(FULL_POINTS), arguments.scans, arguments.out)
         except (TimeoutError, RuntimeError) as error:
             print(error, file=sys.stderr)
             return 2
