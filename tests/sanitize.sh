@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds with sanitizers in a folder of its own and runs tests under them: sanitize.sh address|thread [arguments of ctest].
 # Without arguments of ctest: all GoogleTest programs (units, stability, handlers), whose reports are errors. TARGETS: what to build
-# (all of them). Suppressions, each with its reason: tests/sanitize.*.txt.
+# (all of them). FOLDER: where (build/sanitize_KIND). Suppressions, each with its reason: tests/sanitize.*.txt.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 kind=${1:?"usage: sanitize.sh address|thread [arguments of ctest]"}
@@ -11,7 +11,7 @@ case $kind in
   thread) sanitizers=thread ;;
   *) echo "neither address nor thread: $kind" >&2; exit 2 ;;
 esac
-folder=$root/build/sanitize_$kind
+folder=${FOLDER:-$root/build/sanitize_$kind}
 # For the build, too: it runs programs that make scans for tests.
 export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:detect_stack_use_after_return=1
 export LSAN_OPTIONS=suppressions=$root/tests/sanitize.leaks.txt:print_suppressions=0

@@ -28,38 +28,41 @@ constexpr std::array<const char*, 10> kKeys{"VERSION", "FIELDS", "SIZE",      "T
                                             "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
 
 struct Header {
-  std::size_t fields = 0, types = 0;
+  std::size_t fields = 0;
+  std::vector<std::string> types;
   std::vector<std::uint64_t> sizes, counts;
   std::uint64_t width = 0, height = 1, points = 0;
   bool has_points = false;
   std::string data;
 };
 
-std::vector<std::uint64_t> numbers(std::istringstream& words) {
-  std::vector<std::uint64_t> result;
-  for (std::int64_t value; words >> value;) {
-    // Above 2^31 no product below can be meant.
-    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-    result.push_back(value < 0 || value > most ? most : value);
-  }
-  return result;
+std::vector<std::string> words_of(std::istringstream& line) {
+  return {std::istream_iterator<std::string>(line), std::istream_iterator<std::string>()};
 }
 
-std::size_t count_words(std::istringstream& words) {
-  return static_cast<std::size_t>(
-      std::distance(std::istream_iterator<std::string>(words), std::istream_iterator<std::string>()));
+/// False: something on the line is no number. PCL would read 0, or what stood there before.
+bool take_numbers(std::istringstream& line, std::vector<std::uint64_t>& numbers) {
+  // Above 2^31 no product below can be meant.
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  for (const std::string& word : words_of(line)) {
+    std::istringstream digits(word);
+    std::int64_t value = 0;
+    if (!(digits >> value) || !digits.eof()) return false;
+    numbers.push_back(value < 0 || value > most ? most : value);
+  }
+  return true;
 }
 
 /// False: the line is not understood.
-bool take_line(const std::string& key, std::istringstream& words, Header& header) {
-  if (key == "FIELDS") header.fields = count_words(words);
-  if (key == "TYPE") header.types = count_words(words);
-  if (key == "SIZE") header.sizes = numbers(words);
-  if (key == "COUNT") header.counts = numbers(words);
-  if (key == "DATA") words >> header.data;
+bool take_line(const std::string& key, std::istringstream& line, Header& header) {
+  if (key == "FIELDS") header.fields = words_of(line).size();
+  if (key == "TYPE") header.types = words_of(line);
+  if (key == "SIZE") return take_numbers(line, header.sizes);
+  if (key == "COUNT") return take_numbers(line, header.counts) && !header.counts.empty();
+  if (key == "DATA") line >> header.data;
   if (key != "WIDTH" && key != "HEIGHT" && key != "POINTS") return true;
-  const std::vector<std::uint64_t> value = numbers(words);
-  if (value.size() != 1) return false;
+  std::vector<std::uint64_t> value;
+  if (!take_numbers(line, value) || value.size() != 1) return false;
   if (key == "WIDTH") header.width = value[0];
   if (key == "HEIGHT") header.height = value[0];
   if (key == "POINTS") header.points = value[0], header.has_points = true;
@@ -98,6 +101,12 @@ bool goes_on(std::istream& file) {
   return false;
 }
 
+// The types that the format knows, and their bytes.
+bool is_type(const std::string& type, std::uint64_t bytes) {
+  if (type == "F") return bytes == 4 || bytes == 8;
+  return (type == "I" || type == "U") && (bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8);
+}
+
 // The header must not promise more points than the bytes after it can hold.
 void check_header(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -113,14 +122,17 @@ void check_header(const std::string& path) {
 
   if (header.fields == 0) throw Refusal(refusal::kBrokenFile, path + ": its PCD header names no fields");
   if (header.counts.empty()) header.counts.assign(header.sizes.size(), 1);
-  for (const std::size_t entries : {header.sizes.size(), header.types, header.counts.size()})
+  for (const std::size_t entries : {header.sizes.size(), header.types.size(), header.counts.size()})
     if (entries != header.fields)
       throw Refusal(refusal::kBrokenFile,
                     path + ": its PCD header has unlike numbers of FIELDS, SIZE, TYPE and COUNT entries");
   std::uint64_t step = 0, values = 0;
   for (std::size_t f = 0; f < header.sizes.size(); ++f) {
     constexpr std::uint64_t kLargestField = 1 << 20;
-    if (header.sizes[f] > 8 || header.counts[f] > kLargestField) throw shorter;
+    if (!is_type(header.types[f], header.sizes[f]))
+      throw Refusal(refusal::kBrokenFile, path + ": no PCD type '" + header.types[f] + "' has " +
+                                              std::to_string(header.sizes[f]) + " bytes");
+    if (header.counts[f] > kLargestField) throw shorter;
     step += header.sizes[f] * header.counts[f];
     values += header.counts[f];
   }

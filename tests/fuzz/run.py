@@ -18,8 +18,8 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CORPUS, DICTIONARIES = ROOT / "tests/fuzz/corpus", ROOT / "tests/fuzz/dictionaries"
-FLAGS = ("-g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined "
-         "-fprofile-instr-generate -fcoverage-mapping")
+FLAGS = ("-g1 -O2 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined "
+         f"-fsanitize-coverage-allowlist={ROOT}/tests/fuzz/covered.txt -fprofile-instr-generate -fcoverage-mapping")
 TESTED = {  # whose lines count
     "bag": ["nodes/files/bag_structure.cpp", "nodes/files/message_layout.cpp", "nodes/ros/bag_check.cpp", "nodes/ros/bag_scans.cpp", "nodes/scan_files/bag_messages.cpp",
             "nodes/scan_files/scan_bag.cpp"],

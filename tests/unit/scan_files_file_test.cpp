@@ -194,6 +194,17 @@ TEST_F(ScanFileTest, APcdHeaderOutOfOrderOrWithoutFieldsIsRefused) {
   EXPECT_EQ(refusal_of(text_file("a.pcd", fields + rest + end)), "accepted") << "as it should be";
 }
 
+// Found by fuzzing: PCL took words for the number 0, and read beyond its fields.
+TEST_F(ScanFileTest, APcdHeaderWithWordsForNumbersOrUnknownTypesIsRefused) {
+  const std::string fields = "FIELDS x y z\n", size = "SIZE 4 4 4\n", type = "TYPE F F F\n",
+                    end = "WIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n0 0 0\n1 1 1\n";
+  for (const std::string& header :
+       {size + type + "COUNT null 1 1\n", size + type + "COUNT 1 1 1 null\n", size + type + "COUNT\n",
+        "SIZE 4 4 4x\n" + type, "SIZE 4 4 3\n" + type, "SIZE 4 4 2\n" + type, size + "TYPE F null 0\n"})
+    EXPECT_EQ(refusal_of(text_file("a.pcd", fields + header + end)), geometry::refusal::kBrokenFile) << header;
+  EXPECT_EQ(refusal_of(text_file("a.pcd", fields + size + type + end)), "accepted") << "as it should be";
+}
+
 // Found by fuzzing: PCL's reader read beyond the file.
 TEST_F(ScanFileTest, APcdWhoseDataBeginAsALineOfItsHeaderIsRefused) {
   const std::string header =
