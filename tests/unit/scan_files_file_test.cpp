@@ -201,7 +201,8 @@ TEST_F(ScanFileTest, APcdHeaderWithWordsForNumbersOrUnknownTypesIsRefused) {
   for (const std::string& header :
        {size + type + "COUNT null 1 1\n", size + type + "COUNT 1 1 1 null\n", size + type + "COUNT\n",
         "SIZE 4 4 4x\n" + type, "SIZE 4 4 3\n" + type, "SIZE 4 4 2\n" + type, size + "TYPE F null 0\n"})
-    EXPECT_EQ(refusal_of(text_file("a.pcd", fields + header + end)), geometry::refusal::kBrokenFile) << header;
+    EXPECT_EQ(refusal_of(text_file("a.pcd", fields + header + end)), geometry::refusal::kBrokenFile)
+        << header;
   EXPECT_EQ(refusal_of(text_file("a.pcd", fields + size + type + end)), "accepted") << "as it should be";
 }
 
