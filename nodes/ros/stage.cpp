@@ -3,6 +3,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <diagnostic_msgs/KeyValue.h>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <chrono>
@@ -14,6 +15,10 @@ namespace tensegric_fit::node {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
+
+/// Without work for so long, what it freed goes back to the system, which clears it before others get it. The
+/// allocator keeps it otherwise, more after each larger scan.
+constexpr std::chrono::milliseconds kIdle(50);
 
 diagnostic_msgs::KeyValue fact(const std::string& key, const std::string& value) {
   diagnostic_msgs::KeyValue pair;
@@ -103,11 +108,19 @@ void Stage::drop(const std::string& scan_id, const geometry::Refusal& refusal) {
 }
 
 void Stage::serve() {
+  bool worked = false;  // since memory was given back
+  const auto is_wanted = [this] { return stopping_ || waiting_.has_value(); };
   while (true) {
     Job job;
     {
       std::unique_lock<std::mutex> lock(mutex_);
-      wake_.wait(lock, [this] { return stopping_ || waiting_.has_value(); });
+      if (worked && !wake_.wait_for(lock, kIdle, is_wanted)) {
+        lock.unlock();
+        malloc_trim(0);
+        worked = false;
+        lock.lock();
+      }
+      wake_.wait(lock, is_wanted);
       if (stopping_) return;
       job = std::move(*waiting_);
       waiting_.reset();
@@ -115,6 +128,7 @@ void Stage::serve() {
     HeldScan::of_process().work(true);
     run(job);
     HeldScan::of_process().work(false);
+    worked = true;
   }
 }
 
