@@ -65,6 +65,8 @@ class Reader {
     std::vector<std::string> names, fields;
     for (line_ = 1; files::read_csv_row(stream, fields, line_); ++line_) {
       if (fields.size() == 1 && fields[0].empty()) continue;
+      for (const std::string& field : fields)
+        if (!is_text(field)) throw fault_here("is not UTF-8");
       if (names.empty()) {
         names = fields;
         check_names(names);
@@ -75,6 +77,16 @@ class Reader {
       Job job;
       for (std::size_t i = 0; i < names.size(); ++i) add(job, names[i], split(names[i], fields[i]));
       take(std::move(job));
+    }
+  }
+
+  /// UTF-8: workers are given it as JSON.
+  static bool is_text(const std::string& field) {
+    try {
+      UnorderedJson(field).dump();
+      return true;
+    } catch (const UnorderedJson::type_error&) {
+      return false;
     }
   }
 
@@ -119,19 +131,17 @@ class Reader {
   }
 
   std::vector<std::string> words_of(const std::string& name, const UnorderedJson& value) const {
+    if (!value.is_array()) return {word_of(name, value)};
     std::vector<std::string> words;
-    for (const UnorderedJson& part : value.is_array() ? value : UnorderedJson::array({value})) {
-      if (part.is_string()) {
-        words.push_back(part.get<std::string>());
-      } else if (part.is_number()) {
-        words.push_back(part.dump());
-      } else if (part.is_boolean()) {
-        words.emplace_back(part.get<bool>() ? "true" : "false");
-      } else {
-        throw fault_here("'" + name + "' is no text, number or list of them");
-      }
-    }
+    for (const UnorderedJson& part : value) words.push_back(word_of(name, part));
     return words;
+  }
+
+  std::string word_of(const std::string& name, const UnorderedJson& value) const {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number()) return value.dump();
+    if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+    throw fault_here("'" + name + "' is no text, number or list of them");
   }
 
   void add(Job& job, const std::string& name, std::vector<std::string> words) const {

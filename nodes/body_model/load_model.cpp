@@ -16,6 +16,8 @@ constexpr double kRounding = 0.001;                          // that shares of a
 constexpr double kLeastStature = 1, kGreatestStature = 2.5;  // m
 constexpr double kByte = 255;  // weights are shares in 255ths (definition of the format: README.md)
 
+constexpr int kMost = 256;  // bones, parts: a vertex names them by a byte
+
 bool is_index(double value, std::size_t size) {
   return value >= 0 && value < static_cast<double>(size);
 }
@@ -26,7 +28,7 @@ void take_header(const Json& header, const Check& check, Model& model) {
   check(model.stature > kLeastStature && model.stature < kGreatestStature, "stature is not in metres");
   for (const Json& bone : header.at("bones")) model.bones.push_back({bone.at("name"), bone.at("parent")});
   const int count = static_cast<int>(model.bones.size());
-  check(count > 0, "no bones");
+  check(count > 0 && count <= kMost, "number of bones");
   for (int b = 0; b < count; ++b)
     check(model.bones[b].parent >= (b == 0 ? -1 : 0) && model.bones[b].parent < b,
           "a bone's parent must stand before it");
@@ -38,6 +40,7 @@ void take_header(const Json& header, const Check& check, Model& model) {
       check(bone > 0 && bone < count && share > 0 && share <= 1, "a group's bone");
   }
   model.parts = header.at("parts").get<std::vector<std::string>>();
+  check(model.parts.size() <= kMost, "number of parts");
   for (const Json& point : header.at("skin_points"))
     model.skin_points.push_back({point.at("name"), point.at("vertices")});
   for (const Json& point : header.at("bone_points")) {

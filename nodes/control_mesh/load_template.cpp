@@ -65,6 +65,8 @@ std::vector<ModelPoint> model_points_from(const YAML::Node& node, const std::str
   };
   if (!list.IsSequence() || list.size() == 0)
     refuse("must be a list of pairs, each a vertex number or the name of a skin point, and its share");
+  constexpr std::size_t kMost = 64;  // a corner of the skin needs three
+  if (list.size() > kMost) refuse("must have 64 pairs at most");
   std::vector<ModelPoint> points;
   double sum = 0;
   for (const YAML::Node& pair : list) {

@@ -34,7 +34,7 @@ void check_pixels(const sensor_msgs::Image& image) {
   if (image.is_bigendian) throw Refusal(refusal::kWrongFields, "the depth image is big-endian");
   constexpr std::uint32_t kLargest = 8192;
   if (image.width == 0 || image.height == 0 || image.width > kLargest || image.height > kLargest ||
-      image.step < image.width * bytes->second ||
+      image.step < image.width * bytes->second || image.step % bytes->second != 0 ||
       image.data.size() != static_cast<std::size_t>(image.step) * image.height)
     throw Refusal(refusal::kBrokenFile,
                   fmt::format("the depth image of {} x {} pixels, {} bytes a row, has {} bytes", image.width,

@@ -21,6 +21,8 @@ namespace {
 
 constexpr Bytes kFirstLine = "#ROSBAG V2.0\n";
 constexpr std::uint64_t kLargestChunk = 1u << 30;  // bytes unpacked; scans have some tens of millions
+// Bytes of all chunks unpacked may be so many, or so many times the file's: LZ4 makes at most 255 of 1.
+constexpr std::uint64_t kAlwaysAllowed = 1u << 28, kLargestRatio = 300;
 enum Op : std::uint8_t { kMessage = 2, kBag = 3, kIndex = 4, kChunk = 5, kChunkInfo = 6, kConnection = 7 };
 
 /// name=value pairs.
@@ -40,6 +42,7 @@ class Fields {
     check(found != values_.end(), "lacks a header field");
     return found->second;
   }
+  bool has(Bytes name) const { return values_.count(name) != 0; }
   template <typename Number>
   Number number(Bytes name) const {
     return number_in<Number>(text(name));
@@ -61,8 +64,24 @@ Record take_record(Bytes& rest) {
   return {header, data, static_cast<Op>(header.number<std::uint8_t>("op"))};
 }
 
+// The blocks of an LZ4 frame: roslz4 copies one that is not compressed without a look at its own buffer.
+void check_lz4(Bytes frame) {
+  const Bytes head = take(frame, 7);  // magic number, flags, sizes of blocks, checksum
+  const int size = static_cast<unsigned char>(head[5]) >> 4 & 7;
+  check(size >= 4, "has an LZ4 chunk of unknown block size");
+  const std::uint64_t limit = std::uint64_t{1} << (8 + 2 * size);  // 64 kB, 256 kB, 1 MB, 4 MB
+  constexpr std::uint32_t kIsPlain = 1u << 31;
+  while (const std::uint32_t length = take_length(frame) & ~kIsPlain) {
+    check(length <= limit, "has an LZ4 block that is larger than its blocks are");
+    take(frame, length);
+  }
+  take(frame, 4);  // checksum of the whole
+  check(frame.empty(), "has bytes after an LZ4 chunk");
+}
+
 std::string unpacked(Bytes packed, Bytes compression, std::uint64_t size) {
   check(size <= kLargestChunk, "has a chunk that is too large");
+  if (compression == "lz4") check_lz4(packed);
   std::string bytes(size, '\0');
   auto length = static_cast<unsigned int>(size);
   const auto packed_length = static_cast<unsigned int>(packed.size());
@@ -84,15 +103,18 @@ class Walk {
     check(take(rest, std::min(rest.size(), kFirstLine.size())) == kFirstLine, "is no bag of version 2.0");
     const Record bag = take_record(rest);
     check(bag.op == kBag, "does not begin with a bag's header");
-    const auto index = bag.header.number<std::uint64_t>("index_pos");
-    bag.header.number<std::uint32_t>("conn_count");
-    bag.header.number<std::uint32_t>("chunk_count");
-    if (index == 0) return;  // cut off: rosbag reads no further
+    check(!bag.header.has("encryptor"), "is encrypted");
+    index_ = bag.header.number<std::uint64_t>("index_pos");
+    const auto connections = bag.header.number<std::uint32_t>("conn_count"),
+               chunks = bag.header.number<std::uint32_t>("chunk_count");
+    if (index_ == 0) return;  // cut off: rosbag reads no further
     while (!rest.empty()) {
       at_.insert(file_.size() - rest.size());
       one(take_record(rest));
     }
-    check(at_.count(index) != 0 || index == file_.size(), "has its index elsewhere");
+    check(at_.count(index_) != 0 || index_ == file_.size(), "has its index elsewhere");
+    check(connections_.size() == connections && wanted_chunks_.size() == chunks,
+          "has an index of another size");
     for (const std::uint64_t chunk : wanted_chunks_)
       check(chunks_.count(chunk) != 0, "has no chunk where it says");
     for (const std::uint32_t connection : wanted_)
@@ -111,7 +133,8 @@ class Walk {
         break;
       case kChunkInfo:
         check(record.header.number<std::uint32_t>("ver") == 1, "has an index of another version");
-        wanted_chunks_.insert(record.header.number<std::uint64_t>("chunk_pos"));
+        check(wanted_chunks_.insert(record.header.number<std::uint64_t>("chunk_pos")).second,
+              "names a chunk twice");
         record.header.number<std::uint64_t>("start_time");
         record.header.number<std::uint64_t>("end_time");
         check(record.data.size() == std::uint64_t{8} * record.header.number<std::uint32_t>("count"),
@@ -119,19 +142,22 @@ class Walk {
         for (Bytes rest = record.data; !rest.empty(); take(rest, 4))
           wanted_.insert(number_in<std::uint32_t>(take(rest, 4)));
         break;
-      case kConnection:
-        connection(record);
+      case kConnection: {
+        const std::uint32_t number = connection(record);
+        if (*at_.rbegin() >= index_)  // rosbag knows no others
+          check(connections_.insert(number).second, "has a connection twice");
         break;
+      }
       default:
         throw Fault{"has a record of an unknown kind"};
     }
   }
 
-  void connection(const Record& record) {
-    connections_.insert(record.header.number<std::uint32_t>("conn"));
+  static std::uint32_t connection(const Record& record) {
     record.header.text("topic");
     const Fields described(record.data);
     for (const Bytes name : {"type", "md5sum", "message_definition"}) described.text(name);
+    return record.header.number<std::uint32_t>("conn");
   }
 
   void chunk(const Record& record) {
@@ -143,6 +169,9 @@ class Walk {
       return inside(record.data);
     }
     check(compression == "bz2" || compression == "lz4", "has a chunk of unknown compression");
+    unpacked_ += size;
+    check(unpacked_ <= std::max(kAlwaysAllowed, kLargestRatio * file_.size()),
+          "has chunks that are far larger than it is");
     inside(unpacked(record.data, compression, size));
   }
 
@@ -178,6 +207,7 @@ class Walk {
   Bytes file_;
   std::set<std::uint64_t> at_, chunks_, wanted_chunks_;  // positions of records
   std::set<std::uint32_t> connections_, wanted_;
+  std::uint64_t index_ = 0, unpacked_ = 0;
   std::map<std::uint64_t, std::uint32_t> messages_;  // of the last chunk: position -> connection
 };
 
@@ -185,7 +215,7 @@ class Walk {
 class MappedFile {
  public:
   explicit MappedFile(const std::string& path) {
-    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe would wait for a writer
     struct stat status {};
     if (file >= 0 && fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0) {
       size_ = static_cast<std::size_t>(status.st_size);

@@ -8,47 +8,15 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
+#include "geometry/ply_header.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::geometry {
-namespace {
-
-// PCL allocates what the header declares: a header that declares more than the file can hold is refused
-// first.
-void check_header(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Refusal(refusal::kBrokenFile, path + ": does not exist or cannot be read");
-  std::string line;
-  if (!std::getline(file, line) || line.compare(0, 3, "ply") != 0)
-    throw Refusal(refusal::kBrokenFile, path + ": is not a PLY file");
-  std::error_code no_size;
-  const auto size = std::filesystem::file_size(path, no_size);
-  if (no_size) throw Refusal(refusal::kBrokenFile, path + ": is not a regular file");
-  constexpr int kHeaderLines = 1000;
-  bool of_vertices = false;
-  for (int i = 0; i < kHeaderLines && std::getline(file, line); ++i) {
-    if (line.compare(0, 10, "end_header") == 0) return;
-    std::istringstream words(line);
-    std::string what, name;
-    words >> what >> name;
-    if (what == "property" && name == "list" && of_vertices)  // PCL ends the process
-      throw Refusal(refusal::kBrokenFile, path + ": its vertices have a property that is a list");
-    if (what != "element") continue;
-    of_vertices = name == "vertex";
-    unsigned long long count = 0;
-    if (words >> count && count > size)
-      throw Refusal(refusal::kBrokenFile, path + ": is shorter than its header says");
-  }
-  throw Refusal(refusal::kBrokenFile, path + ": has no complete PLY header");
-}
-
-}  // namespace
 
 void read_ply(const std::string& path, pcl::PolygonMesh& mesh) {
-  check_header(path);
+  check_ply_header(path);
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // the refusal carries its messages
   int result = -1;
   try {

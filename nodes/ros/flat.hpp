@@ -19,7 +19,9 @@ std::vector<Scalar> flat(const std::vector<Eigen::Vector3d>& points) {
   return values;
 }
 
-/// \throw Refusal bad_mesh: not a multiple of three; non_finite
+inline constexpr double kFarthest = 1e7;  // m; no map reaches farther, and no ratio of areas overflows
+
+/// \throw Refusal bad_mesh: not a multiple of three, or beyond kFarthest; non_finite
 template <typename Scalar>
 std::vector<Eigen::Vector3d> points_in(const std::vector<Scalar>& values) {
   if (values.size() % 3 != 0)
@@ -30,6 +32,8 @@ std::vector<Eigen::Vector3d> points_in(const std::vector<Scalar>& values) {
     points.emplace_back(values[i], values[i + 1], values[i + 2]);
     if (!points.back().allFinite())
       throw geometry::Refusal(geometry::refusal::kNonFinite, "a position of the message is not finite");
+    if (points.back().cwiseAbs().maxCoeff() > kFarthest)
+      throw geometry::Refusal(geometry::refusal::kBadMesh, "a position of the message is 10,000 km away");
   }
   return points;
 }

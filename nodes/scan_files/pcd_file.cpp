@@ -75,9 +75,13 @@ Header read_header(std::istream& file, const std::string& path) {
   constexpr int kHeaderLines = 1000;
   auto next = kKeys.begin();
   for (int i = 0; i < kHeaderLines && std::getline(file, line); ++i) {
+    // PCL parts words at blanks, tabs and returns alone, and ends the header at a line of nothing else.
+    const auto is_odd = [](unsigned char c) { return c < ' ' && c != '\t' && c != '\r'; };
+    if (std::any_of(line.begin(), line.end(), is_odd)) break;
     std::istringstream words(line);
     std::string key;
     words >> key;
+    if (key.empty() && !line.empty()) break;
     if (key.empty() || key[0] == '#') continue;
     const auto known = std::find(next, kKeys.end(), key);
     if (known == kKeys.end() || !take_line(key, words, header)) break;
@@ -109,9 +113,10 @@ bool is_type(const std::string& type, std::uint64_t bytes) {
 
 // The header must not promise more points than the bytes after it can hold.
 void check_header(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || !std::filesystem::is_regular_file(path))
-    throw Refusal(refusal::kBrokenFile, path + ": does not exist or cannot be read");
+  std::error_code none;
+  std::ifstream file;
+  if (std::filesystem::is_regular_file(path, none)) file.open(path, std::ios::binary);
+  if (!file.is_open()) throw Refusal(refusal::kBrokenFile, path + ": does not exist or cannot be read");
   Header header = read_header(file, path);
   const std::istream::pos_type data = file.tellg();
   if (goes_on(file)) throw Refusal(refusal::kBrokenFile, path + ": its PCD header goes on after DATA");
@@ -128,25 +133,28 @@ void check_header(const std::string& path) {
                     path + ": its PCD header has unlike numbers of FIELDS, SIZE, TYPE and COUNT entries");
   std::uint64_t step = 0, values = 0;
   for (std::size_t f = 0; f < header.sizes.size(); ++f) {
-    constexpr std::uint64_t kLargestField = 1 << 20;
+    constexpr std::uint64_t kLargestField = 1 << 20, kLargestPoint = 1 << 24;
     if (!is_type(header.types[f], header.sizes[f]))
       throw Refusal(refusal::kBrokenFile, path + ": no PCD type '" + header.types[f] + "' has " +
                                               std::to_string(header.sizes[f]) + " bytes");
+    if (header.counts[f] == 0)  // PCL removes such a field, and may be left without any
+      throw Refusal(refusal::kBrokenFile, path + ": its PCD header has a field of no values");
     if (header.counts[f] > kLargestField) throw shorter;
     step += header.sizes[f] * header.counts[f];
     values += header.counts[f];
+    if (step > kLargestPoint) throw shorter;  // keeps the products below in range
   }
   const std::uint64_t points = header.width * header.height;
   if (header.has_points && header.points != points)
     throw Refusal(refusal::kBrokenFile, path + ": POINTS is not WIDTH times HEIGHT");
-  if (points > rest * 100) throw shorter;  // keeps the products below in range
+  if (points > rest * 100) throw shorter;
   if (header.data == "binary") {
     if (points * step > rest) throw shorter;
   } else if (header.data == "binary_compressed") {
     std::uint32_t sizes[2] = {0, 0};              // compressed, uncompressed
     constexpr std::uint64_t kLargestRatio = 100;  // LZF makes at most 264 bytes of 3
     if (!file.read(reinterpret_cast<char*>(sizes), sizeof sizes) || sizes[0] > rest - sizeof sizes ||
-        sizes[1] != points * step || sizes[1] > kLargestRatio * sizes[0])
+        sizes[0] == 0 || sizes[1] != points * step || sizes[1] > kLargestRatio * sizes[0])
       throw shorter;
   } else if (header.data == "ascii") {
     if (points * values * 2 > rest + 1) throw shorter;  // a digit and a separator each

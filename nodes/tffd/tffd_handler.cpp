@@ -1,6 +1,8 @@
 #include "tffd/tffd_handler.hpp"
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
+#include <limits>
 
 #include "ros/body_messages.hpp"
 #include "ros/flat.hpp"
@@ -84,7 +86,9 @@ TffdHandler::Output TffdHandler::handle(const Input& input) {
   message->garment = fit->garment;
   message->status = fit->status;
   message->vertices = flat<float>(vertices);
-  message->distortion.assign(distortion.begin(), distortion.end());
+  for (const double ratio : distortion)  // of a triangle of hardly any area it may be beyond all floats
+    message->distortion.push_back(
+        static_cast<float>(std::min<double>(ratio, std::numeric_limits<float>::max())));
   message->volume_before = bound_->volume;
   message->volume_after = geometry::cone_volume(vertices, bound_->mesh.triangles);
   scan.deformed = message;

@@ -73,6 +73,13 @@ class FitBatch(unittest.TestCase):
     def start(self, *arguments):
         return subprocess.Popen([PROGRAMS / "fit_batch", *map(str, arguments), "--quiet"], stderr=subprocess.DEVNULL)
 
+    def code_where_a_worker_gets(self, number, folder):
+        process = self.start(self.manifest, "--out", folder, "--jobs", 1)
+        wait_until(lambda: descendants(process.pid))
+        time.sleep(0.2)
+        os.kill(descendants(process.pid)[0], number)
+        return process.wait()
+
     def merged(self, *folders):
         """Exit code of the merger and the table."""
         out = self.folder / "merged_again"
@@ -155,11 +162,7 @@ class FitBatch(unittest.TestCase):
 
     def test_a_crash_takes_one_scan_with_it(self):
         folder = self.folder / "crash"
-        process = self.start(self.manifest, "--out", folder, "--jobs", 1)
-        wait_until(lambda: descendants(process.pid))
-        time.sleep(0.2)
-        os.kill(descendants(process.pid)[0], signal.SIGSEGV)
-        self.assertEqual(process.wait(), 0)
+        self.assertEqual(self.code_where_a_worker_gets(signal.SIGSEGV, folder), 0)
         lines = {line["row"]: line for line in lines_of(folder)}
         crashed = [line for line in lines.values() if line["status"] == "crashed"]
         self.assertEqual(len(lines), self.rows)
@@ -167,6 +170,15 @@ class FitBatch(unittest.TestCase):
         self.assertIn("signal 11", crashed[0]["reason"]["message"])
         self.assertEqual(fit_batch(self.manifest, "--out", folder, "--retry").returncode, 0)
         self.assertEqual(self.merged(folder), (0, self.table))
+
+    def test_a_worker_that_is_interrupted_leaves_its_row_to_the_next_start(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            folder = self.folder / f"interrupted_{int(number)}"
+            self.assertEqual(self.code_where_a_worker_gets(number, folder), 130)
+            self.assertEqual(len(lines_of(folder)), self.rows - 1)
+            self.assertNotIn("crashed", [line["status"] for line in lines_of(folder)])
+            self.assertEqual(fit_batch(self.manifest, "--out", folder).returncode, 0)
+            self.assertEqual(self.merged(folder), (0, self.table))
 
     def test_a_hang_takes_one_scan_with_it(self):
         folder = self.folder / "hang"
@@ -242,9 +254,12 @@ class FitBatch(unittest.TestCase):
             done = fit_batch(manifest, "--out", self.folder / "bad")
             self.assertEqual(done.returncode, 3, text)
             self.assertIn(message, done.stderr, text)
+        manifest.write_bytes(b"scan\nM\xfcller.ply\n")
+        self.assertIn("line 2: is not UTF-8", fit_batch(manifest, "--out", self.folder / "bad").stderr)
         manifest = self.folder / "bad.jsonl"
         for text, message in {'{"scan": "w1/scan.ply"}\n[1]\n': "line 2: is no JSON object",
                               '{"scan": {"a": 1}}\n': "line 1: 'scan' is no text",
+                              '{"scan":' + 200000 * "[" + 200000 * "]" + "}\n": "line 1: 'scan' is no text",
                               '{"colour": 1}\n': "line 1: there is no column 'colour'"}.items():
             manifest.write_text(text)
             done = fit_batch(manifest, "--out", self.folder / "bad")

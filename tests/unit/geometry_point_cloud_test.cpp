@@ -33,7 +33,7 @@ struct Organised {
   std::vector<Eigen::Vector3d> points;
 };
 
-std::string refusal_of(const pcl::PCLPointCloud2& cloud) {
+std::string refusal_of_cloud(const pcl::PCLPointCloud2& cloud) {
   try {
     points_of(cloud);
   } catch (const Refusal& refusal) {
@@ -73,14 +73,14 @@ TEST(PointsOf, ASensorOfOneByteIsKept) {
   organised.cloud.fields.back().datatype = Field::FLOAT32;  // somebody else's
   EXPECT_TRUE(points_of(organised.cloud).sensor.empty());
   organised.cloud.fields.back() = {"sensor", 16, Field::UINT8, 1};
-  EXPECT_EQ(refusal_of(organised.cloud), "wrong_fields");
+  EXPECT_EQ(refusal_of_cloud(organised.cloud), "wrong_fields");
 }
 
 TEST(PointsOf, ASizeThatTheDataContradictIsRefused) {
   const auto changed = [](auto change) {
     Organised organised;
     change(organised.cloud);
-    return refusal_of(organised.cloud);
+    return refusal_of_cloud(organised.cloud);
   };
   using Cloud = pcl::PCLPointCloud2;
   EXPECT_EQ(changed([](Cloud& c) { c.width = 4; }), "broken_file");

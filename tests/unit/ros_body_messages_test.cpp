@@ -37,6 +37,9 @@ TEST(BodyMessages, BrokenMeshesAreRefusedByName) {
   bad = good;
   bad.vertices[3] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(code_of([&] { mesh_in(bad); }), "non_finite");
+  bad.vertices[3] = 1e38f;
+  EXPECT_EQ(code_of([&] { mesh_in(bad); }), "bad_mesh")
+      << "areas of it are beyond all floats; found by fuzzing";
   bad = good;
   bad.filled.pop_back();
   EXPECT_EQ(code_of([&] { filled_in(bad); }), "bad_mesh");

@@ -199,11 +199,28 @@ TEST_F(ScanFileTest, APcdHeaderWithWordsForNumbersOrUnknownTypesIsRefused) {
   const std::string fields = "FIELDS x y z\n", size = "SIZE 4 4 4\n", type = "TYPE F F F\n",
                     end = "WIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n0 0 0\n1 1 1\n";
   for (const std::string& header :
-       {size + type + "COUNT null 1 1\n", size + type + "COUNT 1 1 1 null\n", size + type + "COUNT\n",
-        "SIZE 4 4 4x\n" + type, "SIZE 4 4 3\n" + type, "SIZE 4 4 2\n" + type, size + "TYPE F null 0\n"})
+       {size + type + "COUNT null 1 1\n", size + type + "COUNT 0 0 0\n", size + type + "COUNT 1 1 1 null\n",
+        size + type + "COUNT\n", "SIZE 4 4 4x\n" + type, "SIZE 4 4 3\n" + type, "SIZE 4 4 2\n" + type,
+        size + "TYPE F null 0\n"})
     EXPECT_EQ(refusal_of(text_file("a.pcd", fields + header + end)), geometry::refusal::kBrokenFile)
         << header;
   EXPECT_EQ(refusal_of(text_file("a.pcd", fields + size + type + end)), "accepted") << "as it should be";
+}
+
+// PCL parts words at other characters, and ends a header at a line of blanks: it then wrote beyond its
+// points.
+TEST_F(ScanFileTest, APcdHeaderThatPclPartsInAnotherWayIsRefused) {
+  const std::string head = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\n";
+  for (const std::string& text :
+       {head + "DATA\fascii binary_compressed\n0 0 0\n1 1 1\n", head + "\r\nDATA ascii\n0 0 0\n1 1 1\n",
+        head + " \nDATA ascii\n0 0 0\n1 1 1\n", head + "DATA binary_compressed\n" + std::string(8, '\0')})
+    EXPECT_EQ(refusal_of(text_file("a.pcd", text)), geometry::refusal::kBrokenFile) << text;
+  std::string huge = "FIELDS", sizes = "\nSIZE", types = "\nTYPE", counts = "\nCOUNT";
+  for (int i = 0; i < 20; ++i)
+    huge += " f" + std::to_string(i), sizes += " 8", types += " F", counts += " 1048576";
+  EXPECT_EQ(refusal_of(text_file("a.pcd",
+                                 huge + sizes + types + counts + "\nWIDTH 100\nHEIGHT 1\nDATA binary\nxxxx")),
+            geometry::refusal::kBrokenFile);
 }
 
 // Found by fuzzing: PCL's reader read beyond the file.

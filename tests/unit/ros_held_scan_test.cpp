@@ -1,0 +1,82 @@
+/// What a node answers to `forget` while its worker is at it. The order of the calls is that of Stage.
+#include <gtest/gtest.h>
+
+#include "ros/held_scan.hpp"
+
+namespace tensegric_fit::node {
+namespace {
+
+class HeldScanTest : public testing::Test {
+ protected:
+  /// A scan has come, and work on it waits.
+  void take(const std::string& scan_id) {
+    held_.begin(scan_id);
+    held_.wait(scan_id);
+  }
+
+  void do_work(const std::string& scan_id) {
+    held_.work(scan_id);
+    held_.publish(scan_id);
+    held_.rest();
+  }
+
+  HeldScan held_;
+};
+
+/// Once answered with "nothing held" while it was published, and latched afterwards.
+TEST_F(HeldScanTest, AScanIsHeldWhileItIsWorkedOnThoughANewerOneHasCome) {
+  take("b");
+  held_.work("b");
+  take("c");
+  EXPECT_TRUE(held_.holds("b"));
+  EXPECT_TRUE(held_.works_on_other("b")) << "c would be lost";
+  held_.publish("b");
+  held_.rest();
+  EXPECT_TRUE(held_.holds("b")) << "it is latched";
+  EXPECT_TRUE(held_.works_on_other("b")) << "c waits";
+  do_work("c");
+  EXPECT_FALSE(held_.works_on_other("b"));
+  EXPECT_FALSE(held_.holds("b"));
+  EXPECT_TRUE(held_.holds("c"));
+}
+
+TEST_F(HeldScanTest, AScanIsNotHeldOnceWorkOnItWasDropped) {
+  take("b");
+  held_.work("b");
+  held_.begin("c");
+  EXPECT_TRUE(held_.holds("b"));
+  EXPECT_TRUE(held_.works_on_other("b"));
+  held_.rest();
+  EXPECT_FALSE(held_.works_on_other("b"));
+  EXPECT_FALSE(held_.holds("b"));
+}
+
+/// Once thrown away where the order came before the worker had begun it.
+TEST_F(HeldScanTest, WorkThatWaitsIsNotLostForAnotherScan) {
+  take("a");
+  do_work("a");
+  EXPECT_FALSE(held_.works_on_other("a"));
+  take("b");
+  EXPECT_TRUE(held_.holds("a"));
+  EXPECT_TRUE(held_.works_on_other("a"));
+  EXPECT_FALSE(held_.works_on_other("b")) << "work on the scan itself need not be finished";
+  do_work("b");
+  EXPECT_FALSE(held_.holds("a"));
+}
+
+TEST_F(HeldScanTest, NothingIsHeldAfterANewStartButWhatIsForgottenStaysSo) {
+  take("a");
+  held_.work("a");
+  held_.publish("a");
+  take("b");
+  held_.forget("a");
+  held_.clear();
+  EXPECT_FALSE(held_.holds("a"));
+  EXPECT_FALSE(held_.holds("b"));
+  EXPECT_FALSE(held_.works_on_other("a"));
+  EXPECT_TRUE(held_.is_forgotten("a"));
+  EXPECT_FALSE(held_.is_forgotten("b"));
+}
+
+}  // namespace
+}  // namespace tensegric_fit::node
