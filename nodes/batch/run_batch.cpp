@@ -93,7 +93,7 @@ class Batch {
       for (const Finished& finished : pool_.wait(kPatience)) keep(finished, progress);
     }
     progress.say(true);
-    return interrupted == 0 ? 0 : 130;
+    return interrupted == 0 && !lacks_rows_ ? 0 : 130;
   }
 
  private:
@@ -148,6 +148,10 @@ class Batch {
   void keep(const Finished& finished, Progress& progress) {
     const Work work = begun_.at(finished.job);
     begun_.erase(finished.job);
+    if (finished.line.is_null()) {
+      lacks_rows_ = true;  // left to the next start
+      return;
+    }
     const std::string status = finished.line.at("status");
     done_[work.identity.key] = {status, file_.add(with_head(*work.job, work.identity, finished.line))};
     progress.add(status, true);
@@ -189,6 +193,7 @@ class Batch {
     std::vector<const Job*> also;  // rows of the same key
   };
   std::map<std::size_t, Work> begun_;  // by row
+  bool lacks_rows_ = false;            // whose workers were interrupted
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ struct BatchOptions {
 };
 
 /// Exit code: 0 every row of the shard has its line (refusals are lines), 1 a file cannot be written, 3 the
-/// manifest is refused, 130 interrupted.
+/// manifest is refused, 130 it was interrupted, or one of its workers, whose row has no line.
 int run_batch(const BatchOptions& options);
 
 /// The name of a shard's file of results.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,6 +21,11 @@ constexpr std::size_t kBlock = std::size_t{1} << 16;  // bytes read at once
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Who ends a batch, by Ctrl-C or as Slurm does, may end its workers first.
+bool is_interruption(int wait_status) {
+  return WIFSIGNALED(wait_status) && (WTERMSIG(wait_status) == SIGINT || WTERMSIG(wait_status) == SIGTERM);
 }
 
 }  // namespace
@@ -112,6 +118,7 @@ Finished WorkerPool::lost(Worker& worker, const char* status, const std::string&
   Finished finished{worker.job, {}};
   const double seconds = seconds_since(worker.started);
   const int ended = stop(worker);
+  if (is_interruption(ended)) return finished;
   finished.line = {
       {"status", status},
       {"reason",

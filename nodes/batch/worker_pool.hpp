@@ -18,8 +18,8 @@ struct WorkerLimits {
 
 /// What became of a job: a worker's line, or one in its place with status `crashed` or `timed_out`.
 struct Finished {
-  std::size_t job = 0;  ///< as it was given
-  nlohmann::ordered_json line;
+  std::size_t job = 0;          ///< as it was given
+  nlohmann::ordered_json line;  ///< null: its worker was interrupted, which says nothing of the job
 };
 
 class WorkerPool {

@@ -48,6 +48,7 @@ class CaptureHandler {
 
   // \pre is_busy()
 
+  const std::string& scan_id() const { return watch_->scan_id(); }  ///< empty until the scan has come
   CaptureFeedback feedback(double now);
   /// Nothing while the goal is under way; it ends with its result.
   std::optional<CaptureResult> result(double now);

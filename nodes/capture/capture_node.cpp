@@ -7,6 +7,7 @@
 #include <chrono>
 #include <future>
 #include <map>
+#include <thread>
 
 #include "capture/capture_handler.hpp"
 #include "geometry/status.hpp"
@@ -28,7 +29,8 @@ double now() {
 }
 
 /// A std_srvs/Trigger service that scans the person in the booth and answers when that is over. It is called
-/// in a thread of its own. For one thread.
+/// in a thread of its own, which is left alone where it still waits at the end: a booth that hangs holds
+/// nothing else up. For one thread.
 class BoothTrigger {
  public:
   /// `service` may be empty: a booth that scans by itself.
@@ -38,13 +40,14 @@ class BoothTrigger {
   /// False, and nothing done, while an earlier call is under way.
   bool pull() {
     if (call_.valid()) return false;
-    call_ = std::async(
-        std::launch::async,
+    std::packaged_task<std::string()> call(
         [client = node_.serviceClient<std_srvs::Trigger>(service_)]() mutable -> std::string {
           std_srvs::Trigger trigger;
           if (!client.call(trigger)) return client.getService() + " did not answer";
           return trigger.response.success ? "" : client.getService() + ": " + trigger.response.message;
         });
+    call_ = call.get_future();
+    std::thread(std::move(call)).detach();
     return true;
   }
 
@@ -81,7 +84,6 @@ class CaptureNode {
   void on_goal() {
     goal_ = server_.acceptNewGoal();
     HeldScan::of_process().clear();  // with the customer before
-    HeldScan::of_process().work(true);
     try {
       handler_.begin(*goal_, now());
       for (const std::string& sensor : goal_->sensors) listen_to(sensor);
@@ -95,7 +97,6 @@ class CaptureNode {
 
   void on_preempt() {
     handler_.stop();
-    HeldScan::of_process().work(false);
     if (!server_.isNewGoalAvailable()) server_.setPreempted();  // else the new goal takes its place
   }
 
@@ -120,7 +121,10 @@ class CaptureNode {
     }
   }
 
-  void on_scan(const PointCloud2::ConstPtr& scan) { handler_.add(*scan); }
+  void on_scan(const PointCloud2::ConstPtr& scan) {
+    handler_.add(*scan);
+    if (handler_.is_busy()) HeldScan::of_process().begin(handler_.scan_id());
+  }
   void on_landmarks(const Landmarks::ConstPtr& landmarks) { handler_.add(landmarks); }
   void on_deformed(const DeformedMesh::ConstPtr& deformed) { handler_.add(*deformed); }
   void on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
@@ -137,8 +141,9 @@ class CaptureNode {
   void go_on() {
     const std::string complaint = trigger_.complaint();
     if (!handler_.is_busy()) return;
-    if (handler_.waits_for_trigger()) pull_trigger();
-    if (!handler_.waits_for_trigger() && !complaint.empty())
+    const bool waited = handler_.waits_for_trigger();
+    if (waited) pull_trigger();
+    if (!waited && !complaint.empty())  // else it is about an earlier customer's
       finish(handler_.refused(geometry::refusal::kTriggerFailed, complaint));
     else if (const auto result = handler_.result(now()))
       finish(*result);
@@ -148,7 +153,6 @@ class CaptureNode {
 
   void finish(const CaptureResult& result) {
     deformed_.shutdown();
-    HeldScan::of_process().work(false);
     HeldScan::of_process().publish(result.scan_id);
     ROS_INFO("capture: scan %s: %s %s", result.scan_id.c_str(),
              result.measured ? "measured" : result.code.c_str(), without_figures(result.message).c_str());

@@ -4,6 +4,7 @@
 #include "landmarks/find_landmarks.hpp"
 #include "reconstruction/reconstruction_handler.hpp"
 #include "ros/display.hpp"
+#include "ros/held_scan.hpp"
 #include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
@@ -58,6 +59,7 @@ class CorrelationNode {
 
   void on_worn(const sensor_msgs::PointCloud2::ConstPtr& worn) {
     const ScanTag tag = tag_of(*worn);
+    if (HeldScan::of_process().is_forgotten(tag.scan_id)) return;
     try {
       post(handler_.add(worn, tag));
     } catch (const geometry::Refusal& refusal) {

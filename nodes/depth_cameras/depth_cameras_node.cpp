@@ -21,6 +21,7 @@
 #include "depth_cameras/camera_poses.hpp"
 #include "depth_cameras/one_moment.hpp"
 #include "geometry/slop.hpp"
+#include "ros/await.hpp"
 #include "ros/parameters.hpp"
 #include "ros/run_node.hpp"
 #include "ros/stage.hpp"
@@ -228,7 +229,8 @@ class DepthCameras {
     held_.assign(cameras_.size(), {});
     asked_ = true;
     response.success =
-        taken_.wait_for(lock, std::chrono::duration<double>(setup_.timeout), [this] { return !asked_; });
+        await(taken_, lock, std::chrono::duration<double>(setup_.timeout), [this] { return !asked_; });
+    if (!response.success && ros::isShuttingDown()) return false;
     if (response.success) {
       response.message = fmt::format("{} depth images taken", cameras_.size());
     } else {
@@ -268,10 +270,11 @@ class DepthCameras {
   ros::Time since_;
   std::vector<std::deque<Seen>> held_;  // by camera, since it was asked
   std::vector<std::unique_ptr<Camera>> cameras_;
-  ros::CallbackQueue calls_;
-  ros::AsyncSpinner caller_{1, &calls_};  // the service waits for images, which come on the main queue
-  ros::ServiceServer service_;
   Stage stage_;
+  ros::CallbackQueue calls_;
+  ros::ServiceServer service_;
+  ros::AsyncSpinner caller_{1, &calls_};  // last: the service uses all of the above, and waits for images,
+                                          // which come on the main queue
 };
 
 }  // namespace

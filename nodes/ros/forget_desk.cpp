@@ -7,14 +7,15 @@
 #include <filesystem>
 
 #include "geometry/status.hpp"
+#include "ros/await.hpp"
 #include "ros/export_folders.hpp"
+#include "ros/forgetter.hpp"
 
 namespace tensegric_fit::node {
 namespace {
 
 using Names = std::set<std::string>;
 
-constexpr std::chrono::seconds kPatience(15);  // a stage that works on the next scan ends that first
 const ros::WallDuration kDay(86400);
 const geometry::Range kRetention{0, 36500};
 
@@ -97,7 +98,7 @@ Names ForgetDesk::order(std::uint8_t step, const Forget::Request& request, Forge
       return answer != answers_.end() && answer->second.scan_id == request.scan_id;
     });
   };
-  answered_.wait_for(lock, kPatience, all);
+  await(answered_, lock, kForgetPatience, all);
   for (const auto& [node, answer] : answers_) {
     if (answer.scan_id != request.scan_id) continue;
     silent.erase(node);

@@ -8,7 +8,15 @@
 namespace tensegric_fit::node {
 namespace {
 
-const ros::WallDuration kTick(0.05), kOrdererPatience(10);  // who ordered it may be gone
+const ros::WallDuration kTick(0.05);
+// Who ordered it may be gone, but is not before it has given up on the slowest node.
+const ros::WallDuration kOrdererPatience(kForgetPatience.count() + 5);
+
+/// While ROS shuts down its queue is disabled, and waits for nothing.
+void call_callbacks() {
+  ros::getGlobalCallbackQueue()->callAvailable(kTick);
+  if (ros::isShuttingDown()) kTick.sleep();
+}
 
 }  // namespace
 
@@ -42,7 +50,7 @@ void Forgetter::answer(const ForgetOrder& order, ForgetAnswer answer) {
 bool Forgetter::serve(const Forget& forget) {
   forget_ = forget;
   while (ros::ok()) {
-    ros::getGlobalCallbackQueue()->callAvailable(kTick);
+    call_callbacks();
     if (!order_ || HeldScan::of_process().works_on_other(order_->scan_id)) continue;
     if (HeldScan::of_process().holds(order_->scan_id)) return true;
     ForgetAnswer done;  // what it worked on has taken the place of it
@@ -61,7 +69,7 @@ void Forgetter::let_go() {
   order_.reset();
   for (const ros::WallTime end = ros::WallTime::now() + kOrdererPatience;
        ros::ok() && !go_on_ && ros::WallTime::now() < end;)
-    ros::getGlobalCallbackQueue()->callAvailable(kTick);
+    call_callbacks();
 }
 
 }  // namespace tensegric_fit::node

@@ -5,12 +5,16 @@
 #include <tensegric_fit/ForgetAnswer.h>
 #include <tensegric_fit/ForgetOrder.h>
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace tensegric_fit::node {
+
+/// For how long the vault waits for a node's answer: a stage that works on the next scan ends that first.
+inline constexpr std::chrono::seconds kForgetPatience(15);
 
 /// Hears the orders and answers them. For the main thread.
 class Forgetter {

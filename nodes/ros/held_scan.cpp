@@ -12,21 +12,30 @@ void HeldScan::begin(const std::string& scan_id) {
   begun_ = scan_id;
 }
 
+void HeldScan::wait(const std::string& scan_id) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  waiting_ = scan_id;
+}
+
+void HeldScan::work(const std::string& scan_id) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  waiting_.clear();
+  working_ = scan_id;
+}
+
+void HeldScan::rest() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  working_.clear();
+}
+
 void HeldScan::publish(const std::string& scan_id) {
   const std::lock_guard<std::mutex> lock(mutex_);
   published_ = scan_id;
 }
 
-void HeldScan::work(bool working) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  working_ = working;
-}
-
 void HeldScan::clear() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  begun_.clear();
-  published_.clear();
-  working_ = false;
+  for (std::string* scan_id : {&begun_, &waiting_, &working_, &published_}) scan_id->clear();
 }
 
 void HeldScan::forget(const std::string& scan_id) {
@@ -41,12 +50,12 @@ bool HeldScan::is_forgotten(const std::string& scan_id) const {
 
 bool HeldScan::holds(const std::string& scan_id) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return begun_ == scan_id || published_ == scan_id;
+  return begun_ == scan_id || waiting_ == scan_id || working_ == scan_id || published_ == scan_id;
 }
 
 bool HeldScan::works_on_other(const std::string& scan_id) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return working_ && begun_ != scan_id;
+  return begun_ != scan_id && (!waiting_.empty() || !working_.empty());
 }
 
 }  // namespace tensegric_fit::node

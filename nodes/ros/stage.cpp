@@ -78,6 +78,7 @@ void Stage::put(Job job) {
   if (HeldScan::of_process().is_forgotten(job.scan_id)) return;
   {
     std::lock_guard<std::mutex> lock(mutex_);
+    HeldScan::of_process().wait(job.scan_id);
     waiting_ = std::move(job);
   }
   wake_.notify_one();
@@ -88,7 +89,8 @@ bool Stage::outdated(const std::string& scan_id) const {
   return stopping_ || newest_scan_ != scan_id || waiting_.has_value();
 }
 
-bool Stage::superseded(const std::string& scan_id) const {
+bool Stage::is_unwanted(const std::string& scan_id) const {
+  if (HeldScan::of_process().is_forgotten(scan_id)) return true;
   std::lock_guard<std::mutex> lock(mutex_);
   return stopping_ || newest_scan_ != scan_id;
 }
@@ -124,16 +126,16 @@ void Stage::serve() {
       if (stopping_) return;
       job = std::move(*waiting_);
       waiting_.reset();
+      HeldScan::of_process().work(job.scan_id);
     }
-    HeldScan::of_process().work(true);
     run(job);
-    HeldScan::of_process().work(false);
+    HeldScan::of_process().rest();
     worked = true;
   }
 }
 
 void Stage::run(const Job& job) {
-  if (superseded(job.scan_id)) return;
+  if (is_unwanted(job.scan_id)) return;
   const auto start = std::chrono::steady_clock::now();
   if (!job.passing) {
     std::lock_guard<std::mutex> lock(report_mutex_);
@@ -155,12 +157,10 @@ void Stage::run(const Job& job) {
 }
 
 void Stage::finish(const Job& job, const Result& result, double milliseconds) {
-  const bool dropped = !result.publish || superseded(job.scan_id);
-  if (!dropped) {
-    result.publish();
-    HeldScan::of_process().publish(job.scan_id);
-  }
+  const bool dropped = !result.publish || is_unwanted(job.scan_id);
+  if (!dropped) result.publish();
   if (job.passing) return;
+  if (!dropped) HeldScan::of_process().publish(job.scan_id);
   std::lock_guard<std::mutex> lock(report_mutex_);
   state_.word = dropped ? "superseded" : "done";
   state_.message = dropped ? "dropped work on scan " + job.scan_id + ": something newer came" : "done";

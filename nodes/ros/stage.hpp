@@ -20,10 +20,10 @@
 namespace tensegric_fit::node {
 
 /// Runs the work of a stage in a thread of its own. One piece of work waits at most: the newest. What a piece
-/// of work found is published only if no newer scan was begun meanwhile. A Refusal or another exception ends
-/// that piece of work alone: it is named on /diagnostics and in the log, and nothing is published.
-/// It reports every second whatever the worker does: one that is silent for longer is dead, one that reports
-/// `working_seconds` beyond kSlow is slow.
+/// of work found is published only if no newer scan was begun meanwhile, and its own is not to be forgotten.
+/// A Refusal or another exception ends that piece of work alone: it is named on /diagnostics and in the log,
+/// and nothing is published. It reports every second whatever the worker does: one that is silent for longer
+/// is dead, one that reports `working_seconds` beyond kSlow is slow.
 class Stage {
  public:
   using Facts = node::Facts;
@@ -79,7 +79,7 @@ class Stage {
 
   void put(Job job);
   void serve();
-  bool superseded(const std::string& scan_id) const;
+  bool is_unwanted(const std::string& scan_id) const;
   void run(const Job& job);
   void fail(const std::string& scan_id, const std::string& word, const std::string& code,
             const std::string& message);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "geometry/status.hpp"
+#include "ros/held_scan.hpp"
 #include "ros/lost_messages.hpp"
 #include "ros/stage_report_message.hpp"
 
@@ -30,6 +31,8 @@ namespace tensegric_fit::node {
 /// /diagnostics that it is done with a scan, and nothing of that scan comes. Then, too, the subscription is
 /// made anew, and if that does not help either, the scan is refused by name (`lost_message`). A message that
 /// the next scan's has overtaken there is not taken, nor a state on the way to a result that has come.
+///
+/// Nor is a message of a scan to be forgotten: it comes from a node that has yet to let go of it.
 class WatchedInputs {
  public:
   using OnLost = std::function<void(const std::string& scan_id, const geometry::Refusal& refusal)>;
@@ -48,7 +51,9 @@ class WatchedInputs {
   template <typename Argument, typename Node>
   void subscribe(const std::string& topic, std::uint32_t queue, void (Node::*method)(Argument), Node* node,
                  const ros::TransportHints& hints = {}) {
-    const auto take = [method, node](Argument message) { (node->*method)(message); };
+    const auto take = [method, node](Argument message) {
+      if (!is_forgotten(message, 0)) (node->*method)(message);
+    };
     add<Argument>("", topic, queue, take, hints);
   }
 
@@ -65,12 +70,12 @@ class WatchedInputs {
           losses->heard(message->scan_id);
         else if (losses->is_late(message->scan_id))
           return;
-        (node->*method)(message);
+        if (!is_forgotten(message, 0)) (node->*method)(message);
       };
-      if (losses->is_overtaken(message->scan_id))
-        *late = {message->scan_id, give};
-      else
+      if (!losses->is_overtaken(message->scan_id))
         give();
+      else if (!is_forgotten(message, 0))
+        *late = {message->scan_id, give};
     };
     add<const boost::shared_ptr<const Message>&>(from, topic, queue, take, hints);
     inputs_.back().losses = losses;
@@ -123,6 +128,15 @@ class WatchedInputs {
   }
   template <typename Message>
   static bool is_passing(const Message&, long) {
+    return false;
+  }
+
+  template <typename Argument>
+  static auto is_forgotten(const Argument& message, int) -> decltype(message->scan_id.empty()) {
+    return HeldScan::of_process().is_forgotten(message->scan_id);
+  }
+  template <typename Argument>
+  static bool is_forgotten(const Argument&, long) {  // of no scan
     return false;
   }
 

@@ -3,6 +3,9 @@
 #include <std_srvs/Trigger.h>
 #include <tensegric_fit/ExportFit.h>
 
+#include <condition_variable>
+#include <map>
+#include <mutex>
 #include <utility>
 
 #include "inspect/panel_words.hpp"
@@ -15,6 +18,52 @@ constexpr char kGarmentCall[] = "garment", kExportCall[] = "export";
 
 }  // namespace
 
+/// What the thread that calls works with. It has a share of it, as it may outlive the client.
+struct FitClient::Calls {
+  using Answer = std::function<void(bool, const std::string&)>;
+
+  Calls(ros::NodeHandle node, FitClient* asker)
+      : wear(node.serviceClient<SetGarment>("set_garment")),
+        reset(node.serviceClient<std_srvs::Trigger>("reset")),
+        export_fit(node.serviceClient<ExportFit>("export_fit")),
+        client(asker) {}
+
+  void serve();
+  void report(Answer FitClient::*answer, bool done, const std::string& words);
+
+  ros::ServiceClient wear, reset, export_fit;
+  std::mutex mutex;  // guards the rest
+  std::condition_variable wake;
+  std::map<std::string, Call> waiting;  // one of each kind: the newest
+  std::string calling;                  // what kind is on its way
+  FitClient* client;                    // null: it is gone, and there is nothing more to call
+};
+
+void FitClient::Calls::serve() {
+  while (true) {
+    Call call;
+    {
+      std::unique_lock<std::mutex> lock(mutex);
+      wake.wait(lock, [this] { return client == nullptr || !waiting.empty(); });
+      if (client == nullptr) return;
+      calling = waiting.begin()->first;
+      call = std::move(waiting.begin()->second);
+      waiting.erase(waiting.begin());
+    }
+    call(*this);
+    std::lock_guard<std::mutex> lock(mutex);
+    calling.clear();
+  }
+}
+
+void FitClient::Calls::report(Answer FitClient::*answer, bool done, const std::string& words) {
+  std::lock_guard<std::mutex> lock(mutex);
+  if (client == nullptr) return;
+  QMetaObject::invokeMethod(
+      client, [client = client, answer, done, words] { (client->*answer)(done, words); },
+      Qt::QueuedConnection);
+}
+
 template <typename Message>
 void FitClient::listen(const char* topic, std::function<void(const Message&)> FitClient::*callback) {
   const boost::function<void(const boost::shared_ptr<const Message>&)> on_message =
@@ -25,9 +74,7 @@ void FitClient::listen(const char* topic, std::function<void(const Message&)> Fi
 
 FitClient::FitClient()
     : labels_(node_.advertise<ScanLabel>("scan/label", 4, true)),
-      wear_(node_.serviceClient<SetGarment>("set_garment")),
-      reset_(node_.serviceClient<std_srvs::Trigger>("reset")),
-      export_(node_.serviceClient<ExportFit>("export_fit")) {
+      calls_(std::make_shared<Calls>(node_, this)) {
   listen("garment", &FitClient::on_garment);
   listen("control/deformed", &FitClient::on_fit);
   listen("control/forces", &FitClient::on_forces);
@@ -42,60 +89,43 @@ FitClient::FitClient()
         for (const auto& status : array->status) on_diagnostics(status);
       };
   subscribers_.push_back(node_.subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 50, diagnostics));
-  worker_ = std::thread([this] { serve(); });
+  worker_ = std::thread([calls = calls_] { calls->serve(); });
 }
 
 FitClient::~FitClient() {
+  bool is_calling = false;
   {
-    std::lock_guard<std::mutex> lock(mutex_);
-    stopping_ = true;
+    std::lock_guard<std::mutex> lock(calls_->mutex);
+    calls_->client = nullptr;
+    is_calling = !calls_->calling.empty();
   }
-  wake_.notify_one();
-  for (ros::ServiceClient* client : {&wear_, &reset_, &export_}) client->shutdown();  // ends a call under way
-  worker_.join();
+  calls_->wake.notify_one();
+  if (is_calling)
+    worker_.detach();  // roscpp has no way to end a call
+  else
+    worker_.join();
 }
 
-void FitClient::serve() {
-  while (true) {
-    std::function<void()> call;
-    {
-      std::unique_lock<std::mutex> lock(mutex_);
-      wake_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
-      if (stopping_) return;
-      calling_ = waiting_.begin()->first;
-      call = std::move(waiting_.begin()->second);
-      waiting_.erase(waiting_.begin());
-    }
-    call();
-    std::lock_guard<std::mutex> lock(mutex_);
-    calling_.clear();
-  }
-}
-
-void FitClient::post(const std::string& kind, std::function<void()> call) {
+void FitClient::post(const std::string& kind, Call call) {
   {
-    std::lock_guard<std::mutex> lock(mutex_);
-    waiting_[kind] = std::move(call);
+    std::lock_guard<std::mutex> lock(calls_->mutex);
+    calls_->waiting[kind] = std::move(call);
   }
-  wake_.notify_one();
+  calls_->wake.notify_one();
 }
 
 bool FitClient::is_asking() {
-  std::lock_guard<std::mutex> lock(mutex_);
-  return calling_ == kGarmentCall || waiting_.count(kGarmentCall) != 0;
-}
-
-void FitClient::report(const Answer& answer, bool done, const std::string& words) {
-  QMetaObject::invokeMethod(
-      this, [answer, done, words] { answer(done, words); }, Qt::QueuedConnection);
+  std::lock_guard<std::mutex> lock(calls_->mutex);
+  return calls_->calling == kGarmentCall || calls_->waiting.count(kGarmentCall) != 0;
 }
 
 void FitClient::wear(const SetGarment::Request& request) {
-  post(kGarmentCall, [this, request] {
+  post(kGarmentCall, [request](Calls& calls) {
     SetGarment call;
     call.request = request;
-    if (!wear_.exists() || !wear_.call(call)) return report(on_worn, false, words::kPipelineNotRunning);
-    report(on_worn, call.response.accepted, call.response.message);
+    if (!calls.wear.exists() || !calls.wear.call(call))
+      return calls.report(&FitClient::on_worn, false, words::kPipelineNotRunning);
+    calls.report(&FitClient::on_worn, call.response.accepted, call.response.message);
   });
 }
 
@@ -104,23 +134,25 @@ void FitClient::label(const ScanLabel& label) {
 }
 
 void FitClient::reset() {
-  post(kGarmentCall, [this] {
+  post(kGarmentCall, [](Calls& calls) {
     std_srvs::Trigger call;
-    if (!reset_.exists() || !reset_.call(call)) return report(on_worn, false, words::kPipelineNotRunning);
-    report(on_worn, call.response.success, call.response.message);
+    if (!calls.reset.exists() || !calls.reset.call(call))
+      return calls.report(&FitClient::on_worn, false, words::kPipelineNotRunning);
+    calls.report(&FitClient::on_worn, call.response.success, call.response.message);
   });
 }
 
 void FitClient::export_to(const std::string& folder, const std::string& scan_id) {
-  post(kExportCall, [this, folder, scan_id] {
+  post(kExportCall, [folder, scan_id](Calls& calls) {
     ExportFit call;
     call.request.directory = folder;
     call.request.scan_id = scan_id;
-    if (!export_.exists() || !export_.call(call))
-      return report(on_exported, false, words::kPipelineNotRunning);
-    report(on_exported, call.response.exported,
-           call.response.exported ? words::exported(static_cast<int>(call.response.files.size()), folder)
-                                  : call.response.message);
+    if (!calls.export_fit.exists() || !calls.export_fit.call(call))
+      return calls.report(&FitClient::on_exported, false, words::kPipelineNotRunning);
+    calls.report(&FitClient::on_exported, call.response.exported,
+                 call.response.exported
+                     ? words::exported(static_cast<int>(call.response.files.size()), folder)
+                     : call.response.message);
   });
 }
 

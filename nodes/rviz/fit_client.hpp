@@ -2,12 +2,11 @@
 #pragma once
 
 #include <QObject>
-#include <condition_variable>
 #include <functional>
-#include <map>
-#include <mutex>
+#include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #ifndef Q_MOC_RUN
 #include <diagnostic_msgs/DiagnosticArray.h>
@@ -26,9 +25,9 @@
 
 namespace tensegric_fit::inspect {
 
-/// Services are called in a thread of their own, so that a pipeline that hangs never stops rviz. Of garments
-/// asked for while a call is on its way only the newest is sent. Everything is reported in the thread that
-/// made the client.
+/// Services are called in a thread of their own, so that a pipeline that hangs never stops rviz: a call that
+/// is on its way when the client goes is left alone. Of garments asked for while a call is on its way only
+/// the newest is sent. Everything is reported in the thread that made the client.
 class FitClient : public QObject {
   Q_OBJECT
  public:
@@ -59,25 +58,18 @@ class FitClient : public QObject {
   std::function<void(bool done, const std::string&words)> on_worn, on_exported;
 
  private:
-  using Answer = std::function<void(bool, const std::string&)>;
+  struct Calls;
+  using Call = std::function<void(Calls&)>;
 
-  void serve();
-  void post(const std::string& kind, std::function<void()> call);
-  void report(const Answer& answer, bool done, const std::string& words);
+  void post(const std::string& kind, Call call);
   template <typename Message>
   void listen(const char* topic, std::function<void(const Message&)> FitClient::*callback);
 
   ros::NodeHandle node_;
   std::vector<ros::Subscriber> subscribers_;
   ros::Publisher labels_;
-  ros::ServiceClient wear_, reset_, export_;
-
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::map<std::string, std::function<void()>> waiting_;  // one of each kind: the newest
-  std::string calling_;                                   // what kind is on its way
-  bool stopping_ = false;
-  std::thread worker_;  // last: it uses all of the above
+  const std::shared_ptr<Calls> calls_;
+  std::thread worker_;
 };
 
 }  // namespace tensegric_fit::inspect

@@ -142,7 +142,7 @@ class ScanPlayer {
       labels_.shutdown();
       labels_ = advertised_labels();
       published_.clear();
-      if (!busy_) drop_published();  // else the scans read last are being replaced
+      if (!busy_) drop_published();  // else they were dropped before the next file is read
       done.removed.push_back("the latched scan/points and scan/label");
     }
     if (order.scan_file) {
@@ -200,6 +200,8 @@ class ScanPlayer {
   void read_next() {
     const std::string path = std::move(files_.front());
     files_.pop_front();
+    scans_.clear();  // played by now, and not to be kept where the next file is refused
+    at_ = 0;
     busy_ = true;
     playing_ = path;
     stage_.begin(path);

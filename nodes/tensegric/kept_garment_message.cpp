@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "files/message_layout.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::node {
@@ -37,8 +36,6 @@ std::optional<GarmentRequest> kept_garment(const std::string& text, const std::s
     std::vector<std::uint8_t> bytes;
     for (std::size_t i = end + 1; i + 1 < text.size(); i += 2)
       bytes.push_back(static_cast<std::uint8_t>(16 * digit_in(text[i]) + digit_in(text[i + 1])));
-    static const files::MessageLayout layout(ros::message_traits::Definition<Garment>::value());
-    layout.check({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     ros::serialization::IStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
     Garment message;
     ros::serialization::deserialize(stream, message);

@@ -381,9 +381,7 @@ TEST_F(TensegricHandlerTest, StartedAgainItWearsWhatItWore) {
   EXPECT_EQ(after.worn().garment.name, "B2");
   // another first garment was asked for meanwhile; words that are none of the node's
   EXPECT_EQ(handler("garment: B1, worn: '" + before.kept() + "'").worn().garment.name, "B1");
-  const std::string promises_much = "B2|" + std::string(40, '0') + "ffffff0f";  // 268 million regions
-  for (const std::string& words : {std::string("B2|"), std::string("B2|0"), std::string("B2|xyz"),
-                                   std::string("B2|ffffffff"), std::string("nonsense"), promises_much})
+  for (const char* words : {"B2|", "B2|0", "B2|xyz", "B2|ffffffff", "nonsense"})
     EXPECT_FALSE(kept_garment(words, "B2")) << words;
 }
 
