@@ -131,6 +131,10 @@ Settled settle(const Figure& figure, const Precision& precision, bool scanned) {
   return {on_model + share * apart, half_width(p.half_width, mesh * std::sqrt(share), apart.norm()), false};
 }
 
+const std::vector<Eigen::Vector3d>& tape_of(const Figure& figure, const Settled& settled) {
+  return settled.rests_on_model ? figure.loop_on_model : figure.loop;
+}
+
 double limit_of(const Figure& figure) {
   // ISO 20685-1:2018, table 1: small girths and heights 4 mm, large girths 9 mm; points of the torso 10 mm,
   // of which bust points half.

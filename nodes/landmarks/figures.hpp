@@ -55,11 +55,12 @@ struct Figure {
   std::optional<Eigen::Vector3d> on_mesh, on_model;  ///< body frame, m; of heights and girths x alone
   double support = 0;                                ///< m: RegisteredBody::support there
   double misfit = 0;                                 ///< m: RegisteredBody::residual
-  std::vector<Eigen::Vector3d> loop;                 ///< of a girth: the tape, body frame
+  std::vector<Eigen::Vector3d> loop;                 ///< of a girth: the tape on the mesh, body frame
   bool seen =
       false;  ///< the reading on the mesh lies on skin that the scan backs: it may be far from the model's
   double ground = 0;  ///< m: of heights, RegisteredBody::ground_deviation: both readings are off by the same
   double shift = 0;   ///< m: Nipple::shift; 0 of figures without
+  std::vector<Eigen::Vector3d> loop_on_model = {};
 };
 
 /// A settled figure.
@@ -68,6 +69,9 @@ struct Settled {
   double half_width;    ///< m, of the 95 % interval; of a point, the radius
   bool rests_on_model;  ///< the mesh does not show it, or shows something else
 };
+
+/// The tape of a settled girth: on the surface that its value is from.
+const std::vector<Eigen::Vector3d>& tape_of(const Figure& figure, const Settled& settled);
 
 /// How far off the model's reading of a figure may be on a body of the model's span, m: what windows of
 /// searches were fitted with. Its values are not read.

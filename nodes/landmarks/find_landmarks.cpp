@@ -112,14 +112,14 @@ class Reader {
   }
 
   void add(Kind kind, const std::string& name, std::optional<Vector3d> on_mesh,
-           std::optional<Vector3d> on_model, double support, bool seen, Tape loop = {}, double shift = 0) {
+           std::optional<Vector3d> on_model, double support, bool seen, double shift = 0) {
     if (!on_mesh && !on_model) return;
-    figures_.push_back({kind, name, std::move(on_mesh), std::move(on_model), support, body_.residual,
-                        std::move(loop), seen, kind == Kind::height ? body_.ground_deviation : 0, shift});
+    figures_.push_back({kind, name, std::move(on_mesh), std::move(on_model), support, body_.residual, Tape(),
+                        seen, kind == Kind::height ? body_.ground_deviation : 0, shift});
   }
   void add_point(const std::string& name, const std::optional<Vector3d>& on_mesh,
                  const std::optional<Vector3d>& on_model, double support, double shift = 0) {
-    add(Kind::point, name, on_mesh, on_model, support, is_seen(on_mesh), {}, shift);
+    add(Kind::point, name, on_mesh, on_model, support, is_seen(on_mesh), shift);
   }
   bool is_seen(const std::optional<Vector3d>& on_mesh) const {
     return on_mesh && unseen_share(mesh_.surface, *on_mesh, kSeen) < 0.5;
@@ -191,7 +191,7 @@ class Reader {
       shift += figure->shift / static_cast<double>(points.size());
       seen = seen && figure->seen;
     }
-    add(Kind::height, name, as_figure(on_mesh), as_figure(on_model), support, seen, {}, shift);
+    add(Kind::height, name, as_figure(on_mesh), as_figure(on_model), support, seen, shift);
   }
 
   void level_of_folds() {
@@ -268,8 +268,9 @@ class Reader {
       return t.size() < 3 ? std::nullopt : std::optional<double>(length(t));
     };
     const double support = support_along(on_model.size() < 3 ? on_mesh : on_model);
-    add(Kind::girth, name, as_figure(value(on_mesh)), as_figure(value(on_model)), support, false,
-        on_mesh.size() < 3 ? on_model : on_mesh);
+    add(Kind::girth, name, as_figure(value(on_mesh)), as_figure(value(on_model)), support, false);
+    figures_.back().loop = on_mesh;
+    figures_.back().loop_on_model = on_model;
   }
 
   void shoulder(Side side) {
@@ -367,12 +368,20 @@ class Reader {
   }
 
   void stature() {
-    const auto top = [](const Surface& s) { return geometry::bounding_box(s.mesh.vertices)[1].z(); };
-    Vector3d crown = skin_.surface.mesh.vertices.front();
-    for (const Vector3d& p : skin_.surface.mesh.vertices)
-      if (p.z() > crown.z()) crown = p;
-    add(Kind::height, "stature", Vector3d(top(mesh_.surface), 0, 0), Vector3d(crown.z(), 0, 0),
-        support_at(crown), false);
+    const std::optional<Vector3d> on_mesh = crown(mesh_.surface), on_model = crown(skin_.surface);
+    if (!on_model) return;
+    const auto height = [](const Vector3d& p) { return Vector3d(p.z(), 0, 0); };
+    add(Kind::height, "stature", on_mesh ? std::optional<Vector3d>(height(*on_mesh)) : std::nullopt,
+        height(*on_model), support_at(*on_model), false);
+  }
+
+  /// The highest skin but of arms, which may be raised.
+  static std::optional<Vector3d> crown(const Surface& surface) {
+    std::optional<Vector3d> highest;
+    for (std::size_t v = 0; v < surface.mesh.vertices.size(); ++v)
+      if (surface.arm[v] < 0.5 && (!highest || surface.mesh.vertices[v].z() > highest->z()))
+        highest = surface.mesh.vertices[v];
+    return highest;
   }
 
   static constexpr double kWorst = 0.1;  // m; support is no worse than that
@@ -423,7 +432,7 @@ geometry::BodyMeasures find_landmarks(const geometry::TriangleMesh& mesh, const 
       case Kind::girth: {
         measures.girths.push_back({figure.name, settled.value.x(), confidence, reason, settled.half_width});
         geometry::GirthLoop loop{figure.name, {}};
-        for (const Vector3d& p : figure.loop) loop.points.push_back(scan_from_body * p);
+        for (const Vector3d& p : tape_of(figure, settled)) loop.points.push_back(scan_from_body * p);
         measures.loops.push_back(std::move(loop));
         break;
       }

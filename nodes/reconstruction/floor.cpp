@@ -50,6 +50,7 @@ int count_within(const Points& points, const Eigen::Vector3d& normal, double off
 
 /// Best of planes through three columns each, by the number of columns that agree.
 std::optional<Floor> sample_plane(const Points& lowest) {
+  if (lowest.size() < 3) return std::nullopt;
   std::mt19937 random(1);  // fixed seed: same scan, same floor
   const auto pick = [&] { return lowest[random() % lowest.size()]; };
   std::optional<Floor> best;

@@ -97,6 +97,11 @@ TEST(Settle, AReadingGrosslyOffIsLeftOut) {
   EXPECT_EQ(far.value.x(), 0.9);
   EXPECT_FALSE(near.rests_on_model);
   EXPECT_TRUE(far.rests_on_model);
+  Figure taped = girth(0.9 + 0.0271, 0.9);
+  taped.loop = {{1, 0, 0}};
+  taped.loop_on_model = {{2, 0, 0}};
+  EXPECT_EQ(tape_of(taped, near), taped.loop);
+  EXPECT_EQ(tape_of(taped, far), taped.loop_on_model) << "the tape is that of the girth";
   EXPECT_GT(far.half_width,
             kHalfWidthOfModel * kOfModel);  // the model alone, less sure than if nothing spoke against it
   Figure point = girth({}, {});

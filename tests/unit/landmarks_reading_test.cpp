@@ -66,6 +66,29 @@ TEST(LandmarksReading, TheUnderbustTapeIsJustUnderTheFolds) {
   }
 }
 
+TEST(LandmarksReading, HandsAboveHerHeadAreNotHerStature) {
+  Registered her(1);
+  const auto stature = [&] {
+    for (const landmarks::Figure& figure : her.reading().figures)
+      if (figure.name == "stature") return std::pair(figure.on_mesh->x(), figure.on_model->x());
+    return std::pair(0.0, 0.0);
+  };
+  const auto pose = [&](double raised) {  // rad, both arms
+    body_model::RegisteredBody& model = her.model;
+    model.parameters.turns[model.model->group_named("arm_L")] = {0, -raised, 0};
+    model.parameters.turns[model.model->group_named("arm_R")] = {0, raised, 0};
+    const body_model::PosedModel posed(*model.model, model.parameters);
+    model.skin = model.posed = her.body.mesh.vertices = posed.vertices();
+    her.body.mesh.triangles = model.model->triangles;
+    return geometry::bounding_box(model.skin)[1].z();
+  };
+  const double low = pose(0);
+  const auto before = stature();
+  ASSERT_GT(pose(2), low + 0.1) << "hands above her head";
+  EXPECT_NEAR(stature().first, before.first, 0.005);  // skinning moves the head by less
+  EXPECT_NEAR(stature().second, before.second, 0.005);
+}
+
 // Skin that nothing was seen near is no farther off than a body model is wrong: 100 mm.
 TEST(LandmarksReading, SupportIsNoWorseThanAModelCanBeWrong) {
   Registered her(1);

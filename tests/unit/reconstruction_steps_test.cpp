@@ -53,6 +53,12 @@ TEST(ReconstructionSteps, ABodyAloneHasNoFloor) {
   EXPECT_FALSE(find_floor(figure::scan_body(15000, 0.001, 1).points));
 }
 
+// The process was ended by a division by zero: a cloud that is nowhere dense has no points left here.
+TEST(ReconstructionSteps, NoPointsHaveNoFloor) {
+  EXPECT_FALSE(find_floor({}));
+  EXPECT_FALSE(find_floor({{0, 0, 0}, {1, 0, 0}}));
+}
+
 TEST(ReconstructionSteps, APlaneAsTheGround) {
   const Eigen::Vector3d normal = Eigen::Vector3d(0.2, -0.1, 1).normalized(), middle(1e3, -2e3, 5);
   const double offset = 3;

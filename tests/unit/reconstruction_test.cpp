@@ -363,6 +363,11 @@ TEST(Reconstruction, RefusesWhatIsNoBody) {
   EXPECT_EQ(refusal_of(box), "not_a_body");
   EXPECT_EQ(refusal_of(sheet), "not_a_body");
   EXPECT_EQ(refusal_of(floor), "not_a_body");
+  PointCloud dust;  // so sparse that each point is stray
+  for (int i = 0; i < 8000; ++i)
+    dust.points.emplace_back(4 * figure::uniform(random), 4 * figure::uniform(random),
+                             2.5 * figure::uniform(random));
+  EXPECT_EQ(refusal_of(dust), "not_a_body");
   // A fish: long, lying, small.
   EXPECT_EQ(
       refusal_of(map(sphere, [](const auto& p) { return Eigen::Vector3d(p.x(), 0.1 * p.y(), 0.3 * p.z()); })),
