@@ -348,4 +348,10 @@ std::vector<geometry::Missing> missing_parts(const RegisteredBody& body) {
   return missing;
 }
 
+bool lacks_feet(const RegisteredBody& body) {
+  const std::vector<double> there = shares_there(body);
+  return there[body.model->part_named("foot_L")] < kLeastOfPart &&
+         there[body.model->part_named("foot_R")] < kLeastOfPart;
+}
+
 }  // namespace tensegric_fit::body_model

@@ -18,4 +18,7 @@ void recognise(RegisteredBody& body, const Samples& samples);
 /// its reason.
 std::vector<geometry::Missing> missing_parts(const RegisteredBody& body);
 
+/// Neither foot is there: nothing shows where she stands.
+bool lacks_feet(const RegisteredBody& body);
+
 }  // namespace tensegric_fit::body_model

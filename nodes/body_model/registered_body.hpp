@@ -45,7 +45,7 @@ struct RegisteredBody {
   Eigen::Vector3d vertical = Eigen::Vector3d::UnitZ();  ///< up, unit vector
   double ground = 0;                                    ///< m along `vertical`, under her soles
   double ground_deviation =
-      0;  ///< m, of `ground`: 0 where a floor was seen, and of a mesh, whose lowest place it is
+      0;  ///< m, of `ground`: 0 where a floor was seen, and of a mesh with feet, whose lowest place it is
 
   /// \throw std::out_of_range: the model has no such point
   Eigen::Vector3d skin_point(const std::string& name) const;

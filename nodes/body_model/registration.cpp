@@ -162,6 +162,12 @@ RegisteredBody register_mesh(const Registrar& registrar, const geometry::Triangl
   RegisteredBody body = registrar(shuffled(sample_surface(mesh, {}, kSamplesOfMesh)));
   body.scanned = false;
   body.vertical = upright(body, registrar.standing());
+  if (lacks_feet(body)) {
+    const Ground ground = ground_without_feet(body, registrar.standing());
+    body.ground = ground.height;
+    body.ground_deviation = ground.deviation;
+    return body;
+  }
   body.ground = body.vertical.dot(mesh.vertices.front());
   for (const Vector3d& v : mesh.vertices) body.ground = std::min(body.ground, body.vertical.dot(v));
   return body;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "body_model/recognition.hpp"
 #include "geometry/checked_yaml.hpp"
 #include "geometry/points.hpp"
 
@@ -44,14 +45,15 @@ Vector3d normal_of(const std::vector<Vector3d>& points, const Vector3d& up) {
 Standing load_standing(const std::string& path) {
   constexpr const char* kCode = geometry::refusal::kBrokenFile;
   const YAML::Node root = geometry::load_yaml_map(path, kCode);
-  geometry::check_keys(root, {"made", "bodies", "error", "forwards", "sideways", "along", "seen", "soles"},
-                       path, kCode);
+  geometry::check_keys(
+      root, {"made", "bodies", "error", "forwards", "sideways", "along", "seen", "soles", "without_feet"},
+      path, kCode);
   const auto degrees = [&](const char* key) {
     return geometry::number_in(root, key, -5, 5, path, kCode) * M_PI / 180;
   };
-  const auto metres = [&](const char* key) { return geometry::number_in(root, key, 0, 0.02, path, kCode); };
-  return {degrees("forwards"), degrees("sideways"), degrees("along"),
-          metres("seen"),      metres("soles"),     metres("error")};
+  const auto metres = [&](const char* key) { return geometry::number_in(root, key, 0, 0.05, path, kCode); };
+  return {degrees("forwards"), degrees("sideways"), degrees("along"),      metres("seen"),
+          metres("soles"),     metres("error"),     metres("without_feet")};
 }
 
 Stance stance_of(const RegisteredBody& body) {
@@ -73,15 +75,19 @@ Vector3d upright(const RegisteredBody& body, const Standing& standing) {
   return (body.vertical + leaning * (up - body.vertical)).normalized();
 }
 
-double ground_under(const RegisteredBody& body, const std::vector<Vector3d>& points,
+Ground ground_without_feet(const RegisteredBody& body, const Standing& standing) {
+  return {body.vertical.dot(stance_of(body).soles) - standing.soles * std::exp(body.parameters.log_scale),
+          standing.without_feet};
+}
+
+Ground ground_under(const RegisteredBody& body, const std::vector<Vector3d>& points,
                     const Standing& standing) {
-  const double soles =
-      body.vertical.dot(stance_of(body).soles) - standing.soles * std::exp(body.parameters.log_scale);
+  const Ground by_soles = ground_without_feet(body, standing);
   std::vector<double> heights;
   for (const Vector3d& p : points) heights.push_back(body.vertical.dot(p));
-  if (heights.size() <= kStray) return soles;
+  if (heights.size() <= kStray || lacks_feet(body)) return by_soles;
   std::nth_element(heights.begin(), heights.begin() + kStray, heights.end());
-  return (soles + heights[kStray] - standing.seen) / 2;
+  return {(by_soles.height + heights[kStray] - standing.seen) / 2, standing.ground};
 }
 
 }  // namespace tensegric_fit::body_model

@@ -13,6 +13,7 @@ struct Standing {
   double seen;             ///< m above the ground: the lowest points that sensors see of feet
   double soles;            ///< m above the ground: the model's soles, on average
   double ground;           ///< m: deviation of the ground that these two give
+  double without_feet;     ///< m: the same where no foot is there, and the model's soles alone say it
 };
 
 /// \throw Refusal broken_file: not there, unknown keys, values out of range
@@ -28,9 +29,16 @@ Stance stance_of(const RegisteredBody& body);
 /// Up, a unit vector: body.vertical, the booth's own, unless legs and soles clearly stand on another.
 Eigen::Vector3d upright(const RegisteredBody& body, const Standing& standing);
 
-/// The ground along body.vertical, m: from the model's soles and from the lowest points of a scan alike, as
-/// each is off on its own.
-double ground_under(const RegisteredBody& body, const std::vector<Eigen::Vector3d>& points,
+/// The ground along body.vertical.
+struct Ground {
+  double height, deviation;  ///< m
+};
+
+/// By the model's soles alone: where it has feet that are not there.
+Ground ground_without_feet(const RegisteredBody& body, const Standing& standing);
+
+/// From the model's soles and from the lowest points of a scan alike, as each is off on its own.
+Ground ground_under(const RegisteredBody& body, const std::vector<Eigen::Vector3d>& points,
                     const Standing& standing);
 
 }  // namespace tensegric_fit::body_model

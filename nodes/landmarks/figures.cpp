@@ -156,6 +156,8 @@ double confidence_of(const Figure& figure, const Settled& settled) {
 }
 
 std::string reason_of(const Figure& figure, const Settled& settled) {
+  if (kNormal * figure.ground > kSure * limit_of(figure))
+    return "no foot is there: where the ground is, is the body model's guess";
   if (!settled.rests_on_model) return "surface and body model leave it open by more than ISO 20685 allows";
   if (!figure.on_mesh) return "the surface does not show it; it is where the body model has it";
   return "the surface shows something else there; it is where the body model has it";

@@ -214,8 +214,9 @@ RegisteredBody registered(Person& person, const Anatomy& anatomy) {
 void stand(Person& person, RegisteredBody& model, const body_model::Standing& standing) {
   if (person.on_floor) return;
   model.vertical = body_model::upright(model, standing);
-  model.ground = body_model::ground_under(model, person.cloud.points, standing);
-  model.ground_deviation = standing.ground;
+  const body_model::Ground ground = body_model::ground_under(model, person.cloud.points, standing);
+  model.ground = ground.height;
+  model.ground_deviation = ground.deviation;
   const Eigen::Isometry3d to_ground = level(model.vertical, model.ground, person.cloud.points.front());
   geometry::move(person.cloud, to_ground);
   model = moved(model, to_ground);

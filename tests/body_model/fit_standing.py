@@ -43,7 +43,7 @@ def main():
     a.add_argument('truths')
     a.add_argument('--standing', required=True)
     o = a.parse_args()
-    old = {k: float(v.split('#')[0]) for k, v in (line.split(':') for line in open(o.standing)) if k in ('soles', 'seen')}
+    old = {k: float(v.split('#')[0]) for k, v in (line.split(':') for line in open(o.standing)) if k in ('soles', 'seen', 'without_feet')}
     rows, names = [], []
     for line in open(o.readings):
         r = json.loads(line)
@@ -57,6 +57,7 @@ def main():
     with open(o.standing, 'w') as out:
         out.write('# How women stand in scans: tests/body_model/fit_standing.py wrote this; the ground\'s error (m) is of bodies left out.\n')
         out.write('made: %s\nbodies: %d training women (%s to %s)\nerror: %.4f\n' % (datetime.date.today(), len(names), min(names), max(names), error))
+        out.write('without_feet: %.4f    # m; fit_without_feet.py\n' % old['without_feet'])
         out.write('forwards: %.2f    # degrees\nsideways: %.2f    # degrees\nalong: %.2f    # degrees\nseen: %.4f    # m\nsoles: %.4f    # m\n' %
                   tuple(f[k] for k in ('forwards', 'sideways', 'along', 'seen', 'soles')))
     print(open(o.standing).read())

@@ -311,6 +311,24 @@ std::string refusal_of(const TriangleMesh& mesh, const std::vector<char>& filled
   return "accepted";
 }
 
+// Heights are above the ground, and of a body without feet nothing shows it: they were as sure as ever, and
+// off by what is missing.
+TEST(LandmarksOfBodies, WithoutFeetHeightsAreAGuess) {
+  const TriangleMesh& mesh = woman(2).body.mesh;
+  const double cut = geometry::bounding_box(mesh.vertices)[0].z() + 0.3;
+  std::vector<char> above;
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    above.push_back(std::min({mesh.vertices[t[0]].z(), mesh.vertices[t[1]].z(), mesh.vertices[t[2]].z()}) >
+                    cut);
+  const BodyMeasures footless = test::measured(geometry::submesh(mesh, above));
+  for (const char* name : {"bust", "hip", "stature"}) {
+    const auto &before = named(woman(2).measures.heights, name), &after = named(footless.heights, name);
+    EXPECT_NEAR(after.metres, before.metres, after.half_width) << name;
+    EXPECT_LT(after.confidence, 0.5) << name;
+    EXPECT_NE(after.reason.find("foot"), std::string::npos) << after.reason;
+  }
+}
+
 TEST(LandmarksOfBodies, MeshesThatAreNoneAreRefusedByName) {
   TriangleMesh mesh = woman(1).body.mesh;
   EXPECT_EQ(refusal_of(mesh, {}), "accepted");
