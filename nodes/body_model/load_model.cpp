@@ -15,8 +15,7 @@ constexpr char kModelMagic[] = "tensegric_fit body model 1";
 constexpr double kRounding = 0.001;                          // that shares of a skin point are written with
 constexpr double kLeastStature = 1, kGreatestStature = 2.5;  // m
 constexpr double kByte = 255;  // weights are shares in 255ths (definition of the format: README.md)
-
-constexpr int kMost = 256;  // bones, parts: a vertex names them by a byte
+constexpr int kMost = 256;     // bones, parts: a vertex names them by a byte
 
 bool is_index(double value, std::size_t size) {
   return value >= 0 && value < static_cast<double>(size);

@@ -51,7 +51,7 @@ Standing load_standing(const std::string& path) {
   const auto degrees = [&](const char* key) {
     return geometry::number_in(root, key, -5, 5, path, kCode) * M_PI / 180;
   };
-  const auto metres = [&](const char* key) { return geometry::number_in(root, key, 0, 0.05, path, kCode); };
+  const auto metres = [&](const char* key) { return geometry::number_in(root, key, 0, 0.02, path, kCode); };
   return {degrees("forwards"), degrees("sideways"), degrees("along"),      metres("seen"),
           metres("soles"),     metres("error"),     metres("without_feet")};
 }

@@ -19,7 +19,7 @@ std::vector<Scalar> flat(const std::vector<Eigen::Vector3d>& points) {
   return values;
 }
 
-inline constexpr double kFarthest = 1e7;  // m; no map reaches farther, and no ratio of areas overflows
+inline constexpr double kFarthest = 1e7;  // m; no map reaches farther
 
 /// \throw Refusal bad_mesh: not a multiple of three, or beyond kFarthest; non_finite
 template <typename Scalar>

@@ -148,6 +148,14 @@ TEST(BustTemplate, ANodeHasOnePlace) {
               std::string::npos);
 }
 
+TEST(BustTemplate, APlaceOnTheModelIsMadeOf64PointsAtMost) {
+  std::string points;
+  for (int i = 0; i < 65; ++i) points += (i == 0 ? "" : ", ") + ("[" + std::to_string(i) + ", 0.0153846]");
+  EXPECT_NE(refusal_with(kBust, "[[10602, 0.55], [10616, 0.05], [10615, 0.40]]", "[" + points + "]")
+                .find("64 pairs"),
+            std::string::npos);
+}
+
 TEST(BustTemplate, RefusesARegionByItsPlace) {
   EXPECT_NE(refusal_with(kBust, "{name: bust, rows: [0, 6]", "{name: bust, rows: [0, 7]").find("region 1:"),
             std::string::npos);
