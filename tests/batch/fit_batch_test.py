@@ -33,9 +33,10 @@ def without_cost(line):
     return {key: value for key, value in line.items() if key != "cost"}
 
 
-def descendants(process):
-    """Process numbers of its children."""
-    return [int(n) for task in pathlib.Path(f"/proc/{process}/task").glob("*/children") for n in task.read_text().split()]
+def workers_of(process):
+    """Process numbers. One that has not become the program yet does not count: its parent waits for that, for ever where it is stopped."""
+    children = [n for task in pathlib.Path(f"/proc/{process}/task").glob("*/children") for n in task.read_text().split()]
+    return [int(n) for n in children if b"worker" in pathlib.Path(f"/proc/{n}/cmdline").read_bytes().split(b"\0")]
 
 
 def wait_until(true, seconds=60):
@@ -75,9 +76,9 @@ class FitBatch(unittest.TestCase):
 
     def code_where_a_worker_gets(self, number, folder):
         process = self.start(self.manifest, "--out", folder, "--jobs", 1)
-        wait_until(lambda: descendants(process.pid))
+        wait_until(lambda: workers_of(process.pid))
         time.sleep(0.2)
-        os.kill(descendants(process.pid)[0], number)
+        os.kill(workers_of(process.pid)[0], number)
         return process.wait()
 
     def merged(self, *folders):
@@ -183,8 +184,8 @@ class FitBatch(unittest.TestCase):
     def test_a_hang_takes_one_scan_with_it(self):
         folder = self.folder / "hang"
         process = self.start(self.manifest, "--out", folder, "--jobs", 1, "--time", 8)
-        wait_until(lambda: descendants(process.pid))
-        os.kill(descendants(process.pid)[0], signal.SIGSTOP)
+        wait_until(lambda: workers_of(process.pid))
+        os.kill(workers_of(process.pid)[0], signal.SIGSTOP)
         self.assertEqual(process.wait(), 0)
         self.assertTrue(any(line["status"] == "timed_out" for line in lines_of(folder)))
         self.assertTrue(any(line["status"] == "ok" for line in lines_of(folder)))
