@@ -183,7 +183,7 @@ class FitBatch(unittest.TestCase):
 
     def test_a_hang_takes_one_scan_with_it(self):
         folder = self.folder / "hang"
-        process = self.start(self.manifest, "--out", folder, "--jobs", 1, "--time", 8)
+        process = self.start(self.manifest, "--out", folder, "--jobs", 1, "--time", 20)
         wait_until(lambda: workers_of(process.pid))
         os.kill(workers_of(process.pid)[0], signal.SIGSTOP)
         self.assertEqual(process.wait(), 0)
