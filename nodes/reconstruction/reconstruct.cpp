@@ -121,7 +121,9 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
   const std::vector<int> on_surface = surface_points(body.points);
   if (on_surface.size() < body.points.size()) {
     body = pick(body, on_surface);
-    body = pick(body, body_points(body.points));
+    const std::vector<int> still_hers = body_points(body.points);
+    geometry::append(left_out, pick(body, all_but(still_hers, body.points.size())));
+    body = pick(body, still_hers);
   }
   check_shape(body.points, options);
   on_floor = floor && lowest_of(body.points) <= kOffTheFloor;
