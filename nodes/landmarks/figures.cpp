@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kCode = geometry::refusal::kBrokenFile;
 constexpr double kLargest = 100;  // of any coefficient
+constexpr double kLeast = 1e-6;   // m, of a deviation: readings are weighed by its inverse
 constexpr double kSteepest = 10;  // power of the misfit that a file may give: fit_precision.py stops at 4
 constexpr double kSure = 1.5;     // of ISO 20685's limits: on training scans 3 % of the figures within it are
                                   // off by more than the limit
@@ -24,7 +25,7 @@ constexpr double kGross = 4;  // spreads between two readings of one thing: with
 Spread spread_in(const YAML::Node& node, const std::string& where) {
   geometry::check_keys(node, {"bias", "base", "growth", "support", "outside", "shift"}, where, kCode);
   return {geometry::number_in(node, "bias", -kLargest, kLargest, where, kCode),
-          geometry::number_in(node, "base", 0, kLargest, where, kCode),
+          geometry::number_in(node, "base", kLeast, kLargest, where, kCode),
           geometry::number_in(node, "growth", 0, kSteepest, where, kCode),
           geometry::number_in(node, "support", 0, kLargest, where, kCode),
           geometry::number_in(node, "outside", 0, kLargest, where, kCode),

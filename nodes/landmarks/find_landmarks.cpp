@@ -259,15 +259,20 @@ class Reader {
   template <typename TapeOf>
   void girth(const std::string& name, const TapeOf& tape_of) {
     if (find(Kind::height, name) == nullptr) return;
-    girth_of(name, tape_of(mesh_.trunk), tape_of(skin_.trunk));
+    girth_of(name, tape_of(mesh_.trunk), tape_of(skin_.trunk), support_of_level(name));
+  }
+  /// What is read on a level that nobody knows is as unsure as that.
+  double support_of_level(const std::string& name) const {
+    return find(Kind::height, name)->support < kWorst ? 0 : kWorst;
   }
   /// Never taken for seen: what is taken for arms may be missing from a tape.
-  void girth_of(const std::string& name, const Tape& on_mesh, const Tape& on_model) {
+  void girth_of(const std::string& name, const Tape& on_mesh, const Tape& on_model,
+                double least_support = 0) {
     if (on_mesh.size() < 3 && on_model.size() < 3) return;
     const auto value = [](const Tape& t) {
       return t.size() < 3 ? std::nullopt : std::optional<double>(length(t));
     };
-    const double support = support_along(on_model.size() < 3 ? on_mesh : on_model);
+    const double support = std::max(support_along(on_model.size() < 3 ? on_mesh : on_model), least_support);
     add(Kind::girth, name, as_figure(value(on_mesh)), as_figure(value(on_model)), support, false);
     figures_.back().loop = on_mesh;
     figures_.back().loop_on_model = on_model;
@@ -353,7 +358,7 @@ class Reader {
     const auto on_model = find_side(skin_.trunk, side, height(level));
     if (on_model)
       add_point(level + "_side" + kSuffix[side], find_side(mesh_.trunk, side, height(level)), on_model,
-                support_at(*on_model));
+                std::max(support_at(*on_model), support_of_level(level)));
   }
 
   void neck() {

@@ -21,8 +21,8 @@ struct Nipple {
 std::optional<Nipple> find_nipple(const Surface& surface, const Vector3d& expected, double deviation,
                                   const Vector3d& outward);
 
-/// The inframammary fold from below the bust point 55 mm inwards: most concave places of sagittal profiles 5
-/// mm apart.
+/// The inframammary fold from below the bust point 55 mm inwards: most concave places of sagittal profiles
+/// 2.5 mm apart.
 struct Fold {
   std::vector<Vector3d> places;  ///< the first below the bust point; empty where nothing is concave
   double curvature = 0;          ///< 1/m, of the first

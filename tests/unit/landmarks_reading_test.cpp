@@ -26,10 +26,14 @@ struct Registered {
   body_model::RegisteredBody model;
 };
 
-const landmarks::Figure* underbust(const landmarks::Reading& reading, landmarks::Kind kind) {
+const landmarks::Figure* find(const landmarks::Reading& reading, landmarks::Kind kind,
+                              const std::string& name) {
   for (const landmarks::Figure& figure : reading.figures)
-    if (figure.kind == kind && figure.name == "underbust") return &figure;
+    if (figure.kind == kind && figure.name == name) return &figure;
   return nullptr;
+}
+const landmarks::Figure* underbust(const landmarks::Reading& reading, landmarks::Kind kind) {
+  return find(reading, kind, "underbust");
 }
 
 TEST(LandmarksReading, TheLevelOfTheFoldsIsSeenWhereBothFoldsAre) {
@@ -87,6 +91,34 @@ TEST(LandmarksReading, HandsAboveHerHeadAreNotHerStature) {
   ASSERT_GT(pose(2), low + 0.1) << "hands above her head";
   EXPECT_NEAR(stature().first, before.first, 0.005);  // skinning moves the head by less
   EXPECT_NEAR(stature().second, before.second, 0.005);
+}
+
+// A belly that is the widest of all between hip and breasts: there is no least girth, and what is read on the
+// navel's level instead is as much a guess as that level.
+TEST(LandmarksReading, WithoutAWaistNothingOfItIsSure) {
+  Registered her(1);
+  const auto supports = [&] {
+    const landmarks::Reading reading = her.reading();
+    std::vector<double> all;
+    for (const auto& [kind, name] : {std::pair(landmarks::Kind::height, "waist"),
+                                     {landmarks::Kind::girth, "waist"},
+                                     {landmarks::Kind::point, "waist_side_L"},
+                                     {landmarks::Kind::point, "waist_side_R"}}) {
+      const landmarks::Figure* figure = find(reading, kind, name);
+      EXPECT_NE(figure, nullptr) << name;
+      if (figure != nullptr) all.push_back(figure->support);
+    }
+    return all;
+  };
+  for (const double support : supports()) EXPECT_LT(support, 0.03);
+  const Vector3d navel = her.model.skin_point("navel"), forwards = her.model.left().cross(her.model.up());
+  for (auto* skin : {&her.body.mesh.vertices, &her.model.skin})
+    for (Vector3d& p : *skin) {
+      const double up = her.model.up().dot(p - navel);
+      p += 0.15 * std::exp(-std::pow(up / 0.07, 2)) * std::max(forwards.dot(p - navel) + 0.2, 0.0) * 5 *
+           forwards;
+    }
+  for (const double support : supports()) EXPECT_NEAR(support, 0.1, 1e-12);
 }
 
 // Skin that nothing was seen near is no farther off than a body model is wrong: 100 mm.
