@@ -86,16 +86,6 @@ class FitPoints {
   std::vector<Vector3d> at_rest_;
 };
 
-double residual_of(const Matching& matching, const std::vector<double>& weights) {
-  double model = 0, weight = 0, samples = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    model += weights[i] * matching.distances[i];
-    weight += weights[i];
-  }
-  for (const double d : matching.unexplained) samples += d;
-  return (model / weight + samples / std::max<std::size_t>(matching.unexplained.size(), 1)) / 2;
-}
-
 /// As Fitted::surprise. The prior's stature is where the fit began, which says nothing of people.
 double surprise_of(const Matching& matching, const Prior& prior, double log_scale) {
   double misfit = 0;
@@ -145,7 +135,7 @@ void normal_equations(const PosedModel& posed, const std::vector<int>& vertices,
 }  // namespace
 
 Fitted fit_stage(const Model& model, const Matcher& matcher, Parameters start, const Stage& stage) {
-  Fitted fitted{std::move(start), 0, 0, {}};
+  Fitted fitted{std::move(start), {}, 0, {}};
   Parameters& p = fitted.parameters;
   const FitPoints points(model, p, stage.every);
   const double stature = p.log_scale;
@@ -156,14 +146,13 @@ Fitted fit_stage(const Model& model, const Matcher& matcher, Parameters start, c
         std::pow(stage.to / stage.from, stage.iterations < 2 ? 1.0 : double(i) / (stage.iterations - 1));
     const double noise = std::max(kNoisePerScale * scale, kLeastNoise);
     const PosedModel posed(model, p);
-    const ModelSkin skin = points.skin(posed);
-    const Matching matching = matcher.match(skin, scale, stage.samples);
-    fitted.residual = residual_of(matching, skin.weights);
+    fitted.matching = matcher.match(points.skin(posed), scale, stage.samples);
     MatrixXd matrix;
     VectorXd gradient;
-    normal_equations(posed, points.vertices(), matching.pulls, active, scale <= 0.02, matrix, gradient);
+    normal_equations(posed, points.vertices(), fitted.matching.pulls, active, scale <= 0.02, matrix,
+                     gradient);
     const Prior prior = prior_of(model, p, stature);
-    fitted.surprise = surprise_of(matching, prior, p.log_scale);
+    fitted.surprise = surprise_of(fitted.matching, prior, p.log_scale);
     matrix /= noise * noise;
     matrix.diagonal() += prior.precision.head(active);
     gradient = gradient / (noise * noise) + prior.precision.cwiseProduct(prior.off).head(active);

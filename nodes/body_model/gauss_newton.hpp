@@ -17,10 +17,9 @@ struct Stage {
 
 struct Fitted {
   Parameters parameters;
-  double residual;  ///< m: mean distance of model and samples from each other, each capped at
-                    ///< Matching::kUnmatched
-  double surprise;  ///< minus the logarithm of its probability, but for a constant: samples and prior,
-                    ///< whatever of the model they lack
+  Matching matching;  ///< of the last iteration, with the fit points that took part
+  double surprise;    ///< minus the logarithm of its probability, but for a constant: samples and prior,
+                      ///< whatever of the model they lack
   Eigen::MatrixXd precision;  ///< of the parameters that were free: data and prior
 };
 

@@ -348,10 +348,15 @@ std::vector<geometry::Missing> missing_parts(const RegisteredBody& body) {
   return missing;
 }
 
+std::vector<char> parts_there(const RegisteredBody& body) {
+  std::vector<char> there;
+  for (const double share : shares_there(body)) there.push_back(static_cast<char>(share >= kLeastOfPart));
+  return there;
+}
+
 bool lacks_feet(const RegisteredBody& body) {
-  const std::vector<double> there = shares_there(body);
-  return there[body.model->part_named("foot_L")] < kLeastOfPart &&
-         there[body.model->part_named("foot_R")] < kLeastOfPart;
+  const std::vector<char> there = parts_there(body);
+  return !there[body.model->part_named("foot_L")] && !there[body.model->part_named("foot_R")];
 }
 
 }  // namespace tensegric_fit::body_model

@@ -18,6 +18,9 @@ void recognise(RegisteredBody& body, const Samples& samples);
 /// its reason.
 std::vector<geometry::Missing> missing_parts(const RegisteredBody& body);
 
+/// Of each part of the model, whether the scan has at least about half of it.
+std::vector<char> parts_there(const RegisteredBody& body);
+
 /// Neither foot is there: nothing shows where she stands.
 bool lacks_feet(const RegisteredBody& body);
 

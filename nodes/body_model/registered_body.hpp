@@ -30,7 +30,8 @@ struct Unexplained {
 struct RegisteredBody {
   std::shared_ptr<const Model> model;
   Parameters parameters;
-  double residual = 0;  ///< m: mean distance of model and surface from each other before the displacement
+  double residual = 0;  ///< m: mean distance of model and surface from each other before the displacement,
+                        ///< each capped at Matching::kUnmatched, without parts that are not there
   std::vector<Eigen::Vector3d> posed;  ///< skin by pose and shape alone
   std::vector<Eigen::Vector3d> skin;   ///< and displaced onto the surface
   std::vector<double> off;      ///< m, of the skin from the surface; Matching::kUnmatched where there is none

@@ -39,7 +39,7 @@ constexpr double kUsual = 1.65;  // m, of women and men when a scan shows only a
 constexpr double kLeast = 0.5;   // m; less of a person is too little to know her by
 constexpr double kKnee = 0.27, kCrotch = 0.46, kChin = 0.87;  // statures above the soles
 
-constexpr int kYaws = 8;
+constexpr int kYaws = 8, kWays = 2;              // that she may face, and that are looked at more closely
 constexpr double kRestingArm = M_PI / 4;         // rad, how far the arms are raised at rest
 constexpr double kShoulder = 0.11, kArm = 0.40;  // statures: half the shoulders' breadth, an arm's length
 
@@ -111,6 +111,20 @@ std::vector<double> support_of(const std::vector<Vector3d>& skin, const std::vec
   return support;
 }
 
+/// m, mean distance of model and samples from each other; skin of parts that are not there has none.
+double residual_of(const Model& model, const Matching& matching, const std::vector<char>& part_is_there) {
+  double skin = 0, weight = 0, samples = 0;
+  for (std::size_t i = 0; i < model.fit_points.size(); ++i) {
+    if (!part_is_there[model.part[model.fit_points[i]]]) continue;
+    skin += model.fit_weights[i] * matching.distances[i];
+    weight += model.fit_weights[i];
+  }
+  for (const double d : matching.unexplained) samples += d;
+  return ((weight > 0 ? skin / weight : Matching::kUnmatched) +
+          samples / static_cast<double>(matching.unexplained.size())) /
+         2;
+}
+
 }  // namespace
 
 Registrar::Registrar(Model model, const Standing& standing)
@@ -121,20 +135,23 @@ RegisteredBody Registrar::operator()(const Samples& samples) const {
   if (samples.points.size() < kFewest)
     throw geometry::Refusal(geometry::refusal::kNotABody, "too little surface to be a body");
   const Matcher matcher(samples);
-  // 1. What of her there is and which way she faces; 2. where her arms are, of the two likeliest; 3. pose and
-  // shape; 4. what they leave over.
+  // 1. Which way she faces, for each guess at what of her there is; 2. where her arms are, of the two
+  // likeliest ways of each guess: a wrong guess may look likelier while it is rough; 3. pose and shape; 4.
+  // what they leave over.
   std::vector<std::pair<Stand, double>> from;
   for (const Stand& stand : stands_of(samples))
     for (int k = 0; k < kYaws; ++k) from.emplace_back(stand, 2 * M_PI * k / kYaws);
-  std::vector<Fitted> tried(from.size());
-  geometry::parallel_for(tried.size(), [&](std::size_t begin, std::size_t end, int) {
+  std::vector<Fitted> rough(from.size()), tried;
+  geometry::parallel_for(rough.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i)
-      tried[i] = fit_stage(model, matcher, start_at(model, samples, from[i].first, from[i].second), kRough);
+      rough[i] = fit_stage(model, matcher, start_at(model, samples, from[i].first, from[i].second), kRough);
   });
   const auto likelier = [](const Fitted& a, const Fitted& b) { return a.surprise < b.surprise; };
-  std::stable_sort(tried.begin(), tried.end(), likelier);
-  tried.erase(tried.begin() + 2, tried.end());
-  geometry::parallel_for(2, [&](std::size_t begin, std::size_t end, int) {
+  for (auto stand = rough.begin(); stand != rough.end(); stand += kYaws) {
+    std::stable_sort(stand, stand + kYaws, likelier);
+    tried.insert(tried.end(), stand, stand + kWays);
+  }
+  geometry::parallel_for(tried.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i)
       tried[i] = fit_stage(model, matcher, with_arms_placed(model, matcher, tried[i].parameters), kSecond);
   });
@@ -144,7 +161,6 @@ RegisteredBody Registrar::operator()(const Samples& samples) const {
   RegisteredBody body;
   body.model = model_;
   body.parameters = fitted.parameters;
-  body.residual = fitted.residual;
   body.posed = posed.vertices();
   const Displaced displaced = displace(model, field_, matcher, fitted.parameters);
   body.skin = displaced.vertices;
@@ -154,13 +170,15 @@ RegisteredBody Registrar::operator()(const Samples& samples) const {
     body.joints.push_back(posed.joint(static_cast<int>(b)));
   for (std::size_t i = 0; i < model.bone_points.size(); ++i)
     body.bone_points.push_back(posed.bone_point(static_cast<int>(i)));
+  body.residual = residual_of(model, fitted.matching, parts_there(body));
   recognise(body, samples);
   return body;
 }
 
-RegisteredBody register_mesh(const Registrar& registrar, const geometry::TriangleMesh& mesh) {
-  RegisteredBody body = registrar(shuffled(sample_surface(mesh, {}, kSamplesOfMesh)));
-  body.scanned = false;
+RegisteredBody register_mesh(const Registrar& registrar, const geometry::TriangleMesh& mesh,
+                             const std::vector<char>& filled) {
+  RegisteredBody body = registrar(shuffled(sample_surface(mesh, filled, kSamplesOfMesh)));
+  body.scanned = !filled.empty();
   body.vertical = upright(body, registrar.standing());
   if (lacks_feet(body)) {
     const Ground ground = ground_without_feet(body, registrar.standing());
@@ -170,6 +188,7 @@ RegisteredBody register_mesh(const Registrar& registrar, const geometry::Triangl
   }
   body.ground = body.vertical.dot(mesh.vertices.front());
   for (const Vector3d& v : mesh.vertices) body.ground = std::min(body.ground, body.vertical.dot(v));
+  if (body.scanned) body.ground_deviation = registrar.standing().ground;
   return body;
 }
 

@@ -25,9 +25,11 @@ class Registrar {
   Standing standing_;
 };
 
-/// The model on a mesh that was given: up as for a scan, the ground under its lowest vertex. \throw Refusal
-/// not_a_body
-RegisteredBody register_mesh(const Registrar& registrar, const geometry::TriangleMesh& mesh);
+/// The model on a mesh; its lowest vertex is the ground. With one flag per vertex in `filled`: a mesh that
+/// was made of a scan, of which flagged skin shows nothing and the ground is as unsure as a scan's. Up as for
+/// a scan. \throw Refusal not_a_body
+RegisteredBody register_mesh(const Registrar& registrar, const geometry::TriangleMesh& mesh,
+                             const std::vector<char>& filled = {});
 
 /// That of the shipped model, loaded once. \throw Refusal broken_file
 const Registrar& shipped_registrar();

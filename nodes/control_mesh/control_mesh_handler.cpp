@@ -16,13 +16,14 @@ namespace tensegric_fit::node {
 namespace {
 
 std::optional<body_model::RegisteredBody> registered(const geometry::TriangleMesh& mesh,
+                                                     const std::vector<char>& filled,
                                                      const BodyModel::ConstPtr& message,
                                                      std::string& origin) {
   const body_model::Registrar& registrar = body_model::shipped_registrar();
   if (message) return registered_in(*message, registrar.shared_model());
   try {
     origin = "registered to the mesh";
-    return body_model::register_mesh(registrar, mesh);
+    return body_model::register_mesh(registrar, mesh, filled);
   } catch (const geometry::Refusal& refusal) {
     origin = "none: " + refusal.code();
     return std::nullopt;
@@ -69,7 +70,8 @@ ControlMeshHandler::Output ControlMeshHandler::handle(const Input& input) const 
   output.body_from_scan = measures.body_from_scan;
 
   std::string origin = "came with the mesh";
-  const std::optional<body_model::RegisteredBody> model = registered(output.body, model_message, origin);
+  const std::optional<body_model::RegisteredBody> model =
+      registered(output.body, filled_in(*mesh), model_message, origin);
 
   std::vector<geometry::ControlMesh> parts, coarse_parts;
   std::optional<geometry::Refusal> first;

@@ -22,9 +22,10 @@ tf2_msgs::TFMessage::ConstPtr transform_to(const std::string& body_frame, const 
   return message;
 }
 
-body_model::RegisteredBody registered(const geometry::TriangleMesh& mesh, const BodyModel::ConstPtr& model) {
+body_model::RegisteredBody registered(const geometry::TriangleMesh& mesh, const std::vector<char>& filled,
+                                      const BodyModel::ConstPtr& model) {
   const body_model::Registrar& registrar = body_model::shipped_registrar();
-  if (!model) return body_model::register_mesh(registrar, mesh);
+  if (!model) return body_model::register_mesh(registrar, mesh, filled);
   check_mesh_parts(*model, mesh.vertices.size());
   return registered_in(*model, registrar.shared_model());
 }
@@ -47,9 +48,9 @@ LandmarksHandler::Output LandmarksHandler::handle(const Input& input) const {
   const TriangleMesh& message = *std::get<0>(input);
   Output output;
   output.mesh = mesh_in(message);
-  const body_model::RegisteredBody model = registered(output.mesh, std::get<1>(input));
-  output.measures =
-      landmarks::find_landmarks(output.mesh, filled_in(message), model, landmarks::shipped_precision());
+  const std::vector<char> filled = filled_in(message);
+  const body_model::RegisteredBody model = registered(output.mesh, filled, std::get<1>(input));
+  output.measures = landmarks::find_landmarks(output.mesh, filled, model, landmarks::shipped_precision());
   for (geometry::Missing& part : body_model::missing_parts(model))
     output.measures.missing.push_back(std::move(part));
   geometry::doubt_fractured(fractures_in(message), output.measures);

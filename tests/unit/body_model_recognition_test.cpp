@@ -188,6 +188,7 @@ TEST(Recognition, HalvesOfAWomanAreRegisteredInHerSizeAndNamed) {
     EXPECT_EQ(names_of(missing_parts(body)), half.missing);
     EXPECT_NEAR(body.stature(), 1.64, half.off);
     EXPECT_LT(body.evidence.misfit, 0.003);
+    EXPECT_LT(body.residual, 0.003) << "what is not there does not misfit";
   }
 }
 

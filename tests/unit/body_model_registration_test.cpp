@@ -171,6 +171,31 @@ TEST(Registration, GivesPerVertexWhatItPromises) {
   EXPECT_THROW(her.body.joint("elbow"), std::out_of_range);
 }
 
+// A mesh that was made of a scan has fillings that are nobody's skin.
+TEST(Registration, FillingsOfAScansMeshCountForNothing) {
+  const virtual_body::StandingModel standing = virtual_body::stand(model(), {});
+  TriangleMesh mesh{standing.vertices, model().triangles};
+  const std::vector<Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
+  const Vector3d breast = skin_point(model(), mesh.vertices, "bust_point_L");
+  std::vector<char> filled;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const double near = 1 - (mesh.vertices[v] - breast).squaredNorm() / (0.08 * 0.08);
+    filled.push_back(static_cast<char>(near > 0));
+    if (near > 0) mesh.vertices[v] += 0.03 * near * normals[v];
+  }
+  const RegisteredBody given = register_mesh(shipped_registrar(), mesh),
+                       scan = register_mesh(shipped_registrar(), mesh, filled);
+  EXPECT_FALSE(given.scanned);
+  EXPECT_TRUE(scan.scanned);
+  EXPECT_GT(scan.ground_deviation, 0) << "where a scan's floor was is not known exactly";
+  const auto off = [&](const RegisteredBody& body) {
+    return (body.skin_point("bust_point_L") - breast).norm();
+  };
+  EXPECT_GT(off(given), 0.015);
+  EXPECT_LT(off(scan), 0.01);
+  EXPECT_NEAR(scan.ground, given.ground, 0.02);
+}
+
 TEST(Registration, WhatIsNoPersonsSizeIsRefused) {
   EXPECT_EQ(refusal_of([] { register_mesh(shipped_registrar(), {}); }), geometry::refusal::kNotABody);
   const virtual_body::StandingModel standing = virtual_body::stand(model(), {});
