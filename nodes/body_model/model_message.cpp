@@ -73,6 +73,7 @@ body_model::Parameters parameters_in(const BodyModel& message, const body_model:
   check(parameters.rotation.isUnitary(kUnit) && parameters.rotation.determinant() > 0,
         "its matrix is not a rotation");
   check(message.scale > 0, "its scale is not above 0");
+  check(message.residual > 0, "its residual is not above 0");
   parameters.log_scale = std::log(message.scale);
   parameters.turns = points_in(message.turns);
   parameters.shape =

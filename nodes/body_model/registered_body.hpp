@@ -42,7 +42,7 @@ struct RegisteredBody {
   Evidence evidence;
   std::vector<Unexplained> unexplained;  ///< largest first
   std::string note;                      ///< what is unusual about her shape, in words, or empty
-  bool scanned = true;                   ///< registered to a scan's points; false: to a mesh that was given
+  bool scanned = true;  ///< registered to a scan's points or mesh; false: to a mesh that was given
   Eigen::Vector3d vertical = Eigen::Vector3d::UnitZ();  ///< up, unit vector
   double ground = 0;                                    ///< m along `vertical`, under her soles
   double ground_deviation =

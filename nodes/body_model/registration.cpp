@@ -111,7 +111,8 @@ std::vector<double> support_of(const std::vector<Vector3d>& skin, const std::vec
   return support;
 }
 
-/// m, mean distance of model and samples from each other; skin of parts that are not there has none.
+/// m, mean distance of model and samples from each other; skin of parts that are not there has none. \pre all
+/// fit points took part
 double residual_of(const Model& model, const Matching& matching, const std::vector<char>& part_is_there) {
   double skin = 0, weight = 0, samples = 0;
   for (std::size_t i = 0; i < model.fit_points.size(); ++i) {
@@ -178,7 +179,7 @@ RegisteredBody Registrar::operator()(const Samples& samples) const {
 RegisteredBody register_mesh(const Registrar& registrar, const geometry::TriangleMesh& mesh,
                              const std::vector<char>& filled) {
   RegisteredBody body = registrar(shuffled(sample_surface(mesh, filled, kSamplesOfMesh)));
-  body.scanned = !filled.empty();
+  body.scanned = std::find(filled.begin(), filled.end(), 1) != filled.end();
   body.vertical = upright(body, registrar.standing());
   if (lacks_feet(body)) {
     const Ground ground = ground_without_feet(body, registrar.standing());
@@ -188,6 +189,7 @@ RegisteredBody register_mesh(const Registrar& registrar, const geometry::Triangl
   }
   body.ground = body.vertical.dot(mesh.vertices.front());
   for (const Vector3d& v : mesh.vertices) body.ground = std::min(body.ground, body.vertical.dot(v));
+  // Reconstruction ends soles on the ground; whether it saw a floor is not known here.
   if (body.scanned) body.ground_deviation = registrar.standing().ground;
   return body;
 }

@@ -118,6 +118,7 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
   const std::vector<int> hers = body_points(scan.points);
   PointCloud body = pick(scan, hers);
   left_out = pick(scan, all_but(hers, scan.points.size()));
+  left_out.sensor.clear();  // nobody asks who saw what is left out
   const std::vector<int> on_surface = surface_points(body.points);
   if (on_surface.size() < body.points.size()) {
     body = pick(body, on_surface);

@@ -32,11 +32,10 @@ def cut(path, out, low, high):
     kept = points[(share > low) & (share < high) & (np.hypot(points["x"] - middle[0], points["y"] - middle[1]) < NEAR)]
     header = [f"element vertex {len(kept)}" if line.startswith("element vertex") else line for line in lines]
     (out / path.name).write_bytes("\n".join(header + ["end_header\n"]).encode() + kept.tobytes())
-    unknown = [f"height {name}" for name in truth["heights"]] + ["point crotch"]
+    truth["vague"] = sorted({*truth["vague"], *(f"height {name}" for name in truth["heights"]), "point crotch"})
     if high < HEAD:
-        unknown += [f"girth {name}" for name in truth["girths"] if name.startswith("neck")] + \
-                   [f"point {name}" for name in truth["landmarks"] if name.startswith("neck")]
-    truth["vague"] = sorted({*truth["vague"], *unknown})
+        for kind in ("girths", "landmarks"):
+            truth[kind] = {name: value for name, value in truth[kind].items() if not name.startswith("neck")}
     (out / path.name.replace("_scan.ply", "_truth.json")).write_text(json.dumps(truth), encoding="utf-8")
 
 

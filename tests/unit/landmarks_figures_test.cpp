@@ -248,6 +248,7 @@ TEST_F(PrecisionFile, IsRefusedByTheNameOfWhatIsWrong) {
   expect_named(file_with(replaced(kFigure, "base: 0.001", "shift: -1, base: 0.001")), "shift");
   expect_named(file_with(replaced(kFigure, "base: 0.001", "base: .nan")), "base");
   expect_named(file_with(replaced(kFigure, "base: 0.001", "base: 1000")), "base");
+  expect_named(file_with(replaced(kFigure, "base: 0.001", "base: 0")), "base");
   expect_named(file_with(replaced(kFigure, "base: 0.001", "base: wide")), "base");
   expect_named(file_with(replaced(kFigure, ", disagreement: 0.1", "")), "disagreement");
   expect_named(replaced(file_with(kFigure), "scan:", "cloud:"), "cloud");

@@ -161,6 +161,7 @@ TEST(BodyModelMessage, WhatDoesNotFitTheModelIsRefusedByName) {
   EXPECT_EQ(refused([](BodyModel& bad) { bad.rotation[0] = 2; }), "bad_model");
   EXPECT_EQ(refused([](BodyModel& bad) { bad.up[2] = 2; }), "bad_model");
   EXPECT_EQ(refused([](BodyModel& bad) { bad.scale = 0; }), "bad_model");
+  EXPECT_EQ(refused([](BodyModel& bad) { bad.residual = 0; }), "bad_model");
   EXPECT_EQ(refused([](BodyModel& bad) { bad.ground_deviation = -0.001; }), "bad_model");
   for (double BodyModel::*number :
        {&BodyModel::residual, &BodyModel::ground, &BodyModel::ground_deviation, &BodyModel::scale})
@@ -230,6 +231,22 @@ TEST(LandmarksHandlerTest, RegistersTheModelToAMeshThatComesAlone) {
       landmarks::find_landmarks(her_mesh(), {}, woman(), landmarks::shipped_precision());
   for (const char* name : {"bust", "underbust", "crotch"})
     EXPECT_NEAR(output.measures.height(name), direct.height(name), 0.004) << name;  // ISO 20685
+}
+
+// An older bag has the mesh without its model.
+TEST(LandmarksHandlerTest, AMeshWithFillingsThatComesAloneIsAScans) {
+  const auto half_width = [](const std::vector<char>& filled) {
+    LandmarksHandler stage = landmarks_handler();
+    stage.add(boost::make_shared<TriangleMesh>(to_message(tag("A"), her_mesh(), filled)));
+    for (const geometry::Measure& height : stage.handle(*stage.alone()).measures.heights)
+      if (height.name == "bust") return height.half_width;
+    return 0.0;
+  };
+  std::vector<char> filled(her_mesh().vertices.size(), 0);
+  const double given = half_width(filled);
+  EXPECT_EQ(given, half_width({})) << "no flag is set";
+  filled.front() = 1;
+  EXPECT_GT(half_width(filled), given + 0.001) << "a scan's: where its floor was is not known";
 }
 
 TEST(LandmarksHandlerTest, AModelThatDoesNotFitTheMeshIsRefusedByName) {
