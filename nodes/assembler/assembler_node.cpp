@@ -97,7 +97,7 @@ class AssemblerNode {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(setup.capture.timeout);
     for (const auto& cloud : capture.clouds)
       while (cloud && !transforms_.canTransform(setup.frame_id, cloud->frame_id, time_of(cloud->stamp)) &&
-             ros::WallTime::now() < end)
+             ros::WallTime::now() < end && ros::ok())
         ros::WallDuration(0.01).sleep();
   }
 

@@ -41,6 +41,12 @@ void check_pixels(const sensor_msgs::Image& image) {
                               image.height, image.step, image.data.size()));
 }
 
+bool is_same(const boost::array<double, 9>& one, const boost::array<double, 9>& other) {
+  constexpr double kRounded = 1e-6;  // by drivers
+  return std::equal(one.begin(), one.end(), other.begin(),
+                    [](double a, double b) { return std::abs(a - b) <= kRounded; });
+}
+
 void check_lens(const sensor_msgs::CameraInfo& info) {
   const auto wrong = [](const std::string& why) { return Refusal(refusal::kWrongFields, why); };
   if (!all_finite(info.K) || !all_finite(info.P) || !all_finite(info.R) || !all_finite(info.D))
@@ -49,6 +55,12 @@ void check_lens(const sensor_msgs::CameraInfo& info) {
     throw wrong("CameraInfo has no focal length in K: calibrate the camera");
   if (!(info.P[0] > 0) || !(info.P[5] > 0))
     throw wrong("CameraInfo has no focal length in P: calibrate the camera");
+  if (info.P[8] != 0 || info.P[9] != 0 || info.P[10] != 1)
+    throw wrong("the third row of P in CameraInfo does not begin with 0 0 1");
+  if (!is_same(info.R, {0, 0, 0, 0, 0, 0, 0, 0, 0}) && !is_same(info.R, {1, 0, 0, 0, 1, 0, 0, 0, 1}))
+    throw wrong("CameraInfo turns the image (R): depths are along the lens' own axis");
+  if (info.binning_x > 1 || info.binning_y > 1 || info.roi.x_offset > 0 || info.roi.y_offset > 0)
+    throw wrong("CameraInfo bins pixels or takes a part of them: send the whole image");
   static const std::map<std::string, std::set<std::size_t>> kModels = {{"plumb_bob", {4, 5}},
                                                                        {"rational_polynomial", {8, 12, 14}}};
   if (info.D.empty()) return;
@@ -73,15 +85,15 @@ void check_depth_image(const sensor_msgs::Image& image, const sensor_msgs::Camer
 }
 
 sensor_msgs::Image rectified(const sensor_msgs::Image& image, const sensor_msgs::CameraInfo& info) {
-  if (std::all_of(info.D.begin(), info.D.end(), [](double d) { return d == 0; })) return image;
-  const cv::Mat_<double> k(3, 3, const_cast<double*>(info.K.data())),
-      r(3, 3, const_cast<double*>(info.R.data())), p(3, 4, const_cast<double*>(info.P.data())),
-      d(info.D, true);
-  const bool turned = cv::countNonZero(r) > 0;  // all zero where a driver leaves it out
+  const bool straight_lens = std::all_of(info.D.begin(), info.D.end(), [](double d) { return d == 0; });
+  if (straight_lens && info.K[0] == info.P[0] && info.K[2] == info.P[2] && info.K[4] == info.P[5] &&
+      info.K[5] == info.P[6])
+    return image;
+  const cv::Mat_<double> camera(3, 3, const_cast<double*>(info.K.data())),
+      wanted(3, 4, const_cast<double*>(info.P.data())), d(info.D, true);
   const cv::Size size(static_cast<int>(image.width), static_cast<int>(image.height));
   cv::Mat columns, rows;
-  cv::initUndistortRectifyMap(k, d, turned ? cv::Mat(r) : cv::Mat(), p.colRange(0, 3), size, CV_32FC1,
-                              columns, rows);
+  cv::initUndistortRectifyMap(camera, d, cv::Mat(), wanted.colRange(0, 3), size, CV_32FC1, columns, rows);
   const bool metres = image.encoding == "32FC1";
   const cv::Mat seen(size, metres ? CV_32FC1 : CV_16UC1, const_cast<std::uint8_t*>(image.data.data()),
                      image.step);

@@ -22,6 +22,11 @@ void check_control_mesh(const ControlMesh& control) {
   const TriangleMesh mesh{control.outer, control.triangles};
   check_mesh(mesh);
   edges_of(mesh);
+  std::vector<char> has_triangle(count, 0);
+  for (const Eigen::Vector3i& t : control.triangles)
+    for (const int v : t) has_triangle[v] = 1;
+  if (std::find(has_triangle.begin(), has_triangle.end(), 0) != has_triangle.end())
+    throw Refusal(refusal::kBadMesh, "a node of the control mesh belongs to no triangle");
   for (const Eigen::Vector3d& p : control.inner)
     if (!p.allFinite()) throw Refusal(refusal::kNonFinite, "an inner node of the control mesh is not finite");
   if (control.regions.empty()) throw Refusal(refusal::kBadMesh, "the control mesh has no region");

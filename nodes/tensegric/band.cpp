@@ -94,6 +94,7 @@ std::vector<Band> lay_bands(const Model& model, const Garment& garment,
     band.tension_limit = line.tension_limit;
     band.request = line.ratio;
     band.initial = length_of(band, rest);
+    if (!(band.initial > 0)) throw Refusal(refusal::kBadMesh, "line '" + line.name + "' has no length");
     band.neutral = line.ratio * band.initial;
     band.smooth = std::min(
         kSmooth, kSmoothShare * band.initial / static_cast<double>(band.threads.front().spans.size()));

@@ -40,7 +40,8 @@ struct Band {
 
 /// Bands of the garment's lines. A string runs over the mesh's edges from stop to stop, a taut one
 /// straight; a line on the body is found in `laid` by its name. \throw Refusal as nodes_of
-/// (course.hpp); bad_garment: a ratio, or a line on the body that is not in `laid`
+/// (course.hpp); bad_garment: a ratio, or a line on the body that is not in `laid`;
+/// bad_mesh: a line without length
 std::vector<Band> lay_bands(const Model& model, const Garment& garment,
                             const std::vector<geometry::LaidLine>& laid = {});
 

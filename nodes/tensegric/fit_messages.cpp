@@ -193,7 +193,7 @@ FitState to_message(const FitName& name, const tensegric::Solution& solution, do
     result.name = region.name;
     result.volume_before = region.volume_before;
     result.volume_after = region.volume_after;
-    message.volume_errors.push_back(region.volume_after / region.volume_before - 1);
+    message.volume_errors.push_back(region.volume_error);
     message.regions.push_back(std::move(result));
   }
   return message;

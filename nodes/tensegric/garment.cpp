@@ -140,6 +140,10 @@ void check_line(GarmentLine& line, const std::string& where) {
   check("ratio", line.ratio, kRatio, where);
   check("stiffness", line.law.stiffness, kTension, where);
   if (line.law.kind == TensionLaw::Kind::table) check_table(line.law.table, where);
+  // In messages 0 stands for no limit, and for no stiffness.
+  if (line.law.kind == TensionLaw::Kind::stiffness && line.law.stiffness == 0)
+    refuse(where, "'stiffness' is 0: such a line pulls nothing");
+  if (line.tension_limit == 0) refuse(where, "'tension_limit' is 0: such a line pulls nothing");
   if (line.tension_limit != std::numeric_limits<double>::infinity())
     check("tension_limit", line.tension_limit, kTension, where);
   if (line.through.size() == 1 && line.fan.empty()) refuse(where, "'through' needs two nodes or more");

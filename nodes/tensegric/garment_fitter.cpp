@@ -5,8 +5,9 @@
 namespace tensegric_fit::tensegric {
 
 void GarmentFitter::check(const Garment& garment) const {
-  if (const auto known = wearer())
-    lay_garment(known->model, garment, options_.solver, {}, known->body->lay(garment));
+  SolverOptions options = options_.solver;
+  options.volume = KeptVolume::control;  // which volume is kept makes no garment good or bad
+  if (const auto known = wearer()) lay_garment(known->model, garment, options, {}, known->body->lay(garment));
 }
 
 std::optional<Solution> GarmentFitter::fit(const Garment& garment, SolverName solver, int rest,

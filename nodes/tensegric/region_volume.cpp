@@ -27,6 +27,12 @@ int count_free(const std::vector<int>& free_index) {
   return static_cast<int>(std::count_if(free_index.begin(), free_index.end(), [](int i) { return i >= 0; }));
 }
 
+/// m^3, what errors of a volume are relative to.
+double signed_scale(double rest, double area) {
+  const double flat = std::pow(area, 1.5);
+  return std::abs(rest) > 1e-6 * flat ? rest : flat;
+}
+
 }  // namespace
 
 RegionVolume region_volume_of(const Model& model, const geometry::ControlRegion& region,
@@ -63,8 +69,15 @@ double control_volume(const RegionVolume& region, const Positions& x) {
 }
 
 double volume_error(const RegionVolume& region, double volume) {
-  const double flat = 1e-6 * std::pow(region.area, 1.5);
-  return (volume - region.rest) / (std::abs(region.rest) > flat ? region.rest : std::pow(region.area, 1.5));
+  return (volume - region.rest) / signed_scale(region.rest, region.area);
+}
+
+double control_volume_error(const RegionVolume& region, double volume) {
+  return (volume - region.control_rest) / signed_scale(region.control_rest, region.control_area);
+}
+
+double volume_scale(const RegionVolume& region) {
+  return std::abs(signed_scale(region.rest, region.area));
 }
 
 double volume_error(const RegionVolume& region, const Positions& x) {

@@ -43,6 +43,10 @@ double control_volume(const RegionVolume& region, const Positions& x);
 /// (V - V0) / V0; of a flat patch, which has no volume of its own, relative to area^(3/2).
 double volume_error(const RegionVolume& region, double volume);
 double volume_error(const RegionVolume& region, const Positions& x);
+/// Of the control mesh's volume, whichever is kept.
+double control_volume_error(const RegionVolume& region, double volume);
+/// m^3, what volume_error is relative to, above 0.
+double volume_scale(const RegionVolume& region);
 
 /// Adds `scale` times the volume's gradient by the free nodes; returns the volume.
 double add_volume_gradient(const RegionVolume& region, const Positions& x, const std::vector<int>& free_index,

@@ -94,7 +94,8 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
     solution.lines.push_back(line);
   }
   for (const RegionVolume& region : problem.volumes)
-    solution.regions.push_back({region.name, region.control_rest, control_volume(region, x)});
+    solution.regions.push_back({region.name, region.control_rest, control_volume(region, x),
+                                control_volume_error(region, control_volume(region, x))});
   solution.status = outcome.status;
   solution.iterations = outcome.iterations;
   solution.residual = outcome.residual;

@@ -210,7 +210,7 @@ void StrutRelaxation::push_volume(std::size_t r, double line_force) {
   external_ += (share * missing + gathered_[r]) * push;
   if (!adaptive_) return;
   const double stiffness =
-      problem_.options.volume_force * push.squaredNorm() * node_area(region) / std::abs(region.rest);
+      problem_.options.volume_force * push.squaredNorm() * node_area(region) / volume_scale(region);
   for (std::size_t i = 0; i < model_.control.outer.size(); ++i) held_[i] += stiffness;
 }
 

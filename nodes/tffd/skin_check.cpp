@@ -148,9 +148,9 @@ bool turns_over(const WornSkin& skin) {
   for (const Eigen::Vector3i& t : skin.triangles) {
     const Eigen::Vector3d after = geometry::area_vector(skin.worn[t[0]], skin.worn[t[1]], skin.worn[t[2]]),
                           before = geometry::area_vector(skin.rest[t[0]], skin.rest[t[1]], skin.rest[t[2]]);
-    if (before.dot(after) < 0) over += before.norm();
+    if (before.dot(after) < 0) over += before.norm() / 2;
   }
-  return over >= kGrain;
+  return over >= kGrain / 2;
 }
 
 std::vector<FitWarning> check_skin(const WornSkin& skin, const std::vector<WornLine>& lines) {

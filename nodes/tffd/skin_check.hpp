@@ -35,8 +35,8 @@ inline constexpr double kLeastStretch = 0.5;
 /// \throw Refusal bad_mesh: not one worn place a vertex
 std::vector<geometry::FitWarning> check_skin(const WornSkin& skin, const std::vector<WornLine>& lines);
 
-/// Whether kGrain of skin and more, in all, is turned by more than kTurnedOver: no shape of skin.
-/// \pre as many worn places as vertices
+/// Whether half of kGrain of skin and more, in all, is turned by more than kTurnedOver: no shape of skin.
+/// Half: what is taken back for it must stay clear of what is warned of. \pre as many worn places as vertices
 bool turns_over(const WornSkin& skin);
 
 }  // namespace tensegric_fit::tffd

@@ -1,5 +1,7 @@
 #include "tffd/skin_near.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -105,6 +107,9 @@ std::vector<SurfacePoint> SkinNear::shortest(std::vector<Vector3d> way) const {
 std::vector<Vector3d> evenly(const std::vector<Vector3d>& line, double spacing) {
   const double length = geometry::length_of(line, false);
   if (!(length > kLineSpacing)) throw Refusal(kBadGarment, "a line on the body has no length");
+  if (length > kLongestLine)
+    throw Refusal(kBadGarment,
+                  fmt::format("a line on the body is {:g} m long, more than {:g}", length, kLongestLine));
   const int count = std::max(2, static_cast<int>(std::ceil(length / spacing)) + 1);
   std::vector<Vector3d> points = geometry::between_ends(line, count - 2);
   points.insert(points.begin(), line.front());

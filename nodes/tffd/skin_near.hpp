@@ -28,7 +28,7 @@ class SkinNear {
                                double way) const;
 
   /// The shortest way from end to end of `way` beside it, in steps of some 3 mm. \throw Refusal
-  /// bad_garment: it has no length
+  /// bad_garment: it has no length, or one beyond kLongestLine
   std::vector<geometry::SurfacePoint> shortest(std::vector<Eigen::Vector3d> way) const;
 
  private:
@@ -40,9 +40,11 @@ class SkinNear {
 };
 
 inline constexpr double kFarFromSkin = 0.030;  ///< m
+inline constexpr double kLongestLine = 100;    ///< m: more than any garment has; memory is by length
 inline constexpr double kLineSpacing = 0.003;  ///< m, between points along a fibre while it is laid
 
-/// Points along a polyline, as far apart or less. \throw Refusal bad_garment: it is shorter than kLineSpacing
+/// Points along a polyline, as far apart or less. \throw Refusal bad_garment: it is shorter than
+/// kLineSpacing, or longer than kLongestLine
 std::vector<Eigen::Vector3d> evenly(const std::vector<Eigen::Vector3d>& line, double spacing = kLineSpacing);
 
 }  // namespace tensegric_fit::tffd

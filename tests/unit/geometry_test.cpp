@@ -193,6 +193,13 @@ TEST(ControlMesh, VolumeOfAnOpenPatchFollowsItsNodes) {
   control.names = {"a", "", "", "", "tip"};
   control.regions = {{"all", {0, 1, 2, 3}}};
   check_control_mesh(control);
+  ControlMesh loose = control;  // a node that no triangle has: it has no normal, below it is nowhere
+  loose.outer.emplace_back(3, 0, 0);
+  loose.inner.emplace_back(3, 0, -1);
+  loose.outer_fixed.push_back(0);
+  loose.inner_fixed.push_back(0);
+  loose.names.emplace_back();
+  EXPECT_THROW(check_control_mesh(loose), Refusal);
   EXPECT_EQ(control.node("tip"), 4);
   EXPECT_EQ(control.node(""), -1);
   const auto volume = [&](const std::vector<Eigen::Vector3d>& outer) {

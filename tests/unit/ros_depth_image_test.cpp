@@ -38,5 +38,45 @@ TEST(DepthImage, RowsThatEndWithinAPixelAreRefused) {
       << "cv::Mat threw, and the node ended";
 }
 
+/// P may be of another focal length than K, with a lens that distorts nothing: the image is as P says.
+TEST(DepthImage, AnImageIsMadeAsPSaysWhateverTheLens) {
+  sensor_msgs::CameraInfo info = lens();
+  info.D.clear();
+  info.width = 9;
+  info.height = 1;
+  info.K = {8, 0, 4, 0, 8, 0, 0, 0, 1};
+  info.P = {4, 0, 4, 0, 0, 4, 0, 0, 0, 0, 1, 0};
+  sensor_msgs::Image image = image_of(18);
+  image.width = 9;
+  image.data[2 * 6] = 77;  // 2 pixels, of 8 a unit, from the middle
+  check_depth_image(image, info);
+  const sensor_msgs::Image made = rectified(image, info);
+  EXPECT_EQ(made.data[2 * 5], 77);  // 1 pixel, of 4 a unit
+  info.P[0] = info.P[5] = 8;
+  EXPECT_EQ(rectified(image, info).data, image.data);
+}
+
+TEST(DepthImage, WhatTurnsBinsOrCutsTheImageIsRefused) {
+  const auto is_refused = [](const sensor_msgs::CameraInfo& info) {
+    try {
+      check_depth_image(image_of(4), info);
+      return false;
+    } catch (const geometry::Refusal& refusal) {
+      return refusal.code() == std::string(geometry::refusal::kWrongFields);
+    }
+  };
+  sensor_msgs::CameraInfo info = lens();
+  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  EXPECT_FALSE(is_refused(info));
+  info.R = {0.9998, 0, 0.0175, 0, 1, 0, -0.0175, 0, 0.9998};  // a degree: 10 mm at 1.2 m
+  EXPECT_TRUE(is_refused(info));
+  info = lens();
+  info.binning_x = 2;
+  EXPECT_TRUE(is_refused(info));
+  info = lens();
+  info.roi.x_offset = 1;
+  EXPECT_TRUE(is_refused(info));
+}
+
 }  // namespace
 }  // namespace tensegric_fit::node

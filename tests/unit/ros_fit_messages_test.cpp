@@ -194,7 +194,7 @@ TEST(FitMessages, ResultsKeepTheirValues) {
   line.law.kind = tensegric::TensionLaw::Kind::stiffness;
   line.law.stiffness = 4;
   solution.lines = {line};
-  solution.regions = {{"bust", 0.004, 0.0041}};
+  solution.regions = {{"bust", 0.004, 0.0041, 0.025}};
   solution.status = tensegric::Status::infeasible;
   solution.iterations = 7;
   solution.residual = 1e-9;

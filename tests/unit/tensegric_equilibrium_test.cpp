@@ -187,6 +187,7 @@ TEST(FlatSheet, StraightLineIsInfeasibleAtOnce) {
   EXPECT_LE(s.iterations, 3);
   EXPECT_LE(farthest_move(s, flat), 1e-9);
   EXPECT_NEAR(s.lines[0].straight, s.lines[0].initial, 1e-12);
+  EXPECT_NEAR(s.regions[0].volume_error, 0, 1e-9) << "of a volume of 0";
 }
 
 // The chest line in one, and its halves as lines of their own.

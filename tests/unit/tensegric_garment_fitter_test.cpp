@@ -108,6 +108,7 @@ TEST_F(GarmentFitterTest, KeepsTheBodysVolumeWhereItIsAskedTo) {
   options.solver.volume = KeptVolume::body;
   GarmentFitter fitter(options, fit::bind_body);
   fitter.take(control, nullptr, [&skin] { return skin; });
+  EXPECT_NO_THROW(fitter.check(chest(0.93)));
   const auto solution = fit(fitter, 0.93);
   ASSERT_TRUE(solution);
   EXPECT_EQ(solution->status, Status::converged);

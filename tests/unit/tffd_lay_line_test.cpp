@@ -45,6 +45,15 @@ TEST_F(Slab, AThreadIsAsLongAsTheSkinUnderIt) {
   EXPECT_NEAR(length_at_rest(fibres), geometry::length_of(over_the_bump(), false), 1e-4);
 }
 
+TEST_F(Slab, ALineOfMoreThan100MetresIsRefused) {
+  try {
+    lay_line({{Eigen::Vector3d(0, 0, 0.1), Eigen::Vector3d(1e6, 0, 0.1)}}, body, binding);
+    FAIL() << "it would take 8 GB";
+  } catch (const geometry::Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), std::string(geometry::refusal::kBadGarment));
+  }
+}
+
 TEST_F(Slab, ABandSpreadsOverItsWidthAndStaysOnTheSkin) {
   const auto fibres = lay_line({over_the_bump(), 0.03}, body, binding);
   double shares = 0, widest = 0;
