@@ -12,7 +12,9 @@ namespace {
 
 constexpr const char* kCode = geometry::refusal::kBrokenFile;
 constexpr double kLargest = 100;  // of any coefficient
-constexpr double kLeast = 1e-6;   // m, of a deviation: far below any; readings are weighed by its inverse
+// m, of a deviation. Numerical tolerance: readings are weighed by its inverse square, and 0 would give 0 / 0;
+// those that were fitted are 8e-5 and more.
+constexpr double kLeast = 1e-6;
 constexpr double kSteepest = 10;  // power of the misfit that a file may give: fit_precision.py stops at 4
 constexpr double kSure = 1.5;     // of ISO 20685's limits: on training scans 3 % of the figures within it are
                                   // off by more than the limit

@@ -93,9 +93,11 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
     line.straight = band.straight;
     solution.lines.push_back(line);
   }
-  for (const RegionVolume& region : problem.volumes)
-    solution.regions.push_back({region.name, region.control_rest, control_volume(region, x),
-                                control_volume_error(region, control_volume(region, x))});
+  for (const RegionVolume& region : problem.volumes) {
+    const double after = control_volume(region, x);
+    solution.regions.push_back(
+        {region.name, region.control_rest, after, control_volume_error(region, after)});
+  }
   solution.status = outcome.status;
   solution.iterations = outcome.iterations;
   solution.residual = outcome.residual;

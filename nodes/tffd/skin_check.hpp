@@ -36,7 +36,7 @@ inline constexpr double kLeastStretch = 0.5;
 std::vector<geometry::FitWarning> check_skin(const WornSkin& skin, const std::vector<WornLine>& lines);
 
 /// Whether half of kGrain of skin and more, in all, is turned by more than kTurnedOver: no shape of skin.
-/// Half: what is taken back for it must stay clear of what is warned of. \pre as many worn places as vertices
+/// Half: with it fits were measured. \pre as many worn places as vertices
 bool turns_over(const WornSkin& skin);
 
 }  // namespace tensegric_fit::tffd
