@@ -18,6 +18,9 @@ constexpr double kShrink = 0.9;
 constexpr int kMostRounds = 40;
 constexpr double kBelowSkin = 1e-4;   // m; where the ray through the body starts, or
 constexpr double kBelowShare = 0.01;  // of the thickness where that is less
+// Of the largest pivot. Rounding leaves 1e-16 of a node that nothing fixes; of a clamped grid of 100 by 100
+// none is below 1e-7.
+constexpr double kLeastPivot = 1e-12;
 
 /// Normals averaged with those around them: below a sharp fold the inner nodes spread out all the same.
 std::vector<Vector3d> smooth_normals(const geometry::ControlMesh& control) {
@@ -82,10 +85,13 @@ void bend_least(const geometry::ControlMesh& control, std::vector<Vector3d>& pla
   Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+  const Eigen::VectorXd pivots = factor.vectorD().cwiseAbs();
   const Eigen::MatrixXd at = factor.solve(right);
-  if (factor.info() != Eigen::Success || !at.allFinite())
-    throw geometry::Refusal(geometry::refusal::kBadTemplate,
-                            "no bone surface: no inner node of the template is held");
+  if (factor.info() != Eigen::Success || !(pivots.minCoeff() > kLeastPivot * pivots.maxCoeff()) ||
+      !at.allFinite())
+    throw geometry::Refusal(
+        geometry::refusal::kBadTemplate,
+        "no bone surface: the template's inner nodes that are held do not fix the others");
   for (int i = 0; i < count; ++i)
     if (number[i] >= 0) places[i] = at.row(number[i]);
 }

@@ -259,19 +259,33 @@ void check_nodes(const Template& pattern, const std::string& path) {
     }
 }
 
-void check_lines(const Template& pattern, const std::string& path) {
+void check_regions(const Template& pattern, const std::string& path) {
   std::set<std::string> names;
+  for (const TemplateRegion& region : pattern.regions)
+    if (!names.insert(region.name).second)
+      throw Refusal(kCode, path + ": 'regions' has the name '" + region.name + "' twice");
+  for (const geometry::ControlRegion& region : grid_of(pattern).regions)
+    if (region.triangles.empty())
+      throw Refusal(kCode, path + ": region '" + region.name + "' has no cell that 'diagonals' draws");
+}
+
+void check_lines(const Template& pattern, const std::string& path) {
+  std::set<std::string> names, lines;
   for (const TemplateNode& node : pattern.nodes) {
     if (node.name.empty()) continue;
     names.insert(node.name);
     if (ends_in(node.name, "_L")) names.insert(node.name.substr(0, node.name.size() - 1) + "R");
   }
   for (const TemplateLine& line : pattern.lines) {
+    if (!lines.insert(line.name).second)
+      throw Refusal(kCode, path + ": 'lines' has the name '" + line.name + "' twice");
     if (line.through.size() < 2)
       throw Refusal(kCode, path + ": line '" + line.name + "' needs two nodes in 'through'");
     for (const std::string& stop : line.through)
       if (names.count(stop) == 0)
         throw Refusal(kCode, path + ": line '" + line.name + "': 'through' has no such node '" + stop + "'");
+    if (std::adjacent_find(line.through.begin(), line.through.end()) != line.through.end())
+      throw Refusal(kCode, path + ": line '" + line.name + "': 'through' has a node twice in a row");
   }
 }
 
@@ -323,6 +337,7 @@ Template load_template(const std::string& path) {
   for (const YAML::Node& region : list_of(root, "regions", path))
     pattern.regions.push_back(
         region_from(region, pattern, path + ", region " + std::to_string(pattern.regions.size() + 1)));
+  check_regions(pattern, path);
   for (const YAML::Node& line : list_of(root, "lines", path)) {
     const std::string where = path + ", line " + std::to_string(pattern.lines.size() + 1);
     check_keys(line, {"name", "through"}, where, kCode);

@@ -24,12 +24,12 @@ Correlation correlate(const SimulatedBody& body, const WornBody& worn, const Opt
   Correlation result;
   result.parts = parts_of(body);
   result.alignment = align(patch_of(body, still_vertices(result.parts)), surface, by_body_frames(body, worn));
-  result.likeness = likeness_of(body, result.parts, worn, surface, result.alignment);
-  check_same(result.likeness);
   if (result.alignment.status != AlignmentStatus::converged &&
       result.alignment.status != AlignmentStatus::capped)
     throw geometry::Refusal(geometry::refusal::kTooFewData,
                             "the skin outside the garment does not fix the position of the scan");
+  result.likeness = likeness_of(body, result.parts, worn, surface, result.alignment);
+  check_same(result.likeness);
   result.map = distance_map(body, result.parts, surface, result.alignment.patch_from_scan, options.thickness);
   result.covered = summary_of(result.map, body, result.parts, SkinPart::covered);
   if (result.covered.median > kThickCloth)

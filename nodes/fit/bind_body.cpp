@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
 
 #include "tensegric/course.hpp"
 #include "tffd/body_volume.hpp"
@@ -32,36 +33,40 @@ class BoundBody : public tensegric::BodyUnderGarment {
       const tffd::LineOnBody way = on_body(control_, line);
       const auto known =
           std::find_if(lines_.begin(), lines_.end(), [&way](const Line& one) { return same(one.way, way); });
-      lines.push_back(known != lines_.end() ? *known
-                                            : Line{way, tffd::lay_line(way, bound().mesh, bound().binding)});
+      lines.push_back(
+          known != lines_.end() ? *known : Line{way, tffd::lay_line(way, bound().mesh, bound().binding())});
       laid.push_back({line.name, lines.back().fibres});
     }
     lines_ = std::move(lines);
     return laid;
   }
 
-  std::vector<tensegric::VolumeFunction> volumes() const override {
+  std::vector<tensegric::PosedVolume> volumes() const override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return body_volumes(bound().binding,
-                        tffd::carried_triangles(bound().binding, bound().mesh.triangles, control_), control_);
+    const Bound& body = bound();
+    return body_volumes(body.at_rest, tffd::carried_triangles(body.at_rest, body.mesh.triangles, control_),
+                        control_, bones_);
   }
 
   bool folds(const std::vector<Eigen::Vector3d>& outer,
              const std::vector<Eigen::Vector3d>& inner) const override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return skin_folds(bound().binding, bound().mesh.triangles, outer, inner);
+    return skin_folds(bound().binding(), bound().mesh.triangles, outer, inner);
   }
 
   std::vector<Eigen::Vector3d> worn(const std::vector<Eigen::Vector3d>& outer,
                                     const std::vector<Eigen::Vector3d>& inner) const override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return bound().binding.deform(outer, inner);
+    return bound().binding().deform(outer, inner);
   }
 
  private:
   struct Bound {
     geometry::TriangleMesh mesh;
-    tffd::Binding binding;
+    tffd::Binding at_rest;
+    std::optional<tffd::Binding> in_posture;
+
+    const tffd::Binding& binding() const { return in_posture ? *in_posture : at_rest; }
   };
   struct Line {
     tffd::LineOnBody way;
@@ -71,8 +76,10 @@ class BoundBody : public tensegric::BodyUnderGarment {
   const Bound& bound() const {
     if (bound_) return *bound_;
     geometry::TriangleMesh mesh = body_();
-    tffd::Binding binding = tffd::Binding(mesh, control_, options_).posed(bones_);
-    bound_ = std::make_unique<const Bound>(Bound{std::move(mesh), std::move(binding)});
+    tffd::Binding at_rest(mesh, control_, options_);
+    std::optional<tffd::Binding> in_posture;
+    if (!bones_.still()) in_posture = at_rest.posed(bones_);
+    bound_ = std::make_unique<const Bound>(Bound{std::move(mesh), std::move(at_rest), std::move(in_posture)});
     return *bound_;
   }
 
@@ -92,13 +99,15 @@ tffd::LineOnBody on_body(const geometry::ControlMesh& control, const tensegric::
   return {course.points, line.width, line.smooth, line.taut, course.held, course.fan};
 }
 
-std::vector<tensegric::VolumeFunction> body_volumes(const tffd::Binding& binding,
-                                                    const std::vector<std::vector<Eigen::Vector3i>>& carried,
-                                                    const geometry::ControlMesh& control) {
-  std::vector<tensegric::VolumeFunction> volumes;
+std::vector<tensegric::PosedVolume> body_volumes(const tffd::Binding& binding,
+                                                 const std::vector<std::vector<Eigen::Vector3i>>& carried,
+                                                 const geometry::ControlMesh& control,
+                                                 const geometry::BoneFrames& bones) {
+  std::vector<tensegric::PosedVolume> volumes;
   for (std::size_t r = 0; r < carried.size(); ++r)
-    volumes.push_back(
-        tffd::BodyVolume(binding, carried[r], geometry::region_apex(control, control.regions[r])));
+    volumes.emplace_back([bones, body = tffd::BodyVolume(binding, carried[r],
+                                                         geometry::region_apex(control, control.regions[r]))](
+                             double share) { return body.posed(bones, share); });
   return volumes;
 }
 

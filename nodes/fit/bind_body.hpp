@@ -14,10 +14,11 @@ namespace tensegric_fit::fit {
 tffd::LineOnBody on_body(const geometry::ControlMesh& control, const tensegric::GarmentLine& line);
 
 /// One per region: the volume under its triangles of the body, metres and m^3.
-/// `carried`: as tffd::carried_triangles
-std::vector<tensegric::VolumeFunction> body_volumes(const tffd::Binding& binding,
-                                                    const std::vector<std::vector<Eigen::Vector3i>>& carried,
-                                                    const geometry::ControlMesh& control);
+/// `binding`: not posed; `carried`: as tffd::carried_triangles; `bones`: of the posture, still or not
+std::vector<tensegric::PosedVolume> body_volumes(const tffd::Binding& binding,
+                                                 const std::vector<std::vector<Eigen::Vector3i>>& carried,
+                                                 const geometry::ControlMesh& control,
+                                                 const geometry::BoneFrames& bones);
 
 /// Whether the body's skin is turned over where its control nodes are here. \pre the nodes are the binding's
 bool skin_folds(const tffd::Binding& binding, const std::vector<Eigen::Vector3i>& triangles,

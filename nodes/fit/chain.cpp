@@ -96,11 +96,15 @@ Fitting prepare(const Body& body, geometry::ControlMesh control, const Settings&
     return tensegric::build_model(control, settings.model);
   }();
   const Stopwatch watch(times.tffd);
-  tffd::Binding binding = tffd::Binding(body.mesh.mesh, control, settings.tffd).posed(settings.solver.bones);
+  const geometry::BoneFrames& bones = settings.solver.bones;
+  tffd::Binding binding(body.mesh.mesh, control, settings.tffd);
   auto carried = tffd::carried_triangles(binding, body.mesh.mesh.triangles, control);
-  Fitting fitting{std::move(control), std::move(model), std::move(binding), std::move(carried), {}};
+  std::vector<tensegric::PosedVolume> volumes;
   if (settings.solver.volume == tensegric::KeptVolume::body)
-    fitting.body_volumes = body_volumes(fitting.binding, fitting.carried, fitting.control);
+    volumes = body_volumes(binding, carried, control, bones);
+  if (!bones.still()) binding = binding.posed(bones);
+  Fitting fitting{std::move(control), std::move(model), std::move(binding), std::move(carried),
+                  std::move(volumes)};
   return fitting;
 }
 

@@ -47,9 +47,9 @@ struct Body {
 struct Fitting {
   geometry::ControlMesh control;
   tensegric::Model model;
-  tffd::Binding binding;                                ///< in the posture of the settings
-  std::vector<std::vector<Eigen::Vector3i>> carried;    ///< body triangles, one list a region
-  std::vector<tensegric::VolumeFunction> body_volumes;  ///< one per region where the body's volume is kept
+  tffd::Binding binding;                              ///< in the posture of the settings
+  std::vector<std::vector<Eigen::Vector3i>> carried;  ///< body triangles, one list a region
+  std::vector<tensegric::PosedVolume> body_volumes;   ///< one per region where the body's volume is kept
 };
 
 /// A garment worn.

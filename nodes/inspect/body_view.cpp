@@ -17,8 +17,11 @@ void BodyView::take_body(const std::string& scan_id, geometry::TriangleMesh mesh
   if (mesh.triangles.empty()) throw Refusal(geometry::refusal::kBadMesh, "the body mesh has no triangles");
   stretch_.emplace(mesh);
   mesh_ = std::move(mesh);
+  ++revision_;
+  if (scan_id == scan_id_ && !waiting_) waiting_ = std::move(worn_);
   scan_id_ = scan_id;
   worn_.reset();
+  note_.clear();
   if (!waiting_) return;
   try {
     take_worn(*std::exchange(waiting_, std::nullopt));

@@ -23,8 +23,8 @@ class BodyView {
     std::vector<double> distortion;
   };
 
-  /// A deformed body that waited for it and does not fit is dropped, see note(). \throw Refusal bad_mesh,
-  /// non_finite
+  /// What is worn over the same scan stays. A deformed body that waited for it and does not fit is dropped,
+  /// see note(). \throw Refusal bad_mesh, non_finite
   void take_body(const std::string& scan_id, geometry::TriangleMesh mesh);
 
   /// Of the body at hand, or of one that is still to come: then it waits for it. \throw Refusal bad_mesh:
@@ -41,6 +41,8 @@ class BodyView {
 
   /// At rest. Changes with take_body alone.
   const geometry::TriangleMesh& mesh() const { return mesh_; }
+  /// Of the mesh: another one for each that was taken, of the same scan too.
+  int revision() const { return revision_; }
 
   /// The vertices between rest (0) and worn (1); at rest where nothing is worn.
   std::vector<Eigen::Vector3d> vertices(double blend) const;
@@ -54,6 +56,7 @@ class BodyView {
 
   std::string scan_id_, note_;
   geometry::TriangleMesh mesh_;
+  int revision_ = 0;
   std::optional<SkinStretch> stretch_;
   std::optional<Worn> worn_, waiting_;
 };

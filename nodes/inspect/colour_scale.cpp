@@ -22,7 +22,7 @@ ColourScale auto_scale(ColourBy by, const std::vector<double>& values) {
   ColourScale scale = fixed_scale(by);
   double farthest = by == ColourBy::displacement ? kShortestMove : kNarrowest;
   for (const double value : values) farthest = std::max(farthest, std::abs(value - scale.neutral));
-  if (by != ColourBy::displacement) scale.low = scale.neutral - farthest;
+  if (by != ColourBy::displacement) scale.low = std::max(0.0, scale.neutral - farthest);
   scale.high = scale.neutral + farthest;
   return scale;
 }

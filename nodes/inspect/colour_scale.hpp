@@ -25,8 +25,9 @@ struct ColourScale {
 /// The same for every body.
 ColourScale fixed_scale(ColourBy by);
 
-/// As wide as the values ask for: ends that are equally far from neutral, which stays where it is. Never
-/// narrower than 1 per cent or 1 mm, so that an undeformed body stays neutral. \pre finite values
+/// As wide as the values ask for: ends that are equally far from neutral, which stays where it is, but none
+/// below 0. Never narrower than 1 per cent or 1 mm, so that an undeformed body stays neutral. \pre finite
+/// values
 ColourScale auto_scale(ColourBy by, const std::vector<double>& values);
 
 /// A value that is not finite is neutral.

@@ -34,7 +34,8 @@ struct ScaleStrip {
 };
 
 cv::Mat with_scale(const cv::Mat& picture, const ScaleStrip& scale) {
-  const int strip = strip_height(picture), height = strip / 2;
+  // Beside the scale there is a quarter of the width: so high, "pressed together" just fits.
+  const int strip = std::min(strip_height(picture), picture.cols / 31), height = strip / 2;
   cv::Mat result;
   cv::copyMakeBorder(picture, result, 0, 2 * strip, 0, 0, cv::BORDER_CONSTANT, kPaper);
   const int width = result.cols / 2, left = (result.cols - width) / 2, top = picture.rows + strip / 3;

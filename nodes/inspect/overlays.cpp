@@ -68,14 +68,14 @@ const geometry::BodyMeasures* Overlays::measures(const BodyView& body) const {
 
 bool Overlays::carry(const BodyView& body) {
   if (!is_of(measures_, body) || body.empty()) return false;
-  if (is_of(carried_, body)) return true;
+  if (carried_ && carried_->revision == body.revision()) return true;
   const geometry::SurfaceTree skin(body.mesh());
   const auto bound = [&](const std::vector<Eigen::Vector3d>& points) {
     return geometry::CarriedPoints(body.mesh(), skin, points);
   };
   std::vector<Eigen::Vector3d> landmarks;
   for (const auto& landmark : measures_->value.landmarks) landmarks.push_back(landmark.position);
-  carried_ = {body.scan_id(), bound(landmarks), {}};
+  carried_ = {body.revision(), bound(landmarks), {}};
   for (const auto& loop : measures_->value.loops) carried_->loops.push_back(bound(loop.points));
   return true;
 }
@@ -106,9 +106,10 @@ std::vector<Stroke> Overlays::tapes(const BodyView& body, double blend) {
 
 std::vector<Stroke> Overlays::model(const BodyView& body, double blend) {
   if (!is_of(model_, body) || body.empty()) return {};
-  if (!is_of(carried_model_, body))
-    carried_model_ = {body.scan_id(), geometry::CarriedPoints(body.mesh(), geometry::SurfaceTree(body.mesh()),
-                                                              model_->value.vertices)};
+  if (!carried_model_ || carried_model_->revision != body.revision())
+    carried_model_ = {
+        body.revision(),
+        geometry::CarriedPoints(body.mesh(), geometry::SurfaceTree(body.mesh()), model_->value.vertices)};
   return model_strokes(model_->value, carried_model_->skin.at(body.vertices(blend), kModelLift));
 }
 
@@ -151,9 +152,16 @@ std::vector<Stroke> Overlays::members(const BodyView& body, double blend) const 
   std::vector<Stroke> strokes;
   if (!is_of(members_, body) || !is_of(control_, body)) return strokes;
   const MemberPulls& pulls = members_->value;
-  std::vector<Eigen::Vector3d> nodes = control_->value.outer;
-  nodes.insert(nodes.end(), control_->value.inner.begin(), control_->value.inner.end());
-  if (nodes.size() != pulls.nodes.size()) return strokes;
+  const geometry::ControlMesh& control = control_->value;
+  const std::size_t count = control.outer.size();
+  if (count == 0 || pulls.nodes.size() < 2 * count || pulls.nodes.size() % count != 0) return strokes;
+  std::vector<Eigen::Vector3d> nodes = control.outer;
+  nodes.insert(nodes.end(), control.inner.begin(), control.inner.end());
+  const std::size_t layers = pulls.nodes.size() / count - 1;
+  for (std::size_t level = 1; level < layers; ++level)
+    for (std::size_t i = 0; i < count; ++i)
+      nodes.push_back(control.outer[i] + static_cast<double>(level) / static_cast<double>(layers) *
+                                             (control.inner[i] - control.outer[i]));
   nodes = between(nodes, pulls.nodes, blend);
   for (std::size_t m = 0; m < pulls.forces.size(); ++m)
     strokes.push_back(

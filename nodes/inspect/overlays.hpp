@@ -22,7 +22,8 @@ struct NamedDot {
   Colour colour;
 };
 
-/// Members of a tensegric model, numbered as the nodes: outer ones, then inner ones.
+/// Members of a tensegric model, numbered as the nodes: outer ones, inner ones, then those between layers,
+/// level by level from the skin.
 struct MemberPulls {
   std::vector<Eigen::Vector3d> nodes;
   std::vector<int> ends;       ///< two a member
@@ -68,13 +69,13 @@ class Overlays {
     std::vector<TenseLine> lines;
   };
   struct Carried {
-    std::string scan_id;
+    int revision;  // of the body's mesh
     geometry::CarriedPoints landmarks;
     std::vector<geometry::CarriedPoints> loops;
   };
 
   struct CarriedModel {
-    std::string scan_id;
+    int revision;
     geometry::CarriedPoints skin;
   };
 

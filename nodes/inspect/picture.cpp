@@ -5,6 +5,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "geometry/parallel_for.hpp"
 #include "geometry/shading_normals.hpp"
 #include "geometry/status.hpp"
 #include "inspect/raster.hpp"
@@ -85,10 +86,9 @@ cv::Mat3b shade(const geometry::TriangleMesh& mesh, const std::vector<Colour>& c
     return {cv::saturate_cast<std::uint8_t>(light * rgb[2]), cv::saturate_cast<std::uint8_t>(light * rgb[1]),
             cv::saturate_cast<std::uint8_t>(light * rgb[0])};
   };
-  // Four pixels at a time: where one triangle has them all, they have one colour. Each four are their own, so
-  // the number of threads changes nothing.
-  cv::parallel_for_(cv::Range(0, picture.rows / 2), [&](const cv::Range& rows) {
-    for (int y = 2 * rows.start; y < 2 * rows.end; y += 2)
+  // Four pixels at a time: where one triangle has them all, they have one colour. Each four are their own.
+  geometry::parallel_for(picture.rows / 2, [&](std::size_t begin, std::size_t end, int) {
+    for (int y = 2 * static_cast<int>(begin); y < 2 * static_cast<int>(end); y += 2)
       for (int x = 0; x < picture.cols; x += 2) {
         const int first = raster.triangle(y, x);
         const bool one = first == raster.triangle(y, x + 1) && first == raster.triangle(y + 1, x) &&

@@ -13,6 +13,10 @@ constexpr std::array<const char*, 5> kStages{"reconstruction", "landmarks", "con
 
 constexpr std::array<const char*, 2> kBooth{"assembler", "scan_player"};  // before the chain, where there are
 
+bool is_of_booth(const std::string& stage) {
+  return std::find(kBooth.begin(), kBooth.end(), stage) != kBooth.end();
+}
+
 }  // namespace
 
 void PipelineWatch::hear(const StageReport& report, double now) {
@@ -27,6 +31,13 @@ void PipelineWatch::hear(const StageReport& report, double now) {
   const bool new_scan = before != stages_.end() && before->second.report.scan_id != report.scan_id;
   const double said_at = new_words ? now : before->second.said_at;
   if (report.stage == kStages.front() && new_scan) scan_at_ = now;
+  // A stage that has come back does not know what it worked on before.
+  if (report.stage == kStages.front() && !report.scan_id.empty() && report.scan_id != newest_) {
+    newest_ = report.scan_id;
+    refused_.clear();
+  }
+  if (is_of_booth(report.stage) && !report.scan_id.empty() && new_words)
+    refused_ = report.refused() ? report.scan_id : "";
   stages_[report.stage] = {report, now, said_at};
 }
 
@@ -35,10 +46,10 @@ PipelineWatch::State PipelineWatch::state(double now) const {
   const bool lives = std::any_of(stages_.begin(), stages_.end(), [now](const auto& stage) {
     return now - stage.second.at <= geometry::kSilent;
   });
-  if (!lives) return {words::kPipelineNotRunning, true, false, 0, state.all, ""};
+  state.newest_scan = refused_.empty() ? newest_ : refused_;
+  if (!lives) return {words::kPipelineNotRunning, true, false, 0, state.all, state.newest_scan};
   const auto first = stages_.find(kStages.front());
   const std::string scan_id = first == stages_.end() ? "" : first->second.report.scan_id;
-  state.newest_scan = scan_id;
   for (const char* stage : kStages) {
     const auto found = stages_.find(stage);
     if (found == stages_.end() || now - found->second.at > geometry::kSilent) {
@@ -72,7 +83,6 @@ void PipelineWatch::look_at_booth(double now, State& state) const {
       words = words::silent(stage);
     } else if (found->second.report.refused() && found->second.said_at >= scan_at_) {
       words = words::stage_refused(stage, found->second.report.message);
-      state.newest_scan = found->second.report.scan_id;
     }
   }
   if (words.empty() && now - dropped_at_ < kNews)
@@ -88,8 +98,7 @@ void PipelineWatch::add_warnings(State& state) const {
     const auto found = stages_.find(stage);
     if (found == stages_.end() || !found->second.report.warns) continue;
     const StageReport& report = found->second.report;
-    const bool of_booth = std::find(kBooth.begin(), kBooth.end(), std::string(stage)) != kBooth.end();
-    if (of_booth || report.scan_id == state.newest_scan) state.words += " " + report.message;
+    if (is_of_booth(stage) || report.scan_id == state.newest_scan) state.words += " " + report.message;
   }
 }
 

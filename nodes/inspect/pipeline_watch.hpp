@@ -23,8 +23,9 @@ class PipelineWatch {
     std::string words;
     bool trouble;  ///< something was refused, failed, or is silent
     bool working;
-    int done, all;            ///< stages that are through with the newest scan
-    std::string newest_scan;  ///< id of the scan that came last, whatever became of it; empty: unknown
+    int done, all;  ///< stages that are through with the newest scan
+    std::string
+        newest_scan;  ///< id of the scan that came last, whatever became of it and of the stages since
   };
   State state(double now) const;
 
@@ -40,6 +41,7 @@ class PipelineWatch {
   std::map<std::string, Heard> stages_;
   StageReport dropped_;  // the last that a stage named without a change of state
   double dropped_at_ = -kNews;
+  std::string newest_, refused_;  // the last that reconstruction took; what the booth refused since
   double scan_at_ = 0;  // when the newest scan came: what the booth refused before is no news any more
 };
 

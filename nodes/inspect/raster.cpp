@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <opencv2/core/utility.hpp>
+
+#include "geometry/parallel_for.hpp"
 
 namespace tensegric_fit::inspect {
 namespace {
@@ -105,7 +106,7 @@ void draw_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
   }
 }
 
-// The greatest depth of each tile of a strip of rows. Where all is nearer than a triangle, nothing of it is
+// The greatest depth of each tile of some rows. Where all is nearer than a triangle, nothing of it is
 // seen: most of what faces away is passed over at this price.
 class Tiles {
  public:
@@ -140,11 +141,10 @@ Raster rasterise(const std::vector<Eigen::Vector3d>& points, const std::vector<E
                  int width, int height) {
   Raster raster{cv::Mat1f(height, width), cv::Mat1i(height, width)};
   const Coverings seen = covering(points, triangles, width, height);
-  // Each strip of rows takes the triangles in order, so the number of threads changes nothing.
-  constexpr int kStrips = 4;
-  cv::parallel_for_(cv::Range(0, kStrips), [&](const cv::Range& strips) {
-    const int top = strips.start * height / kStrips, bottom = strips.end * height / kStrips;
-    for (int y = top; y < bottom; ++y) {  // each strip by its own thread
+  // Each half of the rows takes the triangles in order.
+  geometry::parallel_for(height, [&](std::size_t begin, std::size_t end, int) {
+    const int top = static_cast<int>(begin), bottom = static_cast<int>(end);
+    for (int y = top; y < bottom; ++y) {
       std::fill_n(raster.depth[y], width, std::numeric_limits<float>::infinity());
       std::fill_n(raster.triangle[y], width, -1);
     }
@@ -152,14 +152,14 @@ Raster rasterise(const std::vector<Eigen::Vector3d>& points, const std::vector<E
       const Eigen::Vector3i& t = triangles[covered.index];
       draw_triangle(points[t[0]], points[t[1]], points[t[2]], covered, top, bottom, raster);
     };
-    const auto in_strip = [&](const Covering& covered) {
+    const auto in_half = [&](const Covering& covered) {
       return covered.last_row >= top && covered.first_row < bottom;
     };
     for (const Covering& covered : seen.front)
-      if (in_strip(covered)) draw(covered);
+      if (in_half(covered)) draw(covered);
     const Tiles tiles(raster, top, bottom);
     for (const Covering& covered : seen.back) {
-      if (!in_strip(covered)) continue;
+      if (!in_half(covered)) continue;
       const Eigen::Vector3i& t = triangles[covered.index];
       if (!tiles.hide(covered, std::min({points[t[0]].z(), points[t[1]].z(), points[t[2]].z()})))
         draw(covered);

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <map>
 #include <mutex>
+#include <set>
 #include <utility>
 
 #include "inspect/panel_words.hpp"
@@ -28,31 +29,30 @@ struct FitClient::Calls {
         export_fit(node.serviceClient<ExportFit>("export_fit")),
         client(asker) {}
 
-  void serve();
+  void serve(const std::string& kind);
   void report(Answer FitClient::*answer, bool done, const std::string& words);
 
   ros::ServiceClient wear, reset, export_fit;
   std::mutex mutex;  // guards the rest
   std::condition_variable wake;
   std::map<std::string, Call> waiting;  // one of each kind: the newest
-  std::string calling;                  // what kind is on its way
+  std::set<std::string> calling;        // kinds that are on their way
   FitClient* client;                    // null: it is gone, and there is nothing more to call
 };
 
-void FitClient::Calls::serve() {
+void FitClient::Calls::serve(const std::string& kind) {
   while (true) {
     Call call;
     {
       std::unique_lock<std::mutex> lock(mutex);
-      wake.wait(lock, [this] { return client == nullptr || !waiting.empty(); });
+      wake.wait(lock, [&] { return client == nullptr || waiting.count(kind) != 0; });
       if (client == nullptr) return;
-      calling = waiting.begin()->first;
-      call = std::move(waiting.begin()->second);
-      waiting.erase(waiting.begin());
+      calling.insert(kind);
+      call = std::move(waiting.extract(kind).mapped());
     }
     call(*this);
     std::lock_guard<std::mutex> lock(mutex);
-    calling.clear();
+    calling.erase(kind);
   }
 }
 
@@ -89,21 +89,23 @@ FitClient::FitClient()
         for (const auto& status : array->status) on_diagnostics(status);
       };
   subscribers_.push_back(node_.subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 50, diagnostics));
-  worker_ = std::thread([calls = calls_] { calls->serve(); });
+  for (const char* kind : {kGarmentCall, kExportCall})
+    workers_.emplace(kind, std::thread([calls = calls_, kind] { calls->serve(kind); }));
 }
 
 FitClient::~FitClient() {
-  bool is_calling = false;
+  std::set<std::string> calling;
   {
     std::lock_guard<std::mutex> lock(calls_->mutex);
     calls_->client = nullptr;
-    is_calling = !calls_->calling.empty();
+    calling = calls_->calling;
   }
-  calls_->wake.notify_one();
-  if (is_calling)
-    worker_.detach();  // roscpp has no way to end a call
-  else
-    worker_.join();
+  calls_->wake.notify_all();
+  for (auto& [kind, worker] : workers_)
+    if (calling.count(kind) != 0)
+      worker.detach();  // roscpp has no way to end a call
+    else
+      worker.join();
 }
 
 void FitClient::post(const std::string& kind, Call call) {
@@ -111,12 +113,12 @@ void FitClient::post(const std::string& kind, Call call) {
     std::lock_guard<std::mutex> lock(calls_->mutex);
     calls_->waiting[kind] = std::move(call);
   }
-  calls_->wake.notify_one();
+  calls_->wake.notify_all();
 }
 
 bool FitClient::is_asking() {
   std::lock_guard<std::mutex> lock(calls_->mutex);
-  return calls_->calling == kGarmentCall || calls_->waiting.count(kGarmentCall) != 0;
+  return calls_->calling.count(kGarmentCall) != 0 || calls_->waiting.count(kGarmentCall) != 0;
 }
 
 void FitClient::wear(const SetGarment::Request& request) {

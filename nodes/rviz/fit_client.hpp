@@ -3,6 +3,7 @@
 
 #include <QObject>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <thread>
@@ -25,7 +26,8 @@
 
 namespace tensegric_fit::inspect {
 
-/// Services are called in a thread of their own, so that a pipeline that hangs never stops rviz: a call that
+/// Services are called in threads of their own, one for garments and one for exports, which may take long, so
+/// that a pipeline that hangs never stops rviz: a call that
 /// is on its way when the client goes is left alone. Of garments asked for while a call is on its way only
 /// the newest is sent. Everything is reported in the thread that made the client.
 class FitClient : public QObject {
@@ -69,7 +71,7 @@ class FitClient : public QObject {
   std::vector<ros::Subscriber> subscribers_;
   ros::Publisher labels_;
   const std::shared_ptr<Calls> calls_;
-  std::thread worker_;
+  std::map<std::string, std::thread> workers_;  // by kind of call
 };
 
 }  // namespace tensegric_fit::inspect

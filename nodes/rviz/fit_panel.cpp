@@ -161,15 +161,26 @@ void FitPanel::take_answer(bool done, const std::string& words) {
 
 void FitPanel::take_garment(const Garment& garment) {
   worn_ = std::make_shared<const Garment>(garment);
-  const auto known = known_.find(garment.name);
-  const auto is_known = [&](const GarmentLine& line) {
-    const auto& lines = known->second.lines;
-    return std::any_of(lines.begin(), lines.end(),
-                       [&](const auto& other) { return other.name == line.name; });
-  };
-  if (known == known_.end() || !std::all_of(garment.lines.begin(), garment.lines.end(), is_known))
-    known_[garment.name] = garment;
+  remember(garment);
   follow_pipeline();
+}
+
+// The newest of each line. Lines that are known and not worn are those of regions that are off.
+void FitPanel::remember(const Garment& garment) {
+  const auto [known, is_new] = known_.emplace(garment.name, garment);
+  if (is_new) return;
+  std::vector<GarmentLine> lines = known->second.lines;
+  for (const GarmentLine& line : garment.lines) {
+    const auto same = std::find_if(lines.begin(), lines.end(),
+                                   [&line](const GarmentLine& other) { return other.name == line.name; });
+    if (same == lines.end()) {
+      known->second = garment;
+      return;
+    }
+    *same = line;
+  }
+  known->second.lines = std::move(lines);
+  known->second.solver = garment.solver;
 }
 
 void FitPanel::follow_pipeline() {
@@ -178,10 +189,11 @@ void FitPanel::follow_pipeline() {
   const bool coming_back = changed_here_ && Clock::now() - asked_at_ < kOwnEcho;
   if (!worn_ || held || coming_back || client_->is_asking()) return;
   const std::string garment = session_.now().garment;
-  const std::vector<AskedLine> lines = session_.now().lines;
   if (!session_.adopt(worn_->name, lines_in(*worn_))) return;
-  const bool same_lines = garment == session_.now().garment && lines.size() == rows_.size() &&
-                          lines.size() == session_.now().lines.size();
+  const std::vector<AskedLine>& lines = session_.now().lines;
+  const bool same_lines =
+      std::equal(rows_.begin(), rows_.end(), lines.begin(), lines.end(),
+                 [](const LineRow* row, const AskedLine& line) { return row->line() == line.name; });
   if (!same_lines) build_lines();
   if (garment != session_.now().garment) show_garment_fully();
   show_outcome();
@@ -196,14 +208,34 @@ void FitPanel::take_fit(const FitState& fit) {
         if (row->line() == worn[i].name) row->set_ratio_now(fit.line_ratios[i]);
     return;
   }
+  std::vector<Eigen::Vector3d> courses;
+  try {
+    for (const LineResult& line : fit.lines) {
+      const std::vector<Eigen::Vector3d> course = node::points_in(line.course);
+      courses.insert(courses.end(), course.begin(), course.end());
+    }
+  } catch (const geometry::Refusal& refusal) {
+    answer(refusal.what());
+    return;
+  }
   fitted_ = std::make_shared<const FitState>(fit);
+  courses_ = std::move(courses);
   show_outcome();
   new_girths_ = true;  // and the view, once the body is there
+}
+
+// Figures are of the body that is shown, or there are none.
+void FitPanel::forget_outcome() {
+  session_.forget_lengths();
+  for (LineRow* row : rows_) row->forget_outcome();
+  for (QLabel* label : {fit_, folds_, volumes_, tightness_}) show_words(label, "");
+  show_lines();
 }
 
 void FitPanel::show_outcome() {
   if (!fitted_) return;
   const FitState& fit = *fitted_;
+  if (!body_.empty() && fit.scan_id != body_.scan_id()) return forget_outcome();
   const std::string ended = words::fit_ended(fit.garment, fit.status, fit.note, fit.milliseconds);
   fit_->setText(text(words::without_details(ended)));
   fit_->setToolTip(text(ended));
@@ -266,12 +298,14 @@ void FitPanel::show_whose() {
 }
 
 void FitPanel::show_warnings(std::vector<std::string> messages) {
-  for (const FitWarning& warning : warnings_.warnings) messages.push_back(warning.message);
+  const FitWarnings none;
+  const FitWarnings& known = warnings_.scan_id == fitted_->scan_id ? warnings_ : none;
+  for (const FitWarning& warning : known.warnings) messages.push_back(warning.message);
   const auto is_said = [messages](const std::string& line) {  // of the line, by its figures
     return std::any_of(messages.begin(), messages.end(),
                        [&](const std::string& message) { return message.rfind("'" + line + "': ", 0) == 0; });
   };
-  for (const FitWarning& notice : warnings_.notices)
+  for (const FitWarning& notice : known.notices)
     if (notice.code == geometry::notice::kOverStretched ||
         notice.code == geometry::notice::kPressedTogether ||
         (notice.code == geometry::notice::kUnderConstricted && !is_said(notice.line)))
@@ -291,10 +325,16 @@ std::string FitPanel::lack_of(const LineResult& line) const {
 
 void FitPanel::take_body(const TriangleMesh& body) {
   try {
+    const bool another = body.scan_id != body_.scan_id();
     body_.take_body(body.scan_id, node::mesh_in(body));
     new_girths_ = true;
-    customer_->setModified(false);  // what is typed is of the body that was shown
+    if (another) {
+      customer_->setModified(false);  // what is typed is of the body that was shown
+      customer_->clearFocus();
+      table_->setRowCount(0);
+    }
     show_whose();
+    show_outcome();
   } catch (const geometry::Refusal& refusal) {
     answer(refusal.what());
   }
@@ -369,12 +409,7 @@ std::string FitPanel::extreme_skin(bool tightest) const {
 void FitPanel::follow_view() {
   view_->set_body(measured_frame_, measures_.body_from_scan, body_.mesh().vertices);
   if (!fitted_ || fitted_->scan_id != measured_scan_) return;
-  std::vector<Eigen::Vector3d> lines;
-  for (const LineResult& line : fitted_->lines) {
-    const std::vector<Eigen::Vector3d> course = node::points_in(line.course);
-    lines.insert(lines.end(), course.begin(), course.end());
-  }
-  view_->set_garment(fitted_->garment, std::move(lines));
+  view_->set_garment(fitted_->garment, courses_);
 }
 
 void FitPanel::answer(const std::string& words, bool done) {
@@ -406,9 +441,10 @@ void FitPanel::show_age(const PipelineWatch::State& state) {
 
 void FitPanel::show_state() {
   const PipelineWatch::State state = watch_.state(seconds(Clock::now()));
-  if (state.trouble && pipeline_->toolTip() != text(state.words))
-    ROS_WARN("fit panel: %s", node::without_figures(state.words).c_str());
   show_age(state);
+  if (state.trouble && said_ != state.words)
+    ROS_WARN("fit panel: %s", node::without_figures(state.words).c_str());
+  said_ = state.words;
   show_words(pipeline_, state.words + (!old_since_ ? "" : old_gone_ ? words::kOldBodyGone : words::kOldBody));
   pipeline_->setStyleSheet(state.trouble ? "color: #b2182b" : "");
   const QString garment = text(session_.now().garment);

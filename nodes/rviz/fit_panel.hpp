@@ -85,7 +85,9 @@ class FitPanel : public rviz::Panel {
   void take_answer(bool done, const std::string& words);
 
   void follow_pipeline();  // unless a request is on its way
+  void remember(const Garment& garment);
   void show_outcome();
+  void forget_outcome();
   void show_warnings(std::vector<std::string> messages);  // those of lines, and of the skin
   std::string lack_of(const LineResult& line) const;      // "" where the line holds
   void show_lines();
@@ -104,6 +106,7 @@ class FitPanel : public rviz::Panel {
   std::map<std::string, Garment> known_;  // whole garments by name: laws and courses of their lines
   std::shared_ptr<const Garment> worn_;
   std::shared_ptr<const FitState> fitted_;  // the last that has ended
+  std::vector<Eigen::Vector3d> courses_;    // of its lines
   LineForces forces_;
   FitWarnings warnings_;  // of the last that has ended, or the one before
   ControlMesh control_;
@@ -117,6 +120,7 @@ class FitPanel : public rviz::Panel {
   bool typing_ = false;                         // a garment's name
   std::optional<Clock::time_point> old_since_;  // what is shown is of an earlier scan since then
   bool old_gone_ = false;
+  std::string said_;     // of the pipeline, last
   double keep_old_ = 0;  // s; 0: for good
 
   QComboBox* garment_;

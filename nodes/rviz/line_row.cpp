@@ -78,11 +78,12 @@ void LineRow::set_asked(double ratio, double length) {
   const QSignalBlocker slider(slider_), share(per_cent_), cm(centimetres_);
   length_ = length;
   if (!slider_->isSliderDown()) slider_->setValue(static_cast<int>(std::lround(kTicks * ratio)));
-  per_cent_->setRange(100 * std::min(FitSession::kLeast, ratio), 100 * std::max(FitSession::kMost, ratio));
+  const double least = std::min(FitSession::kLeast, ratio), most = std::max(FitSession::kMost, ratio);
+  per_cent_->setRange(100 * least, 100 * most);
   per_cent_->setValue(100 * ratio);
   centimetres_->setEnabled(length > 0);
   if (length > 0) {
-    centimetres_->setRange(100 * length * FitSession::kLeast, 100 * length * FitSession::kMost);
+    centimetres_->setRange(100 * length * least, 100 * length * most);
     centimetres_->setValue(100 * length * ratio);
   }
 }
@@ -101,6 +102,13 @@ void LineRow::set_outcome(double ratio, const std::string& warning) {
   set_ratio_now(ratio);
   name_->setStyleSheet(warning.empty() ? "" : "color: #b2182b");
   name_->setToolTip(text(warning.empty() ? line_ : warning));
+}
+
+void LineRow::forget_outcome() {
+  now_->clear();
+  name_->setStyleSheet("");
+  name_->setToolTip(text(line_));
+  set_force("", "", "");
 }
 
 QWidget* LineRow::follow(QWidget* before) {

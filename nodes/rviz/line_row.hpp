@@ -10,12 +10,12 @@
 
 namespace tensegric_fit::inspect {
 
-/// Fills two rows of a grid; the second has a sentence where there is something to say.
+/// Fills two rows of a grid: the second has slider and pressure.
 class LineRow : public QObject {
   Q_OBJECT
  public:
   /// Columns of the grid.
-  enum { kName, kPerCent, kCentimetres, kNow, kPull, kColumns };
+  enum { kName, kPerCent, kCentimetres, kNow, kPull };
 
   /// `number` from 1: Alt and this digit reach the slider.
   LineRow(const std::string& line, int number, QGridLayout* grid);
@@ -27,6 +27,8 @@ class LineRow : public QObject {
   void set_asked(double ratio, double length);
   /// A name with a warning is red, the warning there on hover.
   void set_outcome(double ratio, const std::string& warning);
+  /// Nothing is known of what became of it.
+  void forget_outcome();
   /// Empty where they are not known; `help` on hover.
   void set_force(const std::string& pull, const std::string& pressure, const std::string& help);
   void set_ratio_now(double ratio);

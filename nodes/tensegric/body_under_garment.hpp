@@ -24,7 +24,7 @@ class BodyUnderGarment {
   virtual std::vector<geometry::LaidLine> lay(const Garment& garment) const = 0;
 
   /// One per region of the control mesh.
-  virtual std::vector<VolumeFunction> volumes() const = 0;
+  virtual std::vector<PosedVolume> volumes() const = 0;
 
   /// A SkinFolds. \pre one place a node
   virtual bool folds(const std::vector<Eigen::Vector3d>& outer,

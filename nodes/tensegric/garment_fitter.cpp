@@ -49,12 +49,17 @@ std::shared_ptr<const GarmentFitter::Wearer> GarmentFitter::wearer() const {
 
 void GarmentFitter::take(const geometry::ControlMesh& control, const geometry::BodyMeasures* measures,
                          std::function<geometry::TriangleMesh()> body) {
-  bones_ = measures ? geometry::BoneFrames(*measures, options_.posture) : geometry::BoneFrames();
+  const geometry::BoneFrames bones =
+      measures ? geometry::BoneFrames(*measures, options_.posture) : geometry::BoneFrames();
   const bool knows_skin = static_cast<bool>(body);
   const std::shared_ptr<const Wearer> wearer(new Wearer{
-      build_model(control, options_.model), bind_body_(std::move(body), control, bones_, options_.beta)});
+      build_model(control, options_.model), bind_body_(std::move(body), control, bones, options_.beta)});
   const bool keeps_body = options_.solver.volume == KeptVolume::body;
-  body_volumes_ = keeps_body ? wearer->body->volumes() : std::vector<VolumeFunction>();
+  std::vector<PosedVolume> body_volumes;
+  if (keeps_body) body_volumes = wearer->body->volumes();
+  // A refusal leaves everything as it was: from here on there is none.
+  bones_ = bones;
+  body_volumes_ = std::move(body_volumes);
   knows_skin_ = knows_skin;
   last_.reset();
   std::lock_guard<std::mutex> lock(mutex_);

@@ -60,7 +60,7 @@ class GarmentFitter {
   const FitterOptions options_;
   const BindBody bind_body_;
   geometry::BoneFrames bones_;
-  std::vector<VolumeFunction> body_volumes_;
+  std::vector<PosedVolume> body_volumes_;
   std::optional<Solution> last_;
   bool knows_skin_ = false;  // whether skin is turned over
   int last_rest_ = 0;        // of last_

@@ -10,7 +10,7 @@ namespace tensegric_fit::tensegric {
 
 // One Newton step from rest, volumes kept, under a force of 1: the shape's first answer to it.
 Eigen::Vector3d force_of_share(const Model& model, const Eigen::Vector3d& share, SolverOptions options,
-                               const std::vector<VolumeFunction>& body_volumes) {
+                               const std::vector<PosedVolume>& body_volumes) {
   if (share.isZero(0)) return share;
   if (!share.allFinite()) throw geometry::Refusal(geometry::refusal::kBadOption, "gravity is not finite");
   options.gravity = share.normalized();

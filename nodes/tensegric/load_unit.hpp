@@ -17,6 +17,6 @@ inline constexpr double kMoveOfUnit = 0.1;
 /// as for solve. Zero for zero. \throw Refusal as solve; bad_option: `share` is not finite, or nothing gives
 /// way in its direction
 Eigen::Vector3d force_of_share(const Model& model, const Eigen::Vector3d& share, SolverOptions options,
-                               const std::vector<VolumeFunction>& body_volumes = {});
+                               const std::vector<PosedVolume>& body_volumes = {});
 
 }  // namespace tensegric_fit::tensegric

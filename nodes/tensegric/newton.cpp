@@ -35,7 +35,7 @@ Newton::Newton(const Problem& problem, Recorder& recorder, int spent, int most)
       kkt_(problem),
       iterations_(spent),
       most_iterations_(problem.options.max_iterations > 0 ? problem.options.max_iterations : spent + most),
-      most_factorisations_(std::max(kLeastCap, 4 * most / 3)) {
+      most_factorisations_(std::max(kLeastCap, 4 * std::max(most, problem.options.max_iterations) / 3)) {
   double sum = 0;
   for (const Member& m : problem.model.members) sum += m.rest;
   for (const Eigen::Vector3d& p : problem.rest) farthest_ = std::max(farthest_, p.cwiseAbs().maxCoeff());

@@ -36,11 +36,11 @@ void check_options(const geometry::ControlMesh& control, const SolverOptions& op
 }
 
 void check_body_volumes(const Model& model, const SolverOptions& options,
-                        const std::vector<VolumeFunction>& body_volumes) {
+                        const std::vector<PosedVolume>& body_volumes) {
   if (options.volume == KeptVolume::control) return;
   if (body_volumes.size() != model.control.regions.size() ||
       !std::all_of(body_volumes.begin(), body_volumes.end(),
-                   [](const VolumeFunction& f) { return f != nullptr; }))
+                   [](const PosedVolume& f) { return f != nullptr; }))
     throw Refusal(refusal::kBadOption,
                   "the body's volume is to be kept, but is not given for each region of the control mesh");
 }
@@ -84,7 +84,7 @@ void number_free_nodes(Problem& problem) {
 }  // namespace
 
 Problem lay_garment(const Model& model, const Garment& garment, const SolverOptions& options,
-                    const std::vector<VolumeFunction>& body_volumes,
+                    const std::vector<PosedVolume>& body_volumes,
                     const std::vector<geometry::LaidLine>& laid) {
   check_regions(model.control, garment);
   check_options(model.control, options);
@@ -108,7 +108,7 @@ Problem lay_garment(const Model& model, const Garment& garment, const SolverOpti
   for (std::size_t r = 0; r < model.control.regions.size(); ++r) {
     const bool body = options.volume == KeptVolume::body;
     problem.volumes.push_back(region_volume_of(model, model.control.regions[r], problem.free_index,
-                                               body ? body_volumes[r] : VolumeFunction()));
+                                               body ? body_volumes[r] : PosedVolume()));
     check_body_volume(problem.volumes.back());
   }
   return problem;
@@ -124,9 +124,11 @@ Positions posed(const Problem& problem, double share) {
 void pose_problem(Problem& problem, double share) {
   if (problem.options.bones.still()) return;
   const geometry::ControlMesh& control = problem.model.control;
-  for (std::size_t r = 0; r < problem.volumes.size(); ++r)
-    problem.volumes[r].apex =
-        problem.options.bones.moved(geometry::region_apex(control, control.regions[r]), share);
+  for (std::size_t r = 0; r < problem.volumes.size(); ++r) {
+    RegionVolume& volume = problem.volumes[r];
+    volume.apex = problem.options.bones.moved(geometry::region_apex(control, control.regions[r]), share);
+    if (volume.body_at) volume.body = volume.body_at(share);
+  }
   for (Band& band : problem.bands) pose_band(band, problem.rest, problem.options.bones, share);
 }
 

@@ -43,7 +43,7 @@ struct Outcome {
 
 /// \throw Refusal unknown_line, bad_garment, bad_option
 Problem lay_garment(const Model& model, const Garment& garment, const SolverOptions& options,
-                    const std::vector<VolumeFunction>& body_volumes = {},
+                    const std::vector<PosedVolume>& body_volumes = {},
                     const std::vector<geometry::LaidLine>& laid = {});
 
 /// The rest positions with `share` of the posture: where nodes that are not solved for belong.

@@ -36,7 +36,7 @@ double signed_scale(double rest, double area) {
 }  // namespace
 
 RegionVolume region_volume_of(const Model& model, const geometry::ControlRegion& region,
-                              const std::vector<int>& free_index, const VolumeFunction& body) {
+                              const std::vector<int>& free_index, const PosedVolume& body_at) {
   RegionVolume result;
   result.name = region.name;
   result.triangles = geometry::region_triangles(model.control, region);
@@ -47,8 +47,9 @@ RegionVolume region_volume_of(const Model& model, const geometry::ControlRegion&
   add_control_gradient(result, rest, free_index, 1, gradient);
   if (gradient.norm() == 0) return result;
   result.area = result.control_area = gradient.norm();
-  if (!body) return result;
-  result.body = body;
+  if (!body_at) return result;
+  result.body_at = body_at;
+  result.body = body_at(0);
   result.body_nodes = 2 * static_cast<int>(model.control.outer.size());
   gradient.setZero();
   result.rest = add_volume_gradient(result, rest, free_index, 1, gradient);

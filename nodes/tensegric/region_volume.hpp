@@ -16,13 +16,17 @@ namespace tensegric_fit::tensegric {
 /// `gradient` is not null its gradient by each of them.
 using VolumeFunction = std::function<double(const Positions& nodes, Positions* gradient)>;
 
+/// The same where body and nodes at rest have gone with that share of the posture, 0 to 1.
+using PosedVolume = std::function<VolumeFunction(double share)>;
+
 /// `rest` is to be kept. `area` (m^2) is the size of the volume's gradient by the free nodes at rest, so that
 /// (volume - rest) / area is a length; 1 where the region has no free node.
 struct RegionVolume {
   std::string name;
   std::vector<Eigen::Vector3i> triangles;
   Eigen::Vector3d apex;
-  VolumeFunction body;  ///< empty: the control mesh's own volume is kept
+  PosedVolume body_at;  ///< empty: the control mesh's own volume is kept
+  VolumeFunction body;  ///< body_at the posture's present share
   int body_nodes = 0;   ///< outer and inner
   double rest = 0;
   double area = 1;
@@ -33,7 +37,7 @@ struct RegionVolume {
 /// `free_index` of the nodes as of Model::free_index. A body's volume is kept only where the region has free
 /// nodes of its own.
 RegionVolume region_volume_of(const Model& model, const geometry::ControlRegion& region,
-                              const std::vector<int>& free_index, const VolumeFunction& body = {});
+                              const std::vector<int>& free_index, const PosedVolume& body_at = {});
 RegionVolume region_volume_of(const Model& model, const geometry::ControlRegion& region);
 
 /// The volume that is kept, and the control mesh's whichever is kept.

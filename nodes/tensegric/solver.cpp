@@ -153,9 +153,8 @@ SolverName solver_from(const std::string& word) {
 }
 
 Solution solve(const Model& model, const Garment& garment, const SolverOptions& options,
-               const Solution* start, const Progress& progress,
-               const std::vector<VolumeFunction>& body_volumes, const std::vector<geometry::LaidLine>& laid,
-               const SkinFolds& folds) {
+               const Solution* start, const Progress& progress, const std::vector<PosedVolume>& body_volumes,
+               const std::vector<geometry::LaidLine>& laid, const SkinFolds& folds) {
   if (start != nullptr) check_start(model, *start);
   Problem problem = lay_garment(model, garment, options, body_volumes, laid);
   problem.folds = folds;

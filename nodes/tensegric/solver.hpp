@@ -119,7 +119,7 @@ using Progress = std::function<bool(const Iterate&, const std::vector<Eigen::Vec
 /// Never returns a non-finite position. \throw Refusal unknown_line, bad_garment, bad_option
 Solution solve(const Model& model, const Garment& garment, const SolverOptions& options,
                const Solution* start = nullptr, const Progress& progress = {},
-               const std::vector<VolumeFunction>& body_volumes = {},
+               const std::vector<PosedVolume>& body_volumes = {},
                const std::vector<geometry::LaidLine>& laid = {}, const SkinFolds& folds = {});
 
 }  // namespace tensegric_fit::tensegric

@@ -44,7 +44,7 @@ std::vector<std::vector<Eigen::Vector3i>> carried_triangles(const Binding& bindi
 
 BodyVolume::BodyVolume(const Binding& binding, const std::vector<Eigen::Vector3i>& triangles,
                        const Eigen::Vector3d& apex)
-    : rest_nodes_(binding.outer()), starts_{0} {
+    : apex_(apex), rest_nodes_(binding.outer()), starts_{0} {
   const SparseRows& m = binding.weights().nodes;
   if (m.cols() == 0)
     throw Refusal(refusal::kBadOption,
@@ -72,6 +72,16 @@ BodyVolume::BodyVolume(const Binding& binding, const std::vector<Eigen::Vector3i
     if (index[v] == kUsed) add(v);
   for (const Eigen::Vector3i& t : triangles) triangles_.emplace_back(index[t[0]], index[t[1]], index[t[2]]);
   rest_volume_ = geometry::cone_volume(rest_, triangles_);
+}
+
+BodyVolume BodyVolume::posed(const geometry::BoneFrames& bones, double share) const {
+  BodyVolume other = *this;
+  if (bones.still() || share == 0) return other;
+  other.apex_ = bones.moved(apex_, share);
+  for (Eigen::Vector3d& node : other.rest_nodes_) node = bones.moved(node, share);
+  for (Eigen::Vector3d& p : other.rest_) p = bones.moved(apex_ + p, share) - other.apex_;
+  other.rest_volume_ = geometry::cone_volume(other.rest_, other.triangles_);
+  return other;
 }
 
 double BodyVolume::operator()(const std::vector<Eigen::Vector3d>& nodes,

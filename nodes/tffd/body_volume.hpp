@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/control_mesh.hpp"
+#include "geometry/posture.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "tffd/binding.hpp"
 
@@ -21,7 +22,7 @@ std::vector<std::vector<Eigen::Vector3i>> carried_triangles(const Binding& bindi
 /// the nodes, exact with its gradient. Stands alone: it keeps nothing of the binding but copies.
 class BodyVolume {
  public:
-  /// `triangles` of the body, such as one of carried_triangles(). With a posed binding: the posed body's.
+  /// `triangles` of the body, such as one of carried_triangles().
   /// \throw Refusal bad_option: a binding in the paper's setting, which has no constant M
   BodyVolume(const Binding& binding, const std::vector<Eigen::Vector3i>& triangles,
              const Eigen::Vector3d& apex);
@@ -32,7 +33,11 @@ class BodyVolume {
 
   double at_rest() const { return rest_volume_; }
 
+  /// Where the bones have carried body, nodes at rest and apex, with `share` of their angles.
+  BodyVolume posed(const geometry::BoneFrames& bones, double share) const;
+
  private:
+  Eigen::Vector3d apex_;
   std::vector<Eigen::Vector3d> rest_nodes_;
   std::vector<Eigen::Vector3d> rest_;       // the triangles' vertices from the apex on, reached ones first
   std::vector<Eigen::Vector3i> triangles_;  // into rest_

@@ -26,9 +26,9 @@ struct Anchor {
 ///
 /// A control mesh with a border carries only the skin that it lies on: vertices within reach that face as
 /// their closest triangle does, and that body edges join to the skin under its nodes without leaving that
-/// set; where that skin ends without a border, as between the thighs, the share grows from 0 over half a
-/// triangle's radius. Not so the arm beside the breast or the back behind it. A closed control mesh without
-/// fixed nodes carries the whole body.
+/// set; where that skin ends without a border, as between the thighs, the share grows from 0 over
+/// three quarters of a triangle's radius. Not so the arm beside the breast or the back behind it. A closed
+/// control mesh without fixed nodes carries the whole body.
 ///
 /// `reach` is in multiples of a triangle's radius. \pre the frames are the control mesh's, in order; the grid
 /// was made with that reach

@@ -45,8 +45,8 @@ Untangle::Untangle(const geometry::TriangleMesh& body, const std::vector<Anchor>
   for (const Anchor& anchor : anchors) carried[anchor.vertex] = 1;
   std::map<std::pair<int, int>, std::vector<std::size_t>> needles_at;  // a side's ends
   for (const Eigen::Vector3i& corners : body.triangles) {
-    if (!carried[corners[0]] && !carried[corners[1]] && !carried[corners[2]]) continue;
     const Eigen::Vector3i t = widest_first(corners, body.vertices);
+    if (!carried[t[0]]) continue;
     const double side = (body.vertices[t[2]] - body.vertices[t[1]]).norm();
     if (!(height_of(t, body.vertices) < kSlender * side)) continue;
     for (int k = 0; k < 3; ++k) needles_at[std::minmax(t[k], t[(k + 1) % 3])].push_back(needles_.size());

@@ -15,7 +15,7 @@ namespace tensegric_fit::tffd {
 class Untangle {
  public:
   Untangle() = default;  ///< watches nothing
-  /// Watches the body's needles that anchors carry.
+  /// Watches the body's needles whose widest corner is an anchor: other vertices stay where they are.
   Untangle(const geometry::TriangleMesh& body, const std::vector<Anchor>& anchors);
 
   /// Moves corners of needles that face against themselves in `rest` where the skin beside them does not;

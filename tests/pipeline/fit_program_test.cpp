@@ -179,6 +179,18 @@ TEST_F(FitProgram, AGarmentIsWornInAnyPosture) {
   }
 }
 
+TEST_F(FitProgram, TheBodysVolumeIsKeptInAPosture) {
+  ASSERT_EQ(
+      fit("--mesh " + kScans + "/a/body.ply --garment B1 --ratio 0.95 --volume body --twist 15 --lean -10"),
+      0)
+      << read_file(file("log"));
+  const json r = report();
+  EXPECT_EQ(r["solver"]["status"], "converged");
+  const json& volume = r["regions"].at(0)["body_volume"];
+  EXPECT_NEAR(volume[1].get<double>() / volume[0].get<double>(), 1,
+              1e-9);  // nodes/tensegric/README.md, Exactness
+}
+
 TEST_F(FitProgram, BendsAnyShapeUnderGravity) {
   // a bar along x, fixed at x = 0
   tensegric_fit::geometry::TriangleMesh bar;

@@ -130,6 +130,16 @@ def a_garment_file_spoilt_while_it_is_worn(shop):
     shutil.copy(os.path.join(LAUNCH, "garments", "B1.yaml"), path)
     shop.wear(path)
     shop.comes_to(0.95)
+    with open(path) as file:
+        text = file.read().replace("ratio: 0.95", "ratio: 0.95\n    width: 0.02")
+    for name in ("chest", "upper"):  # the garment's name stays; then the line has another
+        with open(path, "w") as file:
+            file.write(text.replace("name: chest", "name: " + name))
+        shop.wear(path)
+        shop.press("alt+1", "Left")
+        shop.comes_to(0.945)
+        line = shop.message["garment"].lines[0]
+        assert (line.name, line.width) == (name, 0.02), "the slider put on an older version: %s" % line
     shop.wear("B1")
 
 
@@ -170,7 +180,7 @@ def the_scan_over_beside_and_wiped_against_the_garment(shop):
 
 def messages_that_are_no_good(shop):
     import rospy
-    from tensegric_fit.msg import DeformedMesh
+    from tensegric_fit.msg import DeformedMesh, FitState
 
     good = shop.message["body/deformed"]
     before, after = (os.path.join(shop.out, name + ".png") for name in ("good", "still_good"))
@@ -190,6 +200,17 @@ def messages_that_are_no_good(shop):
         publisher.publish(bad)
         time.sleep(1)
         assert shop.rviz.poll() is None, "rviz has ended"
+    fits = rospy.Publisher("control/deformed", FitState, queue_size=9)
+    wait_for("rviz and this as subscribers", lambda: fits.get_num_connections() >= 2)
+    fit = shop.message["control/deformed"]
+    for course in ([0.1] * 5, [float("nan")] * 6):
+        bad = copy.deepcopy(fit)
+        bad.lines[0].course = course
+        fits.publish(bad)
+        time.sleep(1)
+        assert shop.rviz.poll() is None, "rviz has ended"
+    fits.unregister()
+    shop.message["control/deformed"] = fit
     shop.picture(after, "840x600+0+62")
     publisher.unregister()
     shop.message["body/deformed"] = good

@@ -129,12 +129,12 @@ class Session:
         import rospy
         from diagnostic_msgs.msg import DiagnosticArray
         from rosgraph_msgs.msg import Log
-        from tensegric_fit.msg import DeformedMesh, FitState, Landmarks, TriangleMesh
+        from tensegric_fit.msg import DeformedMesh, FitState, Garment, Landmarks, TriangleMesh
 
         rospy.init_node("rviz_session", anonymous=True, disable_signals=True)
         wait_for("run_id of the master", lambda: rospy.has_param("/run_id"))  # else a chain would bring its own
         for topic, kind in (("body/mesh", TriangleMesh), ("control/deformed", FitState), ("body/deformed", DeformedMesh),
-                            ("body/landmarks", Landmarks)):
+                            ("body/landmarks", Landmarks), ("garment", Garment)):
             rospy.Subscriber(topic, kind, self.keep, topic)
         rospy.Subscriber("/rosout", Log, lambda line: self.said.append(line.msg))
         rospy.Subscriber("/diagnostics", DiagnosticArray,

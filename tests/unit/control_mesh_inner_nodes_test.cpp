@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "geometry/status.hpp"
+
 namespace tensegric_fit::control_mesh {
 namespace {
 
@@ -51,6 +53,19 @@ TEST(Bone, LiesUnderTheLeastTissueWhereTheSkinDipsToIt) {
   place_on_bone(control, {0.012, 0.010, 1}, 1);
   for (std::size_t v = 0; v < control.outer.size(); ++v)
     EXPECT_GT((control.outer[v] - control.inner[v]).norm(), 0.010 - 1e-9);
+}
+
+TEST(Bone, ASurfaceThatItsHeldNodesDoNotFixIsRefused) {
+  for (const int held : {0, 1, kSide}) {  // none, one, one side of the rim
+    geometry::ControlMesh control = sheet(0.03);
+    for (int v = 0; v < kSide * kSide; ++v) control.inner_fixed[v] = v < held;
+    try {
+      place_on_bone(control, {0.012, 0.010, 1}, 1);
+      ADD_FAILURE() << held << " held nodes";
+    } catch (const geometry::Refusal& refusal) {
+      EXPECT_EQ(refusal.code(), "bad_template");
+    }
+  }
 }
 
 TEST(Bone, UnitsReachDownTheirShareOfTheWay) {

@@ -161,6 +161,26 @@ TEST(BustTemplate, RefusesARegionByItsPlace) {
             std::string::npos);
 }
 
+TEST(BustTemplate, RefusesNamesThatStandTwice) {
+  EXPECT_NE(refusal_with(kBust, "{name: bust, rows",
+                         "{name: bust, rows: [0, 1], columns: [4, 6]}\n  - {name: bust, rows")
+                .find("'bust' twice"),
+            std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "lines:",
+                         "lines:\n  - {name: one, through: [axilla_L, axilla_R]}\n"
+                         "  - {name: one, through: [axilla_R, axilla_L]}")
+                .find("'one' twice"),
+            std::string::npos);
+  EXPECT_NE(refusal_with(kBust, "through: [axilla_L", "through: [axilla_L, axilla_L").find("twice in a row"),
+            std::string::npos);
+}
+
+TEST(BustTemplate, RefusesARegionOfNoCell) {
+  EXPECT_NE(refusal_with(kHips, "regions:", "regions:\n  - {name: corner, rows: [4, 5], columns: [6, 7]}")
+                .find("'corner' has no cell"),
+            std::string::npos);
+}
+
 TEST(BustTemplate, RefusesAFileThatIsNotThere) {
   try {
     control_mesh::load_template("no_such_template.yaml");

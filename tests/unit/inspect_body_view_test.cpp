@@ -95,6 +95,24 @@ TEST(BodyView, ABadWornBodyThatWaitedDoesNotHoldUpItsMesh) {
   EXPECT_EQ(view.note(), "");
 }
 
+TEST(BodyView, WhatIsWornOverTheSameScanStays) {
+  BodyView view;
+  view.take_body("one", kTetrahedron);
+  view.take_worn(worn("one", {2, 1, 1}));
+  const int revision = view.revision();
+  view.take_body("one", kTetrahedron);  // a latched message comes again
+  EXPECT_TRUE(view.is_worn());
+  EXPECT_NE(view.revision(), revision);
+  geometry::TriangleMesh smaller = kTetrahedron;
+  smaller.vertices.pop_back();
+  smaller.triangles = {{0, 2, 1}};
+  view.take_body("one", smaller);
+  EXPECT_FALSE(view.is_worn());
+  EXPECT_NE(view.note(), "");
+  view.take_body("two", kTetrahedron);
+  EXPECT_EQ(view.note(), "");
+}
+
 TEST(BodyView, BlendsFromRestToWorn) {
   BodyView view;
   view.take_body("one", kTetrahedron);
@@ -121,6 +139,7 @@ TEST(ColourScale, AutomaticReachesTheFarthestValueAndKeepsNeutral) {
   EXPECT_EQ(colour_of(scale, 1), kNeutral);
   EXPECT_EQ(colour_of(scale, 0.95), distortion_colour(kTightest));
   EXPECT_EQ(colour_of(fixed_scale(ColourBy::distortion), 0.85), distortion_colour(0.85));
+  EXPECT_EQ(auto_scale(ColourBy::distortion, {2.5}).low, 0);  // no area is less
 }
 
 }  // namespace

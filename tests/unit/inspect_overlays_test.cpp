@@ -83,6 +83,29 @@ TEST_F(OverlaysTest, NothingOfAnotherScanIsDrawn) {
   EXPECT_EQ(overlays_.measures(body_), nullptr);
 }
 
+TEST_F(OverlaysTest, AnotherMeshOfTheSameScanIsDrawnOver) {
+  EXPECT_EQ(overlays_.dots(body_, 0).size(), 2u);
+  EXPECT_EQ(overlays_.model(body_, 0).size(), 4u);
+  const std::vector<Eigen::Vector3d> three(kCorners.begin(), kCorners.begin() + 3);
+  body_.take_body("one", {three, {{0, 1, 2}}});
+  const std::vector<NamedDot> dots = overlays_.dots(body_, 0);
+  ASSERT_EQ(dots.size(), 2u);
+  EXPECT_NEAR(dots[0].position.x(), 0.25, 1e-12);
+  for (const Stroke& stroke : overlays_.model(body_, 0))
+    for (const Eigen::Vector3d& p : stroke.points) EXPECT_TRUE(p.allFinite() && p.norm() < 2);
+}
+
+TEST_F(OverlaysTest, MembersBetweenLayersGoFromRestToWorn) {
+  std::vector<Eigen::Vector3d> worn(12, {0, 0, 2});  // two layers
+  overlays_.take_members("one", {worn, {0, 9, 9, 5}, {1, -1}});
+  const std::vector<Stroke> rest = overlays_.members(body_, 0), members = overlays_.members(body_, 1);
+  ASSERT_EQ(rest.size(), 2u);
+  EXPECT_EQ(rest[0].points[1], kCorners[1]);  // half-way between outer and inner node 1, which are one here
+  EXPECT_EQ(members[0].points[1], worn[9]);
+  overlays_.take_members("one", {std::vector<Eigen::Vector3d>(9, {0, 0, 2}), {0, 1}, {1}});
+  EXPECT_TRUE(overlays_.members(body_, 1).empty()) << "no number of nodes that this control mesh can have";
+}
+
 TEST_F(OverlaysTest, ABodyModelThatDoesNotFitItselfIsRefused) {
   const auto code_of = [this](ModelSkin skin) -> std::string {
     try {

@@ -198,5 +198,14 @@ TEST(FitPictures, DistortionIsShownInColour) {
   EXPECT_LT(std::abs(middle_at(1)[0] - middle_at(1)[2]), 20);
 }
 
+TEST(FitPictures, TheWordsBesideTheScaleAreWhole) {
+  for (const int rows : {637, 1249}) {  // one row of panels, two
+    const cv::Mat picture = with_distortion_scale(cv::Mat(rows, 1212, CV_8UC3, cv::Scalar::all(255)));
+    for (const int column : {0, 1, 2, picture.cols - 3, picture.cols - 2, picture.cols - 1})
+      for (int y = 0; y < picture.rows; ++y)
+        EXPECT_TRUE(is_white(picture.at<cv::Vec3b>(y, column))) << rows << " rows: " << column << ", " << y;
+  }
+}
+
 }  // namespace
 }  // namespace tensegric_fit::inspect

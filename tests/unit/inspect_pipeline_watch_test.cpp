@@ -98,6 +98,21 @@ TEST(PipelineWatch, WhatTheBoothRefusedIsShownUntilTheNextScan) {
   EXPECT_NE(watch.state(4.5).words.find("c.ply"), std::string::npos);
 }
 
+TEST(PipelineWatch, TheNewestScanIsNotForgottenWhereStagesEndOrComeBack) {
+  PipelineWatch watch;
+  all_say(watch, "done", 0);
+  watch.hear({"reconstruction", "refused", "not_a_body", "two"}, 1);
+  EXPECT_EQ(watch.state(1).newest_scan, "two");
+  EXPECT_EQ(watch.state(60).newest_scan, "two") << "nothing lives";
+  watch.hear({"reconstruction", "waiting", "", ""}, 61);
+  EXPECT_EQ(watch.state(61).newest_scan, "two") << "one that came back has no scan yet";
+  watch.hear({"scan_player", "refused", "c.ply: broken", "c.ply"}, 62);
+  watch.hear({"scan_player", "waiting", "", ""}, 63);
+  EXPECT_EQ(watch.state(63).newest_scan, "c.ply");
+  watch.hear({"reconstruction", "working", "", "four"}, 64);
+  EXPECT_EQ(watch.state(64).newest_scan, "four");
+}
+
 TEST(PipelineWatch, WarningsOfTheScanThatIsShownAreSaidAndOfNoOther) {
   PipelineWatch watch;
   all_say(watch, "done", 0);

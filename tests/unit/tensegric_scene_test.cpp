@@ -70,36 +70,40 @@ TEST(Pieces, WornTogetherEachKeepsItsVolume) {
 }
 
 // As t-FFD moves a body: a closed skin, each vertex of which follows some nodes in constant shares. Here it
-// is the patch at `depth` below the skin, closed to a fixed apex.
-VolumeFunction layer_volume(const geometry::ControlMesh& control, double depth) {
+// is the patch at `depth` below the skin, closed to an apex that only a posture moves.
+PosedVolume layer_volume(const geometry::ControlMesh& control, double depth,
+                         const geometry::BoneFrames& bones = {}) {
   const std::size_t count = control.outer.size();
-  const Eigen::Vector3d apex = geometry::region_apex(control, control.regions[0]);
+  const Eigen::Vector3d at_rest = geometry::region_apex(control, control.regions[0]);
   const auto triangles = control.triangles;
-  return [=](const Positions& nodes, Positions* gradient) {
-    Positions layer(count);
-    for (std::size_t i = 0; i < count; ++i) layer[i] = (1 - depth) * nodes[i] + depth * nodes[count + i];
-    if (gradient != nullptr) {
-      gradient->assign(2 * count, Eigen::Vector3d::Zero());
-      for (const Eigen::Vector3i& t : triangles)
-        for (int k = 0; k < 3; ++k) {
-          const Eigen::Vector3d g = (layer[t[(k + 1) % 3]] - apex).cross(layer[t[(k + 2) % 3]] - apex) / 6;
-          (*gradient)[t[k]] += (1 - depth) * g;
-          (*gradient)[static_cast<int>(count) + t[k]] += depth * g;
-        }
-    }
-    return geometry::cone_volume(layer, triangles, apex);
+  return [=](double share) {
+    return [=, apex = bones.moved(at_rest, share)](const Positions& nodes, Positions* gradient) {
+      Positions layer(count);
+      for (std::size_t i = 0; i < count; ++i) layer[i] = (1 - depth) * nodes[i] + depth * nodes[count + i];
+      if (gradient != nullptr) {
+        gradient->assign(2 * count, Eigen::Vector3d::Zero());
+        for (const Eigen::Vector3i& t : triangles)
+          for (int k = 0; k < 3; ++k) {
+            const Eigen::Vector3d g = (layer[t[(k + 1) % 3]] - apex).cross(layer[t[(k + 2) % 3]] - apex) / 6;
+            (*gradient)[t[k]] += (1 - depth) * g;
+            (*gradient)[static_cast<int>(count) + t[k]] += depth * g;
+          }
+      }
+      return geometry::cone_volume(layer, triangles, apex);
+    };
   };
 }
 
 TEST(BodyVolume, IsKeptInPlaceOfTheControlVolume) {
   const geometry::ControlMesh control = bust_mesh();
   const Model model = build_model(control, {});
-  const VolumeFunction body = layer_volume(control, 0.3);
+  const PosedVolume body_at = layer_volume(control, 0.3);
+  const VolumeFunction body = body_at(0);
   const double rest = body(model.rest_positions(), nullptr);
   SolverOptions options;
   options.volume = KeptVolume::body;
   for (double ratio : {0.97, 0.90}) {
-    const Solution s = solve(model, chest(ratio), options, nullptr, {}, {body});
+    const Solution s = solve(model, chest(ratio), options, nullptr, {}, {body_at});
     EXPECT_EQ(s.status, Status::converged) << s.note;
     EXPECT_LE(s.residual, 1e-8);
     EXPECT_NEAR(s.lines[0].final / s.lines[0].neutral, 1, 1e-6);
@@ -115,7 +119,7 @@ TEST(BodyVolume, IsKeptInPlaceOfTheControlVolume) {
   }
   // The papers' solvers hold it as well as they can: better than where they hold the control volume.
   options.solver = SolverName::adaptive;
-  const Solution kept = solve(model, chest(0.95), options, nullptr, {}, {body});
+  const Solution kept = solve(model, chest(0.95), options, nullptr, {}, {body_at});
   EXPECT_LE(std::abs(kept.history.back().volume_errors[0]), 0.01);
 }
 
@@ -124,7 +128,7 @@ TEST(BodyVolume, IsRefusedWhereItIsNotGiven) {
   const Model model = build_model(control, {});
   SolverOptions options;
   options.volume = KeptVolume::body;
-  const auto code = [&](const std::vector<VolumeFunction>& bodies) {
+  const auto code = [&](const std::vector<PosedVolume>& bodies) {
     try {
       solve(model, chest(0.95), options, nullptr, {}, bodies);
     } catch (const geometry::Refusal& r) {
@@ -133,13 +137,13 @@ TEST(BodyVolume, IsRefusedWhereItIsNotGiven) {
     return std::string("solved");
   };
   EXPECT_EQ(code({}), "bad_option");
-  EXPECT_EQ(code({VolumeFunction()}), "bad_option");
+  EXPECT_EQ(code({PosedVolume()}), "bad_option");
   EXPECT_EQ(code({layer_volume(control, 0), layer_volume(control, 0)}), "bad_option");
-  EXPECT_EQ(code({[](const Positions& x, Positions* gradient) {  // does not follow the nodes
-              if (gradient != nullptr) gradient->assign(x.size(), Eigen::Vector3d::Zero());
-              return 1.0;
-            }}),
-            "bad_option");
+  const VolumeFunction rigid = [](const Positions& x, Positions* gradient) {  // does not follow the nodes
+    if (gradient != nullptr) gradient->assign(x.size(), Eigen::Vector3d::Zero());
+    return 1.0;
+  };
+  EXPECT_EQ(code({[rigid](double) { return rigid; }}), "bad_option");
   EXPECT_EQ(code({layer_volume(control, 0.1)}), "solved");
 }
 
@@ -179,6 +183,22 @@ TEST(PostureOfBones, BoundNodesGoWithThemAndTheSkinSettles) {
                   1, 1e-9);
       EXPECT_NEAR(s.regions[0].volume_after / s.regions[0].volume_before, 1, 1e-9);
     }
+  }
+}
+
+TEST(PostureOfBones, TheBodysVolumeIsThatOfTheScansPosture) {
+  const geometry::ControlMesh control = bust_mesh();
+  const Model model = build_model(control, {});
+  for (const auto& [twist, lean] : {std::pair{0.3, 0.0}, {0.0, 0.3}, {-0.8, 0.2}}) {
+    SolverOptions options;
+    options.bones = bones(twist, lean);
+    options.volume = KeptVolume::body;
+    const PosedVolume body = layer_volume(control, 0.3, options.bones);
+    const Solution s = solve(model, chest(0.95), options, nullptr, {}, {body});
+    EXPECT_EQ(s.status, Status::converged) << s.note;
+    Positions x = s.outer;
+    x.insert(x.end(), s.inner.begin(), s.inner.end());
+    EXPECT_NEAR(body(1)(x, nullptr) / body(0)(model.rest_positions(), nullptr), 1, 1e-9);
   }
 }
 

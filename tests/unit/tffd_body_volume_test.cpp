@@ -70,6 +70,32 @@ TEST(BodyVolume, IsThatOfTheDeformedBody) {
   EXPECT_NEAR(volume(nodes_of(moved.outer, moved.inner), &gradient) / after_expected, 1, 1e-12);
 }
 
+TEST(BodyVolume, GoesWithAPosture) {
+  const geometry::TriangleMesh body = slab(61);
+  const geometry::ControlMesh control = named_patch("bust");
+  const Binding binding(body, control, {});
+  const auto triangles = carried_triangles(binding, body.triangles, control).at(0);
+  const Eigen::Vector3d apex(0.01, -0.02, -0.1);
+  geometry::Spine spine;  // bends where the patch is
+  spine.x = -0.5;
+  spine.pelvis = -0.3;
+  spine.chest = 0.3;
+  const geometry::BoneFrames bones(spine, {0.4, -0.2});
+  const BodyVolume at_rest(binding, triangles, apex);
+  for (const double share : {0.5, 1.0}) {
+    const auto posed = [&](Points points) {
+      for (Eigen::Vector3d& p : points) p = bones.moved(p, share);
+      return points;
+    };
+    const Points nodes = nodes_of(posed(control.outer), posed(control.inner));
+    const double expected = geometry::cone_volume(posed(body.vertices), triangles, bones.moved(apex, share));
+    EXPECT_NEAR(at_rest.posed(bones, share)(nodes, nullptr) / expected, 1, 1e-12);
+  }
+  const Moved moved = squeezed(control, 0.03);
+  const Points nodes = nodes_of(moved.outer, moved.inner);
+  EXPECT_EQ(at_rest.posed(bones, 0)(nodes, nullptr), at_rest(nodes, nullptr));
+}
+
 TEST(BodyVolume, GradientIsThatOfACubic) {
   const geometry::TriangleMesh body = slab(41);
   const geometry::ControlMesh control = named_patch("bust");

@@ -68,6 +68,18 @@ TEST(Untangle, SkinThatIsTurnedRightRoundIsLeftAlone) {
   EXPECT_EQ(moved, before);
 }
 
+TEST(Untangle, AVertexThatIsNoAnchorStays) {
+  const geometry::TriangleMesh mesh = with_needle();
+  std::vector<Anchor> anchors = all_of(mesh);
+  anchors.erase(anchors.begin() + 12);
+  std::vector<Vector3d> moved = mesh.vertices;
+  for (const int v : {6, 7, 8}) moved[v].y() += 5e-5;  // the row below it, over it
+  const std::vector<Vector3d> before = moved;
+  ASSERT_GT(turned(mesh, moved, Eigen::Matrix3d::Identity()), 0);
+  Untangle(mesh, anchors)(mesh.vertices, moved);
+  EXPECT_EQ(moved, before);
+}
+
 TEST(Untangle, NothingMovesAtRest) {
   const geometry::TriangleMesh mesh = with_needle();
   std::vector<Vector3d> moved = mesh.vertices;
