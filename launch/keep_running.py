@@ -77,6 +77,7 @@ class Booth:
             return False
 
     def stop(self):
+        """Whole, whatever signals come meanwhile."""
         if self.launch.poll() is None:
             self.launch.send_signal(signal.SIGINT)  # it ends its nodes
         try:
@@ -92,8 +93,22 @@ class Booth:
         self.core.wait()
 
 
-def end(*_):
-    raise KeyboardInterrupt
+class Ending:
+    """Whether SIGINT or SIGTERM has come. No exception: it would leave half of a stop undone."""
+
+    def __init__(self):
+        self.asked = False
+        for ending in (signal.SIGINT, signal.SIGTERM):  # SIGINT, too: a shell's background jobs inherit it ignored
+            signal.signal(ending, self.ask)
+
+    def ask(self, *_):
+        self.asked = True
+
+    def comes_within(self, seconds):
+        end = time.monotonic() + seconds
+        while not self.asked and time.monotonic() < end:
+            time.sleep(0.1)
+        return self.asked
 
 
 def main():
@@ -103,21 +118,19 @@ def main():
     given = parser.parse_args()
     if not given.arguments:
         parser.error("what is to be launched?")
-    for ending in (signal.SIGINT, signal.SIGTERM):  # SIGINT, too: a shell's background jobs inherit it ignored
-        signal.signal(ending, end)
-    while True:
+    ending = Ending()
+    while not ending.asked:
         booth = Booth(given.port, given.arguments)
         try:
             fault = ""
-            while not fault:
-                time.sleep(LOOK)
+            while not fault and not ending.comes_within(LOOK):
                 fault = booth.fault()
-            say(f"keep_running: {fault}: all is started anew")
-        except KeyboardInterrupt:
-            return 0
+            if fault:
+                say(f"keep_running: {fault}: all is started anew")
         finally:
             booth.stop()
-        time.sleep(max(0, PAUSE - (time.monotonic() - booth.began)))
+        ending.comes_within(PAUSE - (time.monotonic() - booth.began))
+    return 0
 
 
 if __name__ == "__main__":

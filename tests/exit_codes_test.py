@@ -29,6 +29,12 @@ class ExitCodes(unittest.TestCase):
                 with self.subTest(program, words=words):
                     self.assertEqual(code_of(*program, *words), 2)
 
+    def test_an_unset_variable_of_a_script(self):
+        for words in (("history", "/tmp", "--customer", ""), ("history", "/tmp", "--out", "page.html"), ("fit", "--mesh", ""),
+                      ("fit_batch", __file__, "--out", ""), ("fit_batch", "merge", "/tmp", "--out", "")):
+            with self.subTest(words=words):
+                self.assertEqual(code_of(*words), 2)
+
     def test_what_nobody_foresaw(self):
         self.assertEqual(code_of("forget", "scan", "__name:=a/b"), 3)  # no name of a node
         self.assertEqual(code_of("fit_batch", "worker", "descriptor"), 1)

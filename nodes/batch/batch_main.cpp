@@ -6,6 +6,7 @@
 #include "batch/run_batch.hpp"
 #include "batch/worker.hpp"
 #include "files/owner_only.hpp"
+#include "fit/parsed_line.hpp"
 
 namespace {
 
@@ -35,11 +36,7 @@ int merge_main(int argc, char** argv) {
                  "Runs fit again on so many of the least sure, for their pictures")
       ->check(CLI::Range(0, 1000));
   app.add_flag("--quiet", options.quiet, "No summary");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  if (const auto code = tensegric_fit::fit::parsed(app, argc, argv, std::cerr, [] {})) return *code;
   return merge(options);
 }
 
@@ -70,12 +67,9 @@ int batch_main(int argc, char** argv) {
       ->check(CLI::Range(0.1, 1024.0));
   app.add_flag("--retry", options.retry, "Also again what crashed, or took too much time or memory");
   app.add_flag("--quiet", options.quiet, "No progress");
-  try {
-    app.parse(argc, argv);
-    take_shard(shard, options);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  const auto code =
+      tensegric_fit::fit::parsed(app, argc, argv, std::cerr, [&] { take_shard(shard, options); });
+  if (code) return *code;
   options.limits.bytes = static_cast<std::size_t>(gigabytes * (1 << 30));
   return run_batch(options);
 }

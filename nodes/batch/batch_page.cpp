@@ -150,12 +150,15 @@ std::string drift(const Comparison& comparison) {
       "differ.</p>\n"
       "<div class=wide><table><tr><th>figure<th>scans<th>mean of new - "
       "old<th>deviation<th>largest<th>row</tr>\n",
-      comparison.common, comparison.changes.size(), comparison.drifts.size());
+      comparison.common, comparison.changes.size(), comparison.drifts.size() + comparison.others.size());
   for (const Drift& one : comparison.drifts)
     text += "<tr><td>" + html_escaped(one.figure) + "</td>" + number(static_cast<double>(one.count)) +
             number(one.mean) + number(one.deviation) + number(one.largest) +
             number(static_cast<double>(one.row)) + "</tr>\n";
   text += "</table></div>\n";
+  for (const auto& [figure, other] : comparison.others)
+    text += fmt::format("<p>{}: another text in {} scans, new in {}, gone in {}</p>\n", html_escaped(figure),
+                        other.texts, other.gained, other.lost);
   for (const StatusChange& change : comparison.changes)
     text += fmt::format("<p>row {}: {} before, {} now</p>\n", change.row, html_escaped(change.before),
                         html_escaped(change.after));

@@ -1,7 +1,12 @@
 #include "batch/drift.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
+#include <optional>
 
 #include "files/csv.hpp"
 #include "geometry/status.hpp"
@@ -12,13 +17,19 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Row = std::map<std::string, std::string>;
 
+constexpr std::array<const char*, 11> kNoFigures{"row",     "name",  "inputs", "settings", "subject", "key",
+                                                 "version", "build", "status", "reason",   "message"};
+
 /// Rows of a table.csv by their subject; cells that are empty are left out.
-std::map<std::string, Row> rows_of(const std::string& file) {
+std::map<std::string, Row> read_rows(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   std::vector<std::string> columns, fields;
   std::size_t line = 1;
   if (!stream || !files::read_csv_row(stream, columns, line) || columns.empty() || columns[0] != "row")
     throw geometry::Refusal(geometry::refusal::kBrokenFile, file + " is no table of fit_batch");
+  for (const char* needed : {"subject", "status"})
+    if (std::find(columns.begin(), columns.end(), needed) == columns.end())
+      throw geometry::Refusal(geometry::refusal::kBrokenFile, file + " has no column '" + needed + "'");
   std::map<std::string, Row> rows;
   while (files::read_csv_row(stream, fields, line)) {
     Row row;
@@ -27,6 +38,21 @@ std::map<std::string, Row> rows_of(const std::string& file) {
     if (const std::string subject = row["subject"]; !subject.empty()) rows[subject] = std::move(row);
   }
   return rows;
+}
+
+std::map<std::string, Row> rows_of(const std::string& file) {
+  try {
+    return read_rows(file);
+  } catch (const files::CsvFault& fault) {
+    throw geometry::Refusal(geometry::refusal::kBrokenFile, file + " " + fault.what());
+  }
+}
+
+/// None where the text is no number as a whole.
+std::optional<double> number_in(const std::string& text) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' ? std::optional(number) : std::nullopt;
 }
 
 struct Sums {
@@ -44,13 +70,25 @@ Comparison compare(const Table& table, const std::string& file) {
     const auto found = before.find(line.value("subject", ""));
     if (found == before.end()) continue;
     ++result.common;
-    if (const std::string status = line["status"], old = found->second.at("status"); status != old)
+    Row then = found->second;
+    if (const std::string status = line["status"], old = then["status"]; status != old)
       result.changes.push_back({row, old, status});
+    for (const char* name : kNoFigures) then.erase(name);
     for (const Figure& figure : figures_of(line.value("result", Json::object()))) {
+      const auto cell = then.extract(figure.first);
       const auto* now = std::get_if<double>(&figure.second);
-      const auto then = found->second.find(figure.first);
-      if (now == nullptr || then == found->second.end()) continue;
-      const double change = *now - std::strtod(then->second.c_str(), nullptr);
+      const auto* text = std::get_if<std::string>(&figure.second);
+      if (text != nullptr && text->empty()) continue;  // as a cell that is empty
+      if (cell.empty()) {
+        ++result.others[figure.first].gained;
+        continue;
+      }
+      const std::optional<double> old = number_in(cell.mapped());
+      if (now == nullptr || !old) {
+        result.others[figure.first].texts += text == nullptr || *text != cell.mapped() ? 1 : 0;
+        continue;
+      }
+      const double change = *now - *old;
       Sums& all = sums[figure.first];
       ++all.count;
       all.sum += change;
@@ -60,7 +98,11 @@ Comparison compare(const Table& table, const std::string& file) {
         all.row = row;
       }
     }
+    for (const auto& cell : then) ++result.others[cell.first].lost;
   }
+  for (auto other = result.others.begin(); other != result.others.end();)
+    other = other->second.texts + other->second.gained + other->second.lost == 0 ? result.others.erase(other)
+                                                                                 : std::next(other);
   for (const auto& [figure, all] : sums) {
     if (all.largest == 0) continue;
     const double n = static_cast<double>(all.count), mean = all.sum / n;

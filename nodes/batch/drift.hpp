@@ -22,10 +22,16 @@ struct StatusChange {
   std::string before, after;
 };
 
+/// What has no difference: of a figure, scans in which it is another text, and in which one table has none.
+struct OtherChange {
+  std::size_t texts = 0, gained = 0, lost = 0;
+};
+
 struct Comparison {
   std::size_t common = 0;     ///< scans with the same content and settings
   std::vector<Drift> drifts;  ///< of the figures that differ, in the order of the names
   std::vector<StatusChange> changes;
+  std::map<std::string, OtherChange> others;  // by figure
 };
 
 /// `file`: a table.csv; scans are matched by content and settings. \throw Refusal broken_file

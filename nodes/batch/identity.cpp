@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kSubjectDigits = 32, kBuildDigits = 16;
+constexpr std::size_t kSubjectDigits = 32, kBuildDigits = 16, kManifestDigits = 16;
 
 /// SHA-256 of texts and files, each after its length, so that no two lists of them read alike.
 class Digest {
@@ -95,11 +95,28 @@ const std::string& build_identity() {
   return build;
 }
 
+std::string manifest_identity(const std::vector<Job>& jobs, const std::string& file) {
+  const std::string folder = fs::absolute(file).parent_path().lexically_normal().string() + "/";
+  Digest digest;
+  for (const Job& job : jobs) {
+    digest.text(job.name);
+    for (const auto& [name, values] : job.options) {
+      digest.text(name);
+      for (std::string value : values) {
+        for (std::size_t at = value.find(folder); at != std::string::npos; at = value.find(folder))
+          value.erase(at, folder.size());
+        digest.text(value);
+      }
+    }
+  }
+  return digest.hex(kManifestDigits);
+}
+
 Identity identity_of(const Job& job, const std::string& build) {
   Digest digest;
   for (const auto& [name, values] : job.options) {
     digest.text(name);
-    for (const std::string& value : values) {
+    for (const std::string& value : name == "garment" ? garment_parts(values.at(0)) : values) {
       // A file counts by its content, wherever it lies.
       std::error_code error;
       if (name == "scan" || name == "mesh" || name == "tissue" ||

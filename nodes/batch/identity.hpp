@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "batch/manifest.hpp"
 
@@ -10,6 +11,10 @@ namespace tensegric_fit::batch {
 
 /// Of this build: programs, libraries and shipped data that decide a result, 16 hexadecimal digits.
 const std::string& build_identity();
+
+/// Of the rows of a manifest in that file, 16 hexadecimal digits: the same wherever the file and what lies
+/// beside it are, and for rows of either format.
+std::string manifest_identity(const std::vector<Job>& jobs, const std::string& file);
 
 struct Identity {
   std::string subject;  ///< of scan and settings, 32 hexadecimal digits: the same for every build

@@ -63,7 +63,7 @@ class Reader {
 
   void read_csv(std::istream& stream) {
     std::vector<std::string> names, fields;
-    for (line_ = 1; files::read_csv_row(stream, fields, line_); ++line_) {
+    for (line_ = 1; read_row(stream, fields); ++line_) {
       if (fields.size() == 1 && fields[0].empty()) continue;
       for (const std::string& field : fields)
         if (!is_text(field)) throw fault_here("is not UTF-8");
@@ -77,6 +77,14 @@ class Reader {
       Job job;
       for (std::size_t i = 0; i < names.size(); ++i) add(job, names[i], split(names[i], fields[i]));
       take(std::move(job));
+    }
+  }
+
+  bool read_row(std::istream& stream, std::vector<std::string>& fields) {
+    try {
+      return files::read_csv_row(stream, fields, line_);
+    } catch (const files::CsvFault& wrong) {
+      throw fault_here(wrong.what());
     }
   }
 
@@ -158,11 +166,23 @@ class Reader {
       if (words[0] != "true" && words[0] != "1") throw fault_here("'" + name + "' is neither true nor false");
       words.clear();
     }
-    const bool file = name == "garment" &&
-                      (words[0].find('/') != std::string::npos || fs::path(words[0]).extension() == ".yaml");
-    if (kind == Kind::path || kind == Kind::paths || file)
-      for (std::string& word : words) word = (folder_ / word).lexically_normal().string();
+    if (kind == Kind::path || kind == Kind::paths)
+      for (std::string& word : words) word = path_of(word);
+    if (name == "garment") words[0] = garment_of(words[0]);
     job.options[name] = std::move(words);
+  }
+
+  std::string path_of(const std::string& word) const { return (folder_ / word).lexically_normal().string(); }
+
+  std::string garment_of(const std::string& word) const {
+    std::error_code error;
+    if (fs::is_regular_file(folder_ / word, error)) return path_of(word);
+    std::string all;
+    for (const std::string& part : garment_parts(word)) {
+      const bool file = part.find('/') != std::string::npos || fs::path(part).extension() == ".yaml";
+      all += (all.empty() ? "" : "+") + (file ? path_of(part) : part);
+    }
+    return all;
   }
 
   /// `fit` itself says what is wrong with the options of a row.
@@ -204,6 +224,16 @@ std::vector<std::string> Job::arguments() const {
 
 std::vector<Job> read_manifest(const std::string& file) {
   return Reader(file)();
+}
+
+std::vector<std::string> garment_parts(const std::string& garment) {
+  std::error_code error;
+  if (fs::is_regular_file(garment, error)) return {garment};
+  std::vector<std::string> parts;
+  std::istringstream stream(garment);
+  for (std::string part; std::getline(stream, part, '+');) parts.push_back(part);
+  if (garment.empty() || garment.back() == '+') parts.emplace_back();  // that `fit` refuses it
+  return parts;
 }
 
 }  // namespace tensegric_fit::batch

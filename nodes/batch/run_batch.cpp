@@ -1,19 +1,24 @@
 #include "batch/run_batch.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <map>
-#include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "batch/identity.hpp"
 #include "batch/manifest.hpp"
 #include "batch/shard_file.hpp"
+#include "files/descriptor.hpp"
 #include "fit/result_folder.hpp"
 #include "geometry/status.hpp"
 
@@ -30,6 +35,8 @@ volatile std::sig_atomic_t interrupted = 0;
 
 bool is_unfinished(const Json& line) {
   const std::string status = line.at("status");
+  if (status == "refused")  // the surface's process ran out of its time or memory, which were the machine's
+    return line.at("reason").at("code") == geometry::refusal::kSurfaceFailed;
   return status == "crashed" || status == "timed_out" || status == "out_of_memory" || status == "failed";
 }
 
@@ -74,6 +81,7 @@ class Batch {
   explicit Batch(const BatchOptions& options)
       : options_(options),
         jobs_(read_manifest(options.manifest)),
+        manifest_(manifest_identity(jobs_, options.manifest)),
         file_(options.out, shard_name(options.shard, options.shards)),
         pool_(options.workers, options.limits) {
     write_description();
@@ -97,21 +105,32 @@ class Batch {
   }
 
  private:
-  /// For the merge: how many rows there will be.
+  /// For the merge: how many rows there will be, and which lines count. Shards of one folder begin at once.
   void write_description() const {
     const Json description{{"rows", jobs_.size()},
                            {"manifest", std::filesystem::path(options_.manifest).filename()},
+                           {"manifest_identity", manifest_},
                            {"version", TENSEGRIC_FIT_VERSION},
                            {"build", build_identity()}};
-    fit::write_json(std::filesystem::path(options_.out) / "batch.json", description);
+    const files::Descriptor folder(options_.out, O_RDONLY | O_DIRECTORY);
+    while (flock(folder.number(), LOCK_EX) != 0)
+      if (errno != EINTR) files::fail(options_.out);
+    const std::filesystem::path file = std::filesystem::path(options_.out) / "batch.json";
+    std::ifstream before(file);
+    if (Json::parse(before, nullptr, false) != description) fit::write_json(file, description);
   }
 
   void read_done() {
     for_each_line(file_.path(), [this](const Json& line, std::size_t place) {
       const std::string key = line.at("key");
-      if (options_.retry && is_unfinished(line)) return;
-      rows_.insert({line.at("row"), key});
-      if (!key.empty()) done_[key] = {line.at("status"), place};
+      const std::size_t row = line.at("row");
+      if (options_.retry && is_unfinished(line)) {
+        rows_.erase(row);
+        done_.erase(key);
+        return;
+      }
+      rows_[row] = {key, line.value("manifest", "")};
+      if (!key.empty()) done_[key] = {line.at("status"), place, row};
     });
   }
 
@@ -121,14 +140,14 @@ class Batch {
       identity = identity_of(job, build_identity());
     } catch (const geometry::Refusal& refusal) {  // without a key: the file may be there the next time
       const Json reason{{"code", refusal.code()}, {"message", refusal.what()}};
-      if (rows_.insert({job.row, ""}).second)
-        file_.add(with_head(job, {}, {{"status", "refused"}, {"reason", reason}}));
+      if (lacks_line(job, "")) file_.add(with_head(job, {}, {{"status", "refused"}, {"reason", reason}}));
       progress.add("refused", false);
       return;
     }
-    if (const auto found = done_.find(identity.key); found != done_.end()) {
-      // The row itself from before, or the same scan and settings in another row.
-      if (rows_.insert({job.row, identity.key}).second) {
+    // The row itself from before, or the same scan and settings in another row; but a refusal names its file.
+    if (const auto found = done_.find(identity.key);
+        found != done_.end() && (found->second.status != "refused" || found->second.row == job.row)) {
+      if (lacks_line(job, identity.key)) {
         Json line = file_.line_at(found->second.place);
         line.erase("cost");  // it took nothing
         file_.add(with_head(job, identity, line));
@@ -153,13 +172,22 @@ class Batch {
       return;
     }
     const std::string status = finished.line.at("status");
-    done_[work.identity.key] = {status, file_.add(with_head(*work.job, work.identity, finished.line))};
+    lacks_line(*work.job, work.identity.key);
+    done_[work.identity.key] = {status, file_.add(with_head(*work.job, work.identity, finished.line)),
+                                work.job->row};
     progress.add(status, true);
     for (const Job* job : work.also) begin(*job, progress);
   }
 
+  /// Whether the row's last line is of another key or manifest: the merge takes the last one. From now on it
+  /// is of these.
+  bool lacks_line(const Job& job, const std::string& key) {
+    const LastLine last{key, manifest_};
+    return std::exchange(rows_[job.row], last) != last;
+  }
+
   /// Whose line it is, before what became of it.
-  static Json with_head(const Job& job, const Identity& identity, const Json& line) {
+  Json with_head(const Job& job, const Identity& identity, const Json& line) const {
     Json settings = Json::object();
     for (const auto& [name, values] : job.options)
       if (name != "scan" && name != "mesh") settings[name] = values;
@@ -170,6 +198,7 @@ class Batch {
                {"kind", job.options.count("mesh") > 0 ? "mesh" : "scan"},
                {"inputs", job.inputs()},
                {"settings", std::move(settings)},
+               {"manifest", manifest_},
                {"version", TENSEGRIC_FIT_VERSION},
                {"build", build_identity()}};
     for (const char* part : {"status", "reason", "result", "cost"})
@@ -179,14 +208,16 @@ class Batch {
 
   const BatchOptions& options_;
   std::vector<Job> jobs_;
+  const std::string manifest_;  // identity
   ShardFile file_;
   WorkerPool pool_;
   struct Done {
     std::string status;
-    std::size_t place;
+    std::size_t place, row;
   };
-  std::unordered_map<std::string, Done> done_;          // by key
-  std::set<std::pair<std::size_t, std::string>> rows_;  // that have their line
+  std::unordered_map<std::string, Done> done_;           // by key
+  using LastLine = std::pair<std::string, std::string>;  // key, manifest
+  std::map<std::size_t, LastLine> rows_;
   struct Work {
     const Job* job;
     Identity identity;

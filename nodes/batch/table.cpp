@@ -55,7 +55,8 @@ void add(const std::string& name, const Json& value, std::vector<Figure>& figure
   }
 }
 
-/// batch.json and the lines of a folder; of several lines of a row the last counts.
+/// batch.json and the lines of a folder that are of its manifest and build; of several lines of a row the
+/// last counts.
 struct Folder {
   Json description;
   std::map<std::size_t, Json> lines;
@@ -66,14 +67,18 @@ Folder read_folder(const std::string& path) {
   Folder folder{Json::parse(stream, nullptr, false), {}};
   if (!folder.description.is_object() || !folder.description.contains("rows"))
     throw Refusal(kBroken, path + " has no batch.json: it is not a folder of fit_batch");
+  const std::size_t rows = folder.description["rows"];
+  const std::string build = folder.description.value("build", ""),
+                    manifest = folder.description.value("manifest_identity", "");
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(path))
     if (entry.path().extension() == ".jsonl") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   for (const std::string& file : files)
-    for_each_line(file, [&folder](Json&& line, std::size_t) {
+    for_each_line(file, [&](Json&& line, std::size_t) {
       const std::size_t row = line.at("row");
-      folder.lines[row] = std::move(line);
+      if (row <= rows && line.value("build", "") == build && line.value("manifest", "") == manifest)
+        folder.lines[row] = std::move(line);
     });
   return folder;
 }
@@ -110,12 +115,17 @@ Table read_table(std::vector<std::string> folders) {
   std::sort(folders.begin(), folders.end());
   folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
   Table table;
+  std::string manifest;
   for (const std::string& path : folders) {
     Folder folder = read_folder(path);
     const std::size_t rows = folder.description["rows"];
     if (table.rows != 0 && rows != table.rows)
       throw Refusal(kBroken,
                     fmt::format("{} is of a manifest of {} rows, others of {}", path, rows, table.rows));
+    const std::string of = folder.description.value("manifest_identity", "");
+    if (table.rows != 0 && of != manifest)
+      throw Refusal(kBroken, fmt::format("{} is of another manifest than {}", path, folders.front()));
+    manifest = of;
     table.rows = rows;
     for (auto& [row, line] : folder.lines) {
       const auto [kept, fresh] = table.lines.try_emplace(row, line);

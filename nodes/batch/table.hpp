@@ -27,7 +27,8 @@ struct Table {
   std::vector<std::size_t> conflicts;
 };
 
-/// Of the shards in the folders, whatever their order. \throw Refusal broken_file: a folder without
+/// Of the shards in the folders, whatever their order. Lines of an earlier manifest or build of a folder are
+/// left out. \throw Refusal broken_file: a folder without
 /// batch.json or lines, folders of different manifests
 Table read_table(std::vector<std::string> folders);
 

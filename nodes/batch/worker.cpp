@@ -1,10 +1,12 @@
 #include "batch/worker.hpp"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -106,6 +108,7 @@ Json answer(const std::string& request) {
 }  // namespace
 
 int work(std::size_t bytes) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody else would end a job that hangs
   // What libraries print goes nowhere: standard output carries answers.
   std::FILE* answers = fdopen(fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1), "w");
   if (answers == nullptr || std::freopen("/dev/null", "w", stdout) == nullptr) return 1;

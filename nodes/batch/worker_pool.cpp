@@ -110,6 +110,7 @@ std::optional<Finished> WorkerPool::receive(Worker& worker) const {
   Finished finished{worker.job, Json::parse(worker.received)};
   worker.received.clear();
   worker.busy = false;
+  if (finished.line.value("status", "") == "out_of_memory") stop(worker);  // it ends, and takes no other job
   return finished;
 }
 

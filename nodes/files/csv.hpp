@@ -2,6 +2,7 @@
 #pragma once
 
 #include <istream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,14 @@ inline std::string csv_field(const std::string& text) {
   return quoted + "\"";
 }
 
+/// What a row has wrong, in words that follow its line's number.
+struct CsvFault : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// The next row's fields; `line` grows by the line ends that lie in quotes. False: there is none. A byte
-/// order mark is skipped.
+/// order mark is skipped. \throw CsvFault: a quote within a field, text behind a quoted one, a quote left
+/// open
 bool read_csv_row(std::istream& stream, std::vector<std::string>& fields, std::size_t& line);
 
 }  // namespace tensegric_fit::files

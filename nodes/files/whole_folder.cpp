@@ -56,7 +56,10 @@ class LockedParent {
       const std::string name = entry.path().filename();
       if (name.front() == '.' && entry.path().extension() == kUnfinished &&
           entry.symlink_status().type() == fs::file_type::directory)
-        remove_folder(directory_, entry.path());
+        try {
+          remove_folder(directory_, entry.path());
+        } catch (const fs::filesystem_error&) {  // another user's, or not ours: it hinders its own name alone
+        }
     }
   }
 

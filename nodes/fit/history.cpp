@@ -9,6 +9,7 @@
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "geometry/status.hpp"
 
@@ -112,7 +113,7 @@ std::optional<Visit> read_visit(const fs::path& folder) {
   Visit visit;
   visit.folder = folder;
   try {
-    for (const char* name : {"fit.json", "report.json"}) {
+    for (const char* name : kVisitDocuments) {
       const json document = read_json(folder / name);
       if (!document.is_object()) continue;
       visit.time = time_of_change(folder / name);
@@ -130,7 +131,11 @@ std::optional<Visit> read_visit(const fs::path& folder) {
 
 std::vector<Visit> find_visits(const std::vector<std::string>& folders, const std::string& customer) {
   std::vector<Visit> visits;
+  std::set<fs::path> seen;  // folders may lie in one another
   const auto look = [&](const fs::path& folder) {
+    std::error_code gone;
+    const fs::path place = fs::canonical(folder, gone);
+    if (gone || !seen.insert(place).second) return;
     const std::optional<Visit> visit = read_visit(folder);
     if (visit && (customer.empty() || visit->customer == customer)) visits.push_back(*visit);
   };
@@ -139,8 +144,16 @@ std::vector<Visit> find_visits(const std::vector<std::string>& folders, const st
       throw geometry::Refusal(geometry::refusal::kBrokenFile, folder + ": there is no such folder");
     look(folder);
     constexpr auto kSkip = fs::directory_options::skip_permission_denied;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, kSkip))
-      if (entry.is_directory()) look(entry.path());
+    std::error_code gone;  // a folder that is deleted meanwhile
+    for (fs::recursive_directory_iterator entry(folder, kSkip, gone), end; entry != end && !gone;
+         entry.increment(gone)) {
+      std::error_code unknown;
+      if (!entry->is_directory(unknown)) continue;
+      if (entry->path().filename().string().front() == '.')
+        entry.disable_recursion_pending();  // an export that was never finished, or is being deleted
+      else
+        look(entry->path());
+    }
   }
   std::sort(visits.begin(), visits.end(), [](const Visit& a, const Visit& b) {
     return a.time != b.time ? a.time < b.time : a.folder < b.folder;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -27,6 +28,9 @@ struct Visit {
   std::map<std::string, VisitMeasure> girths, heights;
   Eigen::Isometry3d body_from_scan = Eigen::Isometry3d::Identity();
 };
+
+/// What a folder is known by: an export's document, or else a report.
+inline constexpr std::array<const char*, 2> kVisitDocuments{"fit.json", "report.json"};
 
 /// Nothing where a folder holds neither fit.json nor a report.json that went through.
 std::optional<Visit> read_visit(const std::filesystem::path& folder);

@@ -1,9 +1,11 @@
 /// history: a customer's earlier scans and fits, to be opened and compared.
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <iostream>
 
+#include "files/owner_only.hpp"
+#include "files/whole_folder.hpp"
 #include "fit/history.hpp"
+#include "fit/parsed_line.hpp"
 #include "geometry/status.hpp"
 
 namespace {
@@ -28,11 +30,15 @@ int compare(const std::vector<std::string>& folders, const std::string& customer
   }
   std::cout << fit::visits_text(visits, from - 1, to - 1);
   if (out.empty()) return 0;
+  std::error_code not_there;
+  for (const fit::Visit& visit : visits)
+    for (const char* document : fit::kVisitDocuments)
+      if (std::filesystem::equivalent(out, visit.folder / document, not_there)) {
+        std::cerr << "history: --out: the page would overwrite " << out << '\n';
+        return 2;
+      }
   const std::string page = fit::visits_page(visits, from - 1, to - 1, out);
-  std::ofstream file(out);
-  file << page;
-  file.close();
-  if (!file) throw std::runtime_error(out + ": cannot be written");
+  files::write_whole_file(out, page);
   std::cout << out << '\n';
   return 0;
 }
@@ -46,25 +52,24 @@ int run(int argc, char** argv) {
       "0 done, "
       "1 there is none or the page cannot be written, 2 usage, 3 a folder is refused.");
   app.add_option("DIR", folders, "Folders that hold them, at any depth")->required();
-  app.add_option("--customer", customer, "The shop's own id; none: who was here");
-  app.add_option("--compare", pair, "Two visits by number; default: first and last")->expected(2);
-  app.add_option("--out", out, "Page.html with tables, outlines and links");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  auto* const whose = app.add_option("--customer", customer, "The shop's own id; none: who was here");
+  app.add_option("--compare", pair, "Two visits by number; default: first and last")
+      ->expected(2)
+      ->needs(whose);
+  app.add_option("--out", out, "Page.html with tables, outlines and links")->needs(whose);
+  if (const auto code = fit::parsed(app, argc, argv, std::cerr, [] {})) return *code;
   return compare(folders, customer, pair, out);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  files::owner_only();
   try {
     return run(argc, argv);
   } catch (const geometry::Refusal& refusal) {
     std::cerr << "history: " << refusal.code() << ": " << refusal.what() << '\n';
-    return 3;
+    return refusal.code() == geometry::refusal::kCannotWrite ? 1 : 3;
   } catch (const std::exception& error) {
     std::cerr << "history: " << error.what() << '\n';
     return 1;

@@ -1,4 +1,4 @@
-/// How `fit` and `correlate` read their command lines.
+/// How programs read their command lines.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <stdexcept>
 
@@ -14,10 +16,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An old result is never taken for a new one, nor a part of one for the whole.
+constexpr std::array<const char*, 2> kExportDocuments{"fit.json", "sealed.json"};
+
+/// An old result is never taken for a new one. \throw std::filesystem::filesystem_error: one cannot be
+/// removed
+void remove_old_results(const fs::path& folder, const ResultNames& names) {
+  for (const char* name : names) fs::remove(folder / name);
+}
+
+/// A part of a result is never taken for the whole.
 void remove_results(const fs::path& folder, const ResultNames& names) {
   std::error_code not_there;
   for (const char* name : names) fs::remove(folder / name, not_there);
+}
+
+/// Its files would be another customer's, its document would stay.
+bool is_export(const ProgramRun& run) {
+  std::error_code not_there;
+  return std::any_of(kExportDocuments.begin(), kExportDocuments.end(), [&](const char* name) {
+    return std::find(run.names.begin(), run.names.end(), std::string(name)) == run.names.end() &&
+           fs::exists(fs::path(run.out) / name, not_there);
+  });
 }
 
 /// The first of the inputs that the results would take the place of, or null.
@@ -36,9 +55,13 @@ int run_into_folder(const ProgramRun& run) {
     fmt::print(stderr, "--out: the results would overwrite the input {}\n", *input);
     return 2;
   }
+  if (is_export(run)) {
+    fmt::print(stderr, "--out: {} is an export: its files would be replaced\n", run.out);
+    return 2;
+  }
   try {
     fs::create_directories(run.out);
-    remove_results(run.out, run.names);
+    remove_old_results(run.out, run.names);
     run.work();
     return 0;
   } catch (const geometry::Refusal& refusal) {

@@ -18,8 +18,8 @@ namespace tensegric_fit::fit {
 using ResultNames = std::vector<const char*>;
 
 /// What a program that writes its results into a folder does, and its exit code: 0 done; 1 something cannot
-/// be written, and nothing is left; 2 an input (a path, or empty) would be overwritten; 3 the input is
-/// refused, and what `refused` writes is left alone. What is wrong goes to stderr.
+/// be written, and nothing is left; 2 an input (a path, or empty) or an export would be overwritten; 3 the
+/// input is refused, and what `refused` writes is left alone. What is wrong goes to stderr.
 struct ProgramRun {
   const char* program;
   std::string out;

@@ -1,6 +1,7 @@
 #include "landmarks/landmarks_handler.hpp"
 
 #include <boost/make_shared.hpp>
+#include <utility>
 
 #include "body_model/model_message.hpp"
 #include "body_model/recognition.hpp"
@@ -39,9 +40,22 @@ LandmarksHandler::LandmarksHandler(Parameters parameters)
   landmarks::shipped_precision();
 }
 
+std::optional<LandmarksHandler::Input> LandmarksHandler::add(const TriangleMesh::ConstPtr& mesh) {
+  alone_ = nullptr;
+  return join_.add(mesh);
+}
+
+std::optional<LandmarksHandler::Input> LandmarksHandler::add(const BodyModel::ConstPtr& model) {
+  if (std::optional<Input> joined = join_.add(model)) return joined;
+  if (!alone_ || alone_->scan_id != model->scan_id) return std::nullopt;
+  return Input{std::exchange(alone_, nullptr), model};
+}
+
 std::optional<LandmarksHandler::Input> LandmarksHandler::alone() {
   const TriangleMesh::ConstPtr mesh = join_.give_up();
-  return mesh ? std::optional<Input>(Input{mesh, nullptr}) : std::nullopt;
+  if (!mesh) return std::nullopt;
+  alone_ = mesh;
+  return Input{mesh, nullptr};
 }
 
 LandmarksHandler::Output LandmarksHandler::handle(const Input& input) const {

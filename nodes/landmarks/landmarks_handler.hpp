@@ -19,7 +19,8 @@
 namespace tensegric_fit::node {
 
 /// A mesh of a reconstruction comes with its registered model. One that comes alone, from elsewhere or from
-/// an old bag, has the model registered to it here, once it has waited for kPatience.
+/// an old bag, has the model registered to it here, once it has waited for kPatience; should its model come
+/// after all, it is measured once more.
 class LandmarksHandler {
  public:
   static constexpr double kPatience = 3;  ///< seconds; the two leave the reconstruction within milliseconds
@@ -29,9 +30,9 @@ class LandmarksHandler {
 
   /// Mesh and model of one scan; the model is null where none came.
   using Input = ScanJoin<TriangleMesh, BodyModel>::Joined;
-  std::optional<Input> add(const TriangleMesh::ConstPtr& mesh) { return join_.add(mesh); }
-  std::optional<Input> add(const BodyModel::ConstPtr& model) { return join_.add(model); }
-  /// The mesh that waits for its model, if any, without one: a model that comes after all is not waited for.
+  std::optional<Input> add(const TriangleMesh::ConstPtr& mesh);
+  std::optional<Input> add(const BodyModel::ConstPtr& model);
+  /// The mesh that waits for its model, if any, without one.
   std::optional<Input> alone();
 
   struct Output {
@@ -49,6 +50,7 @@ class LandmarksHandler {
  private:
   std::string body_frame_;
   ScanJoin<TriangleMesh, BodyModel> join_;
+  TriangleMesh::ConstPtr alone_;  // the newest mesh, where it went without its model
 };
 
 }  // namespace tensegric_fit::node

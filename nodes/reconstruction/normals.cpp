@@ -95,6 +95,12 @@ class SignedPatches {
   std::vector<double> evidence_;
 };
 
+double sum_of_products(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) sum += a[i].dot(b[i]);
+  return sum;
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3d> outward_normals(const std::vector<Eigen::Vector3d>& points,
@@ -115,11 +121,15 @@ std::vector<Eigen::Vector3d> outward_normals(const std::vector<Eigen::Vector3d>&
   std::merge(links_of_half[0].begin(), links_of_half[0].end(), links_of_half[1].begin(),
              links_of_half[1].end(), std::back_inserter(links), more_certain);
 
-  const bool hinted = !hints.empty();
-  const std::vector<Eigen::Vector3d> seen = hinted ? std::vector<Eigen::Vector3d>() : seen_from(points);
+  std::vector<Eigen::Vector3d> outwards = seen_from(points);
+  for (Eigen::Vector3d& direction : outwards) direction /= std::max(1.0, direction.norm());
+  if (const double agreement = sum_of_products(hints, outwards); agreement != 0) {
+    outwards = hints;
+    if (agreement < 0)  // made for a viewpoint within the body, say
+      for (Eigen::Vector3d& direction : outwards) direction = -direction;
+  }
   std::vector<double> evidence(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    evidence[i] = hinted ? hints[i].dot(normals[i]) : seen[i].dot(normals[i]) / std::max(1.0, seen[i].norm());
+  for (std::size_t i = 0; i < points.size(); ++i) evidence[i] = outwards[i].dot(normals[i]);
   SignedPatches patches(evidence);
   for (const Link& link : links) patches.join(link.a, link.b, normals[link.a].dot(normals[link.b]) > 0);
   for (std::size_t i = 0; i < points.size(); ++i)

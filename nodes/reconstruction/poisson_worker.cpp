@@ -3,10 +3,12 @@
 #include <fcntl.h>
 #include <pcl/point_types.h>
 #include <pcl/surface/poisson.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <new>
 
@@ -87,6 +89,7 @@ bool work() {
 }  // namespace
 
 int main() {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // who started it has the limit on its time
   bool done = false;
   try {
     done = work();

@@ -60,7 +60,7 @@ PointCloud pick(const PointCloud& cloud, const std::vector<int>& indices) {
   return result;
 }
 
-/// Without duplicates, and no denser than helps: time and memory stay bounded whatever the scanner delivers.
+/// Without duplicates, and no denser than helps: denser scans do not take longer or more memory.
 /// \throw Refusal too_few_points
 PointCloud without_surplus(PointCloud scan, const Options& options) {
   scan = merged(scan, kDuplicate);

@@ -27,8 +27,8 @@ struct Options {
   int min_points = 5000;  ///< fewer points on the body are refused
   int max_points = 10000000;        ///< more points in the scan are refused
   double support_distance = 0.010;  ///< m; a vertex farther than this from every point counts as filled
-  /// What a bust garment needs and no more: legs, hands and head come from coarse cells, figures of the lower
-  /// body are less sure.
+  /// What a bust garment needs and no more: legs, hands and head come from coarse cells. Figures of the lower
+  /// body are up to 5 mm off (crotch), and say nothing of it.
   bool bust_only = false;
 };
 

@@ -1,6 +1,7 @@
 #include "reconstruction/registration.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -117,14 +118,18 @@ void register_sensors(Points& points, const std::vector<int>& sensor_of) {
   if (sensors < 2) return;
   const Eigen::Vector3d middle = geometry::mean_of(points);
   Points moved = points;
+  std::vector<Eigen::Isometry3d> whole(sensors, Eigen::Isometry3d::Identity());
   for (int pass = 0; pass < kPasses; ++pass) {
     const std::vector<SmallMotion> motions = motions_of(moved, sensor_of, sensors, middle);
+    if (motions.empty()) return;
     std::vector<Eigen::Isometry3d> move;
-    for (const SmallMotion& motion : motions) {
-      if (!(motion.head<3>().norm() < kMost && motion.tail<3>().norm() < kMost)) return;
-      move.push_back(geometry::motion_about(middle, motion));
+    for (int s = 0; s < sensors; ++s) {
+      move.push_back(geometry::motion_about(middle, motions[s]));
+      whole[s] = move[s] * whole[s];
+      const double shift = (whole[s] * middle - middle).norm(),
+                   turn = Eigen::AngleAxisd(whole[s].linear()).angle();
+      if (!(shift < kMost && turn < kMost)) return;
     }
-    if (move.empty()) return;
     for (std::size_t i = 0; i < points.size(); ++i)
       if (sensor_of[i] >= 0) moved[i] = move[sensor_of[i]] * moved[i];
     if (pass == 0 && largest_move(points, moved, sensor_of, sensors) < kNegligible) return;

@@ -101,6 +101,10 @@ geometry::PointCloud usable_points(const geometry::PointCloud& scan, const Optio
     const bool is_unit = n.allFinite() && std::abs(n.squaredNorm() - 1) < 0.1;
     usable.normals.push_back(is_unit ? n : Eigen::Vector3d::Zero());
   }
+  if (usable.points.size() < static_cast<std::size_t>(options.min_points))
+    throw Refusal(refusal::kTooFewPoints,
+                  fmt::format("the scan has {} points within {:g} m of its middle, {} are needed",
+                              usable.points.size(), kBoothReach, options.min_points));
   return usable;
 }
 

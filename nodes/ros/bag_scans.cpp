@@ -57,7 +57,7 @@ void ScanChecker::check_stamp(const std::string& topic, const std_msgs::Header& 
     find(false, "no_frame", topic + ": scans carry no frame", "set the driver's frame_id");
   const auto before = last_.find(topic);
   if (before != last_.end() && header.stamp < before->second.stamp)
-    find(true, "stamps_backwards",
+    find(files::is_scan_topic(topic), "stamps_backwards",
          fmt::format("{}: a scan stamped {:.3f} comes after one stamped {:.3f}", topic, header.stamp.toSec(),
                      before->second.stamp.toSec()),
          "record from one clock; two recordings in one bag are split with rosbag filter");
@@ -85,7 +85,7 @@ void ScanChecker::check_points(const std::string& topic, const sensor_msgs::Poin
                        100 * found.not_finite),
            "look whether the sensors saw the customer");
   } catch (const geometry::Refusal& refusal) {
-    find(true, "bad_scan",
+    find(files::is_scan_topic(topic), "bad_scan",
          fmt::format("{}: scan {}: {}: {}", topic, found.scan_id, refusal.code(), refusal.what()),
          "look at the driver's point fields and steps");
   }

@@ -34,6 +34,13 @@ ExportDesk::ExportDesk(const ros::NodeHandle& node, ExportOptions options)
   own.setCallbackQueue(&queue_);
   services_ = {own.advertiseService("export_fit", &ExportDesk::on_export, this),
                own.advertiseService("delete_export", &ExportDesk::on_delete, this)};
+  // A name outlives its scan here: a label is kept for whom it may still be asked.
+  orders_ = ros::NodeHandle(node).subscribe<ForgetOrder>("forget/order", 4,
+                                                         [this](const ForgetOrder::ConstPtr& order) {
+                                                           const std::lock_guard<std::mutex> lock(mutex_);
+                                                           if (order->step == ForgetOrder::LET_GO)
+                                                             labels_.drop(order->scan_id);
+                                                         });
   spinner_.start();
 }
 
@@ -76,7 +83,9 @@ bool ExportDesk::on_export(ExportFit::Request& request, ExportFit::Response& res
 
 bool ExportDesk::on_delete(DeleteExport::Request& request, DeleteExport::Response& response) {
   response.deleted = answered(response, [&] {
-    response.folders = delete_exports(request.directory, request.scan_id);
+    std::vector<geometry::Refusal> left;
+    response.folders = delete_exports(request.directory, request.scan_id, left);
+    if (!left.empty()) throw left.front();
     response.message = fmt::format("deleted {} exports of scan {}", response.folders.size(), request.scan_id);
   });
   return true;

@@ -5,6 +5,7 @@
 #include <ros/ros.h>
 #include <tensegric_fit/DeleteExport.h>
 #include <tensegric_fit/ExportFit.h>
+#include <tensegric_fit/ForgetOrder.h>
 
 #include <mutex>
 
@@ -35,6 +36,7 @@ class ExportDesk {
   FittedScan fitted_;
   LineForces::ConstPtr forces_;
   ScanLabels labels_;
+  ros::Subscriber orders_;
   ros::CallbackQueue queue_;
   std::vector<ros::ServiceServer> services_;
   ros::AsyncSpinner spinner_;  // last: it uses all of the above

@@ -1,8 +1,10 @@
 #include "ros/export_folders.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -28,7 +30,11 @@ struct Mark {
 std::optional<Mark> mark_in(const fs::path& folder) {
   if (fs::symlink_status(folder).type() != fs::file_type::directory) return std::nullopt;
   for (const char* name : {kFitDocument, kSealedDocument}) {
-    const std::optional<std::string> text = files::bytes_of_plain_file(folder / name, kLargestDocument);
+    const fs::path file = folder / name;
+    const std::optional<std::string> text = files::bytes_of_plain_file(file, kLargestDocument);
+    if (!text && access(file.c_str(), R_OK) != 0 && errno == EACCES)
+      throw Refusal(geometry::refusal::kCannotWrite,
+                    fmt::format("'{}' cannot be read: whose it is is not known", file.string()));
     const std::optional<std::string> scan_id = text ? scan_id_in(*text) : std::nullopt;
     if (scan_id) return Mark{*scan_id, fs::last_write_time(folder / name)};
   }
@@ -54,37 +60,47 @@ void delete_export(const fs::path& folder) {
   files::delete_whole_folder(folder);
 }
 
-std::vector<fs::path> exports_of(const fs::path& directory, const std::string& scan_id) {
+std::vector<fs::path> exports_of(const fs::path& directory, const std::string& scan_id,
+                                 std::vector<Refusal>& left) {
   const auto is_of_scan = [&](const fs::path& folder) {
     const std::optional<Mark> mark = mark_in(folder);
     return mark && mark->scan_id == scan_id;
   };
   if (is_of_scan(directory)) return {directory};
   std::vector<fs::path> folders;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory))
-    if (is_of_scan(entry.path())) folders.push_back(entry.path());
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) try {
+      if (is_of_scan(entry.path())) folders.push_back(entry.path());
+    } catch (const Refusal& refusal) {
+      left.push_back(refusal);
+    }
   std::sort(folders.begin(), folders.end());
   return folders;
 }
 
 }  // namespace
 
-std::vector<std::string> delete_exports(const std::string& directory, const std::string& scan_id) {
+std::vector<std::string> delete_exports(const std::string& directory, const std::string& scan_id,
+                                        std::vector<Refusal>& left) {
   fs::path place = fs::path(directory).lexically_normal();
   if (!place.has_filename()) place = place.parent_path();  // a slash at the end
   if (!place.is_absolute() || scan_id.empty())
     throw Refusal(geometry::refusal::kBadOption, "which scan is to be deleted from which absolute path?");
+  left.clear();
   std::vector<std::string> gone;
   try {
-    for (const fs::path& folder : exports_of(place, scan_id)) {
-      delete_export(folder);
-      gone.push_back(folder);
+    for (const fs::path& folder : exports_of(place, scan_id, left)) {
+      try {
+        delete_export(folder);
+        gone.push_back(folder);
+      } catch (const Refusal& refusal) {
+        left.push_back(refusal);
+      }
     }
   } catch (const fs::filesystem_error& error) {
     throw Refusal(geometry::refusal::kCannotWrite,
                   fmt::format("'{}' cannot be looked at: {}", place.string(), error.code().message()));
   }
-  if (gone.empty())
+  if (gone.empty() && left.empty())
     throw Refusal(geometry::refusal::kNothingYet,
                   fmt::format("no export of scan {} in '{}'", scan_id, place.string()));
   return gone;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/status.hpp"
 #include "ros/fit_document.hpp"
 
 namespace tensegric_fit::node {
@@ -18,10 +19,12 @@ inline constexpr std::array<const char*, 18> kExportFiles = {
     "deformed.obj",  "body.stl",         "deformed.stl",
     "measures.json", "measures.vit",     "measures_worn.vit"};
 
-/// Deletes the exports of that scan: `directory` itself, or the folders in it. What is no export, or holds
-/// anything else, is left alone; links are not followed. Returns the folders that are gone. \throw Refusal
-/// bad_option: a relative path, or no scan; nothing_yet: there is no export of it; cannot_write
-std::vector<std::string> delete_exports(const std::string& directory, const std::string& scan_id);
+/// Deletes the exports of that scan: `directory` itself, or the folders in it. Links are not followed.
+/// Returns the folders that are gone; `left` is assigned why each other one is not: it holds anything else
+/// (bad_option), or could not be read or deleted (cannot_write). \throw Refusal bad_option: a relative path,
+/// or no scan; nothing_yet: there is no export of it; cannot_write: the directory cannot be looked at
+std::vector<std::string> delete_exports(const std::string& directory, const std::string& scan_id,
+                                        std::vector<geometry::Refusal>& left);
 
 /// Deletes the exports in `directory` whose document was written more than `days` ago. Returns
 /// the folders that are gone; what could not be deleted

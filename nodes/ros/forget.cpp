@@ -26,18 +26,21 @@ int said(const Forget::Response& response) {
 /// Without nodes: the exports in the folders.
 Forget::Response forget_exports(const Forget::Request& request) {
   Forget::Response response;
-  response.complete = true;
   response.message = "no booth is running: looked for exports only";
   for (const std::string& folder : request.folders) {
     try {
-      for (const std::string& gone : tensegric_fit::node::delete_exports(folder, request.scan_id))
+      std::vector<tensegric_fit::geometry::Refusal> left;
+      for (const std::string& gone : tensegric_fit::node::delete_exports(folder, request.scan_id, left))
         response.removed.push_back("export " + gone);
+      for (const auto& refusal : left) response.not_reached.emplace_back(refusal.what());
     } catch (const tensegric_fit::geometry::Refusal& refusal) {
       if (refusal.code() == tensegric_fit::geometry::refusal::kNothingYet) continue;
-      response.complete = false;
       response.not_reached.emplace_back(refusal.what());
     }
   }
+  if (request.scan_file)
+    response.not_reached.emplace_back("the file that it was played from: the scan player knows it");
+  response.complete = response.not_reached.empty();
   return response;
 }
 

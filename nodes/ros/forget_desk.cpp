@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "geometry/status.hpp"
 #include "ros/await.hpp"
@@ -19,18 +20,44 @@ using Names = std::set<std::string>;
 const ros::WallDuration kDay(86400);
 const geometry::Range kRetention{0, 36500};
 
-/// Nodes that subscribe to a topic, as the master has it.
-Names subscribers_of(const std::string& topic) {
+using NodesByTopic = std::map<std::string, Names>;
+
+/// As the master has it.
+struct Graph {
+  NodesByTopic publishers, subscribers;
+};
+
+Graph graph() {
   XmlRpc::XmlRpcValue request, response, state;
   request[0] = ros::this_node::getName();
-  Names names;
-  if (!ros::master::execute("getSystemState", request, response, state, false)) return names;
-  XmlRpc::XmlRpcValue& topics = state[1];  // publishers, subscribers, services
-  for (int t = 0; t < topics.size(); ++t) {
-    if (static_cast<std::string>(topics[t][0]) != topic) continue;
-    for (int i = 0; i < topics[t][1].size(); ++i) names.insert(topics[t][1][i]);
-  }
-  return names;
+  Graph graph;
+  if (!ros::master::execute("getSystemState", request, response, state, false)) return graph;
+  for (const auto& [part, nodes] : {std::pair{0, &graph.publishers}, {1, &graph.subscribers}})
+    for (int t = 0; t < state[part].size(); ++t)
+      for (int i = 0; i < state[part][t][1].size(); ++i)
+        (*nodes)[state[part][t][0]].insert(static_cast<std::string>(state[part][t][1][i]));
+  return graph;
+}
+
+Names subscribers_of(const std::string& topic) {
+  return graph().subscribers[topic];
+}
+
+bool is_about_no_body(const std::string& topic, const std::string& forget) {
+  return topic == "/diagnostics" || topic == "/rosout" || topic == "/tf" || topic == "/tf_static" ||
+         topic == "/clock" || topic.rfind(forget, 0) == 0;
+}
+
+/// Topics that nodes publish which let go of scans, and those that scans come on.
+Names body_topics(const Graph& graph, const Names& asked, const ros::NodeHandle& node) {
+  Names topics{node.resolveName("scan/points"), node.resolveName("worn/points")};
+  const std::string forget = node.resolveName("forget") + "/";
+  for (const auto& [topic, publishers] : graph.publishers)
+    if (!is_about_no_body(topic, forget) &&
+        std::any_of(publishers.begin(), publishers.end(),
+                    [&asked](const std::string& name) { return asked.count(name) != 0; }))
+      topics.insert(topic);
+  return topics;
 }
 
 }  // namespace
@@ -108,21 +135,17 @@ Names ForgetDesk::order(std::uint8_t step, const Forget::Request& request, Forge
   return silent;
 }
 
-void ForgetDesk::delete_exports_of(const std::string& scan_id, const std::vector<std::string>& folders,
-                                   Forget::Response& response) const {
-  for (const std::string& folder : folders) {
-    std::error_code unknown;
-    const bool is_there = std::filesystem::exists(folder, unknown);
-    if (unknown) response.not_reached.push_back(folder + ": " + unknown.message());
-    if (!is_there) continue;  // there was no export so far
-    try {
-      for (const std::string& gone : delete_exports(folder, scan_id))
-        response.removed.push_back("export " + gone);
-    } catch (const geometry::Refusal& refusal) {
-      if (refusal.code() != geometry::refusal::kNothingYet) response.not_reached.emplace_back(refusal.what());
-    } catch (const std::filesystem::filesystem_error& error) {
-      response.not_reached.push_back(folder + ": " + error.code().message());
-    }
+void ForgetDesk::delete_exports_of(const std::string& scan_id, const std::string& folder,
+                                   Forget::Response& response) {
+  try {
+    std::vector<geometry::Refusal> left;
+    for (const std::string& gone : delete_exports(folder, scan_id, left))
+      response.removed.push_back("export " + gone);
+    for (const geometry::Refusal& refusal : left) response.not_reached.emplace_back(refusal.what());
+  } catch (const geometry::Refusal& refusal) {
+    if (refusal.code() != geometry::refusal::kNothingYet) response.not_reached.emplace_back(refusal.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    response.not_reached.push_back(folder + ": " + error.code().message());
   }
 }
 
@@ -136,16 +159,20 @@ bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response)
   const Names silent = order(ForgetOrder::LET_GO, request, response);
   order(ForgetOrder::GO_ON, request, response);
   for (const std::string& node : silent) response.not_reached.push_back(node + ": did not answer");
-  std::vector<std::string> folders = options_.folders;
-  folders.insert(folders.end(), request.folders.begin(), request.folders.end());
-  delete_exports_of(request.scan_id, folders, response);
+  for (const std::string& folder : options_.folders) {
+    std::error_code unknown;
+    const bool is_there = std::filesystem::exists(folder, unknown);
+    if (unknown) response.not_reached.push_back(folder + ": " + unknown.message());
+    if (is_there) delete_exports_of(request.scan_id, folder, response);  // or there was no export so far
+  }
+  for (const std::string& folder : request.folders) delete_exports_of(request.scan_id, folder, response);
   response.complete = response.not_reached.empty();
   response.message = fmt::format("scan {}: {}{}", request.scan_id,
                                  response.removed.empty() ? "nothing of it was found" : "forgotten",
                                  response.complete ? "" : ", but not everywhere");
-  for (const char* topic : {"scan/points", "body/mesh", "body/model", "body/landmarks", "body/deformed",
-                            "control/mesh", "control/deformed", "worn/points", "worn/correlation"})
-    for (const std::string& node : subscribers_of(node_.resolveName(topic)))
+  Graph now = graph();
+  for (const std::string& topic : body_topics(now, asked, node_))
+    for (const std::string& node : now.subscribers[topic])
       if (asked.count(node) == 0)
         response.not_reached.push_back(node + ": what it keeps or shows of " + topic);
   if (!request.scan_file) response.not_reached.emplace_back("the file that it was played from, where it was");

@@ -34,8 +34,8 @@ class ForgetDesk {
   bool on_forget(Forget::Request& request, Forget::Response& response);
   /// Orders it and waits for all. Returns the nodes that did not answer in time.
   std::set<std::string> order(std::uint8_t step, const Forget::Request& request, Forget::Response& response);
-  void delete_exports_of(const std::string& scan_id, const std::vector<std::string>& folders,
-                         Forget::Response& response) const;
+  static void delete_exports_of(const std::string& scan_id, const std::string& folder,
+                                Forget::Response& response);
   void delete_old() const;
 
   ros::NodeHandle node_;

@@ -19,6 +19,8 @@ class HeldScan {
   void work(const std::string& scan_id);     ///< the work that waited is under way
   void rest();                               ///< it is over
   void publish(const std::string& scan_id);  ///< it took the place of what was published before
+  /// Of a stage that takes a second scan beside: its data have come; publish() is of the last of these, too.
+  void begin_beside(const std::string& scan_id);
   void clear();
   /// It is not worked on again, should it come again: a booth may latch it.
   void forget(const std::string& scan_id);
@@ -31,6 +33,7 @@ class HeldScan {
  private:
   mutable std::mutex mutex_;
   std::string begun_, waiting_, working_, published_;  // empty: none
+  std::string beside_, published_beside_;
   std::set<std::string> forgotten_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "ros/log_words.hpp"
 #include "ros/scan_tag.hpp"
+#include "ros/stage_report_message.hpp"
 #include "ros/status_fact.hpp"
 
 namespace tensegric_fit::node {
@@ -53,7 +54,9 @@ void Replay::keep(const std::string& topic, boost::shared_ptr<const Message> Ans
 
 void Replay::on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
   for (const diagnostic_msgs::DiagnosticStatus& status : message->status) {
-    diagnostics_[status.name.substr(status.name.rfind(' ') + 1)] = message;
+    const auto report = stage_report_in(status, node_.getNamespace());
+    if (!report) continue;  // another booth's
+    diagnostics_[report->stage] = message;
     if (!scan_id_.empty() && fact(status, "last_error_scan_id") == scan_id_) refused_ = true;
   }
 }
@@ -128,6 +131,7 @@ bool Replay::send(const sensor_msgs::PointCloud2& scan, const ros::Time& time, r
   out.write("scan/points", time, scan);
   if (got_.landmarks) wait([this] { return body_frame_ != nullptr; }, kFramePatience);
   write_answer(time, out, true);
+  went_through_ = ended && !refused_;
   ROS_INFO("replay: scan %s %s", scan_id_.c_str(),
            !ended     ? "TIMED OUT"
            : refused_ ? "refused"
@@ -142,9 +146,6 @@ void Replay::send(const ScanLabel& label, const ros::Time& time, rosbag::Bag& ou
 
 bool Replay::send(const Garment& garment, const ros::Time& time, rosbag::Bag& out) {
   if (options_.measure_only) return false;
-  const bool on_scan = got_.deformed && !refused_;
-  got_.fit = nullptr;
-  got_.deformed = nullptr;
   SetGarment call;
   call.request.garment = garment;
   if (!set_garment_.call(call) || !call.response.accepted) {
@@ -152,7 +153,10 @@ bool Replay::send(const Garment& garment, const ros::Time& time, rosbag::Bag& ou
               without_figures(call.response.message).c_str());
     return false;
   }
-  if (!on_scan) return true;
+  if (!went_through_) return true;
+  got_.fit = nullptr;  // nothing was heard since it was asked for
+  got_.deformed = nullptr;
+  refused_ = false;
   write_input(garment, time, out);
   const bool ended = wait([this] { return answered(); });
   write_answer(time, out, false);

@@ -67,6 +67,7 @@ class Replay {
   tf2_msgs::TFMessage::ConstPtr body_frame_;
   Garment::ConstPtr worn_;  // as the chain says
   bool refused_ = false;
+  bool went_through_ = false;  // the scan that is at hand: a garment is fitted to it
   std::map<std::string, diagnostic_msgs::DiagnosticArray::ConstPtr> diagnostics_;  // newest of each stage
 };
 

@@ -9,11 +9,15 @@ void ScanLabels::add(const ScanLabel& label) {
   if (!label.source.empty()) known.source = label.source;
   if (!label.customer.empty()) known.customer = label.customer;
   known.header = label.header;
-  labels_.erase(std::remove_if(labels_.begin(), labels_.end(),
-                               [&](const ScanLabel& other) { return other.scan_id == label.scan_id; }),
-                labels_.end());
+  drop(label.scan_id);
   labels_.push_back(known);
   if (labels_.size() > kKept) labels_.pop_front();
+}
+
+void ScanLabels::drop(const std::string& scan_id) {
+  labels_.erase(std::remove_if(labels_.begin(), labels_.end(),
+                               [&](const ScanLabel& label) { return label.scan_id == scan_id; }),
+                labels_.end());
 }
 
 ScanLabel ScanLabels::of(const std::string& scan_id) const {

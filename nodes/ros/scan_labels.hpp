@@ -15,6 +15,8 @@ class ScanLabels {
 
   void add(const ScanLabel& label);
 
+  void drop(const std::string& scan_id);
+
   /// What is known of it; its scan_id alone where nothing is.
   ScanLabel of(const std::string& scan_id) const;
 

@@ -144,6 +144,8 @@ void Stage::run(const Job& job) {
     state_.scan_id = job.scan_id;
     state_.level = DiagnosticStatus::OK;
     state_.working_since = start;
+    state_.milliseconds = 0;
+    state_.facts.clear();  // of another scan, or of the garment before
     report();
   }
   try {
@@ -162,6 +164,8 @@ void Stage::finish(const Job& job, const Result& result, double milliseconds) {
   if (job.passing) return;
   if (!dropped) HeldScan::of_process().publish(job.scan_id);
   std::lock_guard<std::mutex> lock(report_mutex_);
+  state_.scan_id = job.scan_id;  // something else may have been refused meanwhile
+  state_.level = DiagnosticStatus::OK;
   state_.word = dropped ? "superseded" : "done";
   state_.message = dropped ? "dropped work on scan " + job.scan_id + ": something newer came" : "done";
   if (!dropped && !result.warning.empty()) {
@@ -185,6 +189,8 @@ void Stage::fail(const std::string& scan_id, const std::string& word, const std:
   state_.message = code + ": " + message;
   state_.scan_id = scan_id;
   state_.level = DiagnosticStatus::ERROR;
+  state_.milliseconds = 0;
+  state_.facts.clear();
   state_.last_error = code;
   state_.last_error_message = message;
   state_.last_error_scan_id = scan_id;

@@ -125,18 +125,18 @@ mesh_files::Reading reading_of(const std::vector<ScanFile>& files, const mesh_fi
 void apply(const mesh_files::Reading& reading, pcl::PCLPointCloud2& cloud) {
   if (reading.is_identity()) return;
   const geometry::PointCloud read = geometry::points_of(cloud);
-  if (cloud.is_bigendian != pcl::PCLPointCloud2().is_bigendian) cloud = message_of(read);
+  const bool swapped = cloud.is_bigendian != pcl::PCLPointCloud2().is_bigendian;
   const geometry::PointFields fields = geometry::fields_of(cloud);
-  const auto write = [&cloud](const std::array<const pcl::PCLPointField*, 3>& axes, std::size_t i,
-                              const Eigen::Vector3d& value) {
+  const auto write = [&cloud, swapped](const std::array<const pcl::PCLPointField*, 3>& axes, std::size_t i,
+                                       const Eigen::Vector3d& value) {
     for (int axis = 0; axis < 3; ++axis) {
       std::uint8_t* at = cloud.data.data() + i / cloud.width * cloud.row_step +
                          i % cloud.width * cloud.point_step + axes[axis]->offset;
       const auto single = static_cast<float>(value[axis]);
-      if (axes[axis]->datatype == pcl::PCLPointField::FLOAT64)
-        std::memcpy(at, &value[axis], sizeof(double));
-      else
-        std::memcpy(at, &single, sizeof single);
+      const bool is_double = axes[axis]->datatype == pcl::PCLPointField::FLOAT64;
+      const std::size_t size = is_double ? sizeof(double) : sizeof single;
+      std::memcpy(at, is_double ? static_cast<const void*>(&value[axis]) : &single, size);
+      if (swapped) std::reverse(at, at + size);
     }
   };
   for (std::size_t i = 0; i < read.points.size(); ++i) {

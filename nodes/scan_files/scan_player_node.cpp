@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "files/checked_message.hpp"
+#include "mesh_files/read_mesh.hpp"
 #include "ros/parameters.hpp"
 #include "ros/run_node.hpp"
 #include "ros/scan_labels.hpp"
@@ -86,7 +87,7 @@ std::vector<FileScan> scans_in(const std::string& path, const std::regex& custom
   ScanLabel label;
   label.source = fs::path(path).filename();
   label.customer = scan_files::customer_in(path, customer);
-  if (fs::path(path).extension() == ".bag") return scans_in_bag(path, label);
+  if (mesh_files::ending_of(path) == ".bag") return scans_in_bag(path, label);
   scan_files::ScanFile file = scan_files::read_scan_file(path);
   scan_files::apply(scan_files::reading_of({file}, {}), file.cloud);
   const auto scan = boost::make_shared<PointCloud2>();
@@ -134,9 +135,9 @@ class ScanPlayer {
 
   /// If it restarted, it would play its files again.
   void forget(const ForgetOrder& order, ForgetAnswer& done) {
-    const auto source = sources_.find(order.scan_id);
+    const auto source = sources_.find(source_key(order.scan_id));
     if (source == sources_.end()) return;
-    if (order.scan_id == published_) {
+    if (order.scan_id == published_ || (setup_.rate > 0 && source->second == playing_)) {
       publisher_.shutdown();
       publisher_ = advertised();
       labels_.shutdown();
@@ -157,6 +158,11 @@ class ScanPlayer {
   }
 
  private:
+  /// A file that is played over and over has a stamp each time, and the same points.
+  std::string source_key(const std::string& scan_id) const {
+    return setup_.rate > 0 ? scan_id.substr(scan_id.rfind('-') + 1) : scan_id;
+  }
+
   ros::Publisher advertised() { return node_.advertise<PointCloud2>("scan/points", 1, true); }
   ros::Publisher advertised_labels() { return node_.advertise<ScanLabel>("scan/label", 4, true); }
 
@@ -232,7 +238,7 @@ class ScanPlayer {
     labels_.publish(label);
     publisher_.publish(scan);
     published_ = label.scan_id;
-    sources_[published_] = playing_;
+    sources_[source_key(published_)] = playing_;
     next_ = ros::SteadyTime::now().toSec() + (setup_.rate > 0 ? 1 / setup_.rate : setup_.interval);
     ROS_INFO("scan_player: scan %s", label.scan_id.c_str());
   }
@@ -244,7 +250,7 @@ class ScanPlayer {
   std::deque<std::string> files_;               // complete, to be read
   std::vector<FileScan> scans_;                 // of the file read last; the worker's while busy
   std::string playing_, published_;             // a path; a scan_id
-  std::map<std::string, std::string> sources_;  // scan_id -> path
+  std::map<std::string, std::string> sources_;  // source_key -> path
   std::size_t at_ = 0;                          // of the next one
   double next_ = 0;                             // when it may go, seconds of the steady clock
   std::atomic<bool> busy_{false};

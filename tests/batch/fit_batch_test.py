@@ -224,6 +224,8 @@ class FitBatch(unittest.TestCase):
             rows = list(csv.DictReader(file))
         rows[1]["girths.bust"] = str(float(rows[1]["girths.bust"]) - 0.004)
         rows[1]["status"] = "refused"
+        rows[0]["solver.status"] = "capped"
+        rows[0]["girths.hip"] = ""
         with open(other, "w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, rows[0])
             writer.writeheader()
@@ -236,9 +238,87 @@ class FitBatch(unittest.TestCase):
         self.assertIn("0.004", drifted)
         self.assertNotIn("<td>girths.waist</td>", drifted)
         self.assertIn("row 2: refused before, ok now", drifted)
+        self.assertIn("solver.status: another text in 1 scans, new in 0, gone in 0", drifted)
+        self.assertIn("girths.hip: another text in 0 scans, new in 1, gone in 0", drifted)
+        other.write_text("row,name\n1,woman\n")
+        self.assertEqual(fit_batch("merge", self.whole, "--out", out, "--against", other).returncode, 3)
+
+    def test_of_several_manifests_the_last_counts(self):
+        folder, manifest, tables = self.folder / "changed", self.folder / "changed.csv", []
+        for ratio in ("0.95", "0.93", "0.95"):
+            manifest.write_text(f"mesh,garment,ratio\nw1/body.ply,B1,{ratio}\nw2/body.ply,,\n")
+            self.assertEqual(fit_batch(manifest, "--out", folder).returncode, 0)
+            tables.append(self.merged(folder))
+        self.assertEqual(tables[0][0], 0)
+        self.assertEqual(tables[0], tables[2])
+        self.assertNotEqual(tables[0], tables[1])
+        manifest.write_text("mesh\nw2/body.ply\n")  # fewer rows
+        self.assertEqual(fit_batch(manifest, "--out", folder).returncode, 0)
+        code, table = self.merged(folder)
+        self.assertEqual((code, table.count(b"\n")), (0, 2))
+        description = json.loads((folder / "batch.json").read_text())  # a run that was ended at its first row
+        (folder / "batch.json").write_text(json.dumps({**description, "build": "another"}))
+        self.assertEqual(self.merged(folder)[0], 4)
+        other, beside = self.folder / "other_manifest.csv", self.folder / "changed_too"
+        other.write_text("mesh\nbroken.ply\n")  # as many rows
+        self.assertEqual(fit_batch(other, "--out", beside).returncode, 0)
+        done = fit_batch("merge", folder, beside, "--out", self.folder / "mixed")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("another manifest", done.stderr)
+
+    def test_a_refusal_names_its_own_file(self):
+        manifest, tables = self.folder / "two_broken.csv", []
+        for name in ("a.ply", "b.ply"):
+            (self.folder / name).write_text("no mesh")
+        manifest.write_text("mesh\na.ply\nb.ply\n")
+        for shards in (1, 2):
+            folders = [self.folder / f"refused-{n}-of-{shards}" for n in range(1, shards + 1)]
+            for n, folder in enumerate(folders, 1):
+                self.assertEqual(fit_batch(manifest, "--out", folder, "--shard", f"{n}/{shards}").returncode, 0)
+            tables.append(self.merged(*folders))
+        self.assertEqual(tables[0], tables[1])
+        self.assertIn(b"b.ply: ", tables[0][1])
+
+    def test_shards_may_share_a_folder(self):
+        manifest, folder = self.folder / "many_broken.csv", self.folder / "shared"
+        manifest.write_text("mesh\n" + "broken.ply\n" * 8)
+        processes = [self.start(manifest, "--out", folder, "--shard", f"{n}/8", "--jobs", 1) for n in range(1, 9)]
+        self.assertEqual([process.wait() for process in processes], [0] * 8)
+        self.assertEqual(self.merged(folder)[0], 0)
+
+    def test_garments_of_files_are_worn_at_once(self):
+        manifest, folder = self.folder / "joined.csv", self.folder / "joined"
+        garment = (pathlib.Path(__file__).parents[2] / "launch/garments/B1.yaml").read_text()
+        manifest.write_text("mesh,garment\nw1/body.ply,own.yaml+H3\n")
+        for ratio in ("0.95", "0.96"):  # files count by their content
+            (self.folder / "own.yaml").write_text(garment.replace("ratio: 0.95", "ratio: " + ratio))
+            self.assertEqual(fit_batch(manifest, "--out", folder).returncode, 0)
+            line = lines_of(folder)[-1]
+            self.assertEqual(line["status"], "ok", line["reason"])
+            self.assertAlmostEqual(line["result"]["lines"][0]["request"], float(ratio))
+
+    def test_no_process_outlives_its_worker(self):
+        manifest = self.folder / "scan.csv"
+        manifest.write_text("scan\nw1/scan.ply\n")
+        process = self.start(manifest, "--out", self.folder / "outlived", "--jobs", 1)
+        surface = []
+
+        def surface_is_made():
+            surface[:] = [int(n) for worker in workers_of(process.pid) for task in pathlib.Path(f"/proc/{worker}/task").glob("*/children")
+                          for n in task.read_text().split() if b"poisson" in pathlib.Path(f"/proc/{n}/cmdline").read_bytes()]
+            return surface
+        wait_until(surface_is_made)
+        time.sleep(0.05)  # it has begun
+        os.kill(surface[0], signal.SIGSTOP)
+        os.kill(workers_of(process.pid)[0], signal.SIGKILL)
+        wait_until(lambda: not pathlib.Path(f"/proc/{surface[0]}").exists(), 5)
+        self.assertEqual(process.wait(), 0)
 
     def test_bad_manifests_are_refused_by_line(self):
         cases = {
+            'name,scan\n5" Anna,a.ply\n6" Eva,b.ply\n': "line 2: has a quote within a field",
+            'scan\n"a.ply"b\n': "line 2: has text behind a field in quotes",
+            'scan\n"a.ply\n': "has a field whose quotes are not closed",
             "scan,size\nw1/scan.ply,3\n": "line 1: there is no column 'size'",
             "scan,scan\n": "line 1: column 'scan' is there twice",
             "scan,ratio\nw1/scan.ply\n": "line 2: has 1 fields, the first line 2",

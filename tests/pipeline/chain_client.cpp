@@ -92,9 +92,11 @@ void ChainClient::forget() {
 }
 
 void ChainClient::on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
-  for (const diagnostic_msgs::DiagnosticStatus& status : message->status)
+  for (const diagnostic_msgs::DiagnosticStatus& status : message->status) {
+    diagnostics[status.name]["level"] = std::to_string(status.level);
     for (const diagnostic_msgs::KeyValue& fact : status.values)
       diagnostics[status.name][fact.key] = fact.value;
+  }
 }
 
 }  // namespace tensegric_fit::tests

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/Image.h>
 #include <tensegric_fit/Correlation.h>
+#include <tensegric_fit/Forget.h>
 #include <tensegric_fit/SetGarment.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -121,6 +122,28 @@ TEST_F(CorrelationTest, AWornScanIsOfOneBodyOnly) {
   ASSERT_TRUE(wait_for([] { return !found_.empty(); }));
   found_.clear();
   ASSERT_NE(client_->fit(booth_scan("a")), "");
+  listen(2);
+  EXPECT_TRUE(found_.empty());
+}
+
+TEST_F(CorrelationTest, AWornScanThatIsForgottenIsNowhere) {
+  const std::string worn_scan_id = send_worn("a");
+  ASSERT_TRUE(wait_for([] { return !found_.empty(); })) << last_error();
+  Forget order;
+  order.request.scan_id = worn_scan_id;
+  ASSERT_TRUE(ros::service::call("forget", order));
+  std::string removed;
+  for (const std::string& line : order.response.removed) removed += line + "\n";
+  EXPECT_NE(removed.find("/correlation: "), std::string::npos) << removed;
+
+  correlation_
+      .shutdown();  // roscpp would serve a second subscriber of this process from its own latched copies
+  found_.clear();
+  const boost::function<void(const Correlation::ConstPtr&)> take = [](const Correlation::ConstPtr& message) {
+    found_.push_back(message);
+  };
+  correlation_ = ros::NodeHandle().subscribe<Correlation>("worn/correlation", 10, take);
+  ASSERT_TRUE(wait_for([] { return correlation_.getNumPublishers() != 0; }));
   listen(2);
   EXPECT_TRUE(found_.empty());
 }

@@ -105,6 +105,23 @@ TEST_F(FitProgram, NeverOverwritesAnInput) {
   EXPECT_TRUE(read_file(file("out/body.ply")) == before);
 }
 
+TEST_F(FitProgram, NeverReplacesPartsOfAnExport) {
+  for (const char* document : {"fit.json", "sealed.json"}) {
+    const std::string folder = file(std::string("export_") + document);
+    fs::create_directories(folder);
+    std::ofstream(folder + "/" + document) << "{}";
+    std::ofstream(folder + "/body.ply") << "another customer's";
+    EXPECT_EQ(run("fit --mesh " + kScans + "/a/body.ply --out " + folder), 2);
+    EXPECT_EQ(read_file(folder + "/body.ply"), "another customer's");
+  }
+}
+
+TEST_F(FitProgram, OldResultsThatCannotBeRemovedAreNotLeftBesideNewOnes) {
+  const std::string folder = file("stuck");
+  fs::create_directories(folder + "/report.json/in");
+  EXPECT_EQ(run("fit --mesh /nowhere.ply --out " + folder), 1);
+}
+
 TEST_F(FitProgram, AnInsideOutControlMeshIsRefused) {
   tensegric_fit::geometry::TriangleMesh shape{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                                               {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};

@@ -13,10 +13,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <memory>
 
 #include "fitted_chain.hpp"
+#include "geometry/status.hpp"
 #include "ros/line_force.hpp"
+#include "ros/stage.hpp"
 
 namespace tensegric_fit::tests {
 namespace {
@@ -226,6 +229,34 @@ TEST_F(PipelineTest, TheSameScanTwiceIsFittedTwice) {
   EXPECT_EQ(count_of(client_->bodies, again), 1);
   EXPECT_EQ(count_of(client_->fits, again), 1);
   EXPECT_EQ(count_of(client_->deformed, again), 1);
+}
+
+// In this process: how a stage reports, whatever it works on.
+TEST_F(PipelineTest, AStageReportsTheScanThatItWorkedOnAndNoFactsOfAnother) {
+  node::Stage stage("probe", ros::NodeHandle());
+  const std::string name = ros::this_node::getName().substr(1) + ": probe";
+  const auto says = [&](const std::string& state) {
+    return wait_for([&] { return client_->diagnostics[name]["state"] == state; });
+  };
+  std::promise<void> may_end;
+  stage.begin("one");
+  stage.post("one", [ending = may_end.get_future().share()]() -> node::Stage::Result {
+    ending.wait();
+    return {[] {}, {{"garment", "B1"}}};
+  });
+  ASSERT_TRUE(says("working"));
+  stage.refuse("", geometry::Refusal("bad_garment", "it has no lines"));
+  ASSERT_TRUE(says("refused"));
+  may_end.set_value();
+  ASSERT_TRUE(says("done"));
+  EXPECT_EQ(client_->diagnostics[name]["scan_id"], "one");
+  EXPECT_EQ(client_->diagnostics[name]["garment"], "B1");
+  EXPECT_EQ(client_->diagnostics[name]["level"], "0");
+  client_->diagnostics.erase(name);
+  stage.refuse("two", geometry::Refusal("not_a_body", "it is a chair"));
+  ASSERT_TRUE(says("refused"));
+  EXPECT_EQ(client_->diagnostics[name].count("garment"), 0u);
+  client_->diagnostics.erase(name);
 }
 
 TEST_F(PipelineTest, AForgottenScanIsNowhereAndTheNextOneIsFitted) {

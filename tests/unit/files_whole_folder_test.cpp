@@ -211,6 +211,15 @@ TEST_F(WholeFolderTest, WhatIsThereIsNotOverwritten) {
   EXPECT_EQ(std::distance(fs::directory_iterator(root_ / "filled"), {}), 1);
 }
 
+TEST_F(WholeFolderTest, WhatCannotBeTidiedUpHindersItsOwnNameAlone) {
+  fs::create_directories(root_ / ".other.unfinished" / "sub");
+  write_whole_folder(root_ / "fit", files_);
+  expect_whole(root_ / "fit");
+  EXPECT_THROW(write_whole_folder(root_ / "other", files_), geometry::Refusal);
+  delete_whole_folder(root_ / "fit");
+  EXPECT_TRUE(fs::exists(root_ / ".other.unfinished" / "sub"));
+}
+
 TEST_F(WholeFolderTest, ADeletedFolderIsGone) {
   write_whole_folder(root_ / "fit", files_);
   delete_whole_folder(root_ / "fit");

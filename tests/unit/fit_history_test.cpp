@@ -61,6 +61,13 @@ TEST_F(HistoryTest, VisitsAreFoundByCustomerTheOldestFirst) {
   EXPECT_THROW(find_visits({root_ / "nowhere"}, ""), geometry::Refusal);
 }
 
+TEST_F(HistoryTest, AVisitCountsOnceAndAnExportThatWasNeverFinishedNot) {
+  write("2026/b", "fit.json", exported("1790000000.5", "4711", 900, 5));
+  write("2026/.c.unfinished", "fit.json", exported("1790000001.5", "4711", 900, 5));
+  fs::create_directory_symlink(root_ / "2026" / "b", root_ / "link");
+  EXPECT_EQ(find_visits({root_, root_ / "2026", (root_ / "2026" / "b").string() + "/"}, "4711").size(), 1u);
+}
+
 TEST_F(HistoryTest, AChangeIsBeyondDoubtWhereItIsMoreThanTwoScansLeaveOpen) {
   write("a", "fit.json", exported("1760000000.5", "4711", 920, 5));
   write("b", "fit.json", exported("1790000000.5", "4711", 928, 6));  // 7.8 mm are open

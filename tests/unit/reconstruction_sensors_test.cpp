@@ -81,6 +81,28 @@ TEST(ReconstructionSensors, SensorsThatWereBroughtTogetherStayWhereTheyAre) {
   EXPECT_EQ(twice, once);
 }
 
+// Farther off a sensor is not worn but wrong, and what it agrees with may be other skin.
+TEST(ReconstructionSensors, NoSensorMovesByMoreThanTenMillimetres) {
+  const Capture scan = capture();
+  const Vector3d outward = Vector3d(1, 1, 0).normalized();  // of sensor 0
+  for (const double off : {0.010, 0.014, 0.018, 0.022}) {
+    std::vector<Vector3d> before = scan.points;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      if (scan.sensor[i] == 0) before[i] += off * outward;
+    std::vector<Vector3d> points = before;
+    register_sensors(points, scan.sensor);
+    std::vector<Vector3d> sum(kSquare, Vector3d::Zero());
+    std::vector<double> count(kSquare);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      sum[scan.sensor[i]] += points[i] - before[i];
+      ++count[scan.sensor[i]];
+    }
+    for (int s = 0; s < kSquare; ++s)
+      EXPECT_LT((sum[s] / count[s]).norm(), 0.0105)
+          << off;  // the mean turns by 0.01 about the middle at most
+  }
+}
+
 TEST(ReconstructionSensors, OneSensorStaysWhereItIs) {
   const Capture scan = capture();
   std::vector<Vector3d> points = scan.points;

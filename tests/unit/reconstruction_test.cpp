@@ -340,6 +340,9 @@ TEST(Reconstruction, RefusesByName) {
             "wrong_unit");
   EXPECT_EQ(refusal_of(map(booth_scan(), [](const auto&) { return Eigen::Vector3d(1, 2, 3); })),
             "not_a_body");
+  PointCloud far = figure::scan_body(6000, 0, 1);
+  for (std::size_t i = 0; i < far.points.size(); i += 3) far.points[i].x() += 5;
+  EXPECT_EQ(refusal_of(far), "too_few_points");
   PointCloud half = figure::scan_body(10000, 0, 1);
   half.normals.pop_back();
   EXPECT_EQ(refusal_of(half), "wrong_fields");

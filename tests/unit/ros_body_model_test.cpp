@@ -217,7 +217,11 @@ TEST(LandmarksHandlerTest, AModelOfAnotherScanIsNeverUsed) {
   ASSERT_TRUE(alone);
   EXPECT_EQ(std::get<0>(*alone)->scan_id, "D");
   EXPECT_FALSE(std::get<1>(*alone));
-  EXPECT_FALSE(stage.add(model_of("D")));  // too late: it is registered already
+  const auto late = stage.add(model_of("D"));  // it is measured once more, as without the delay
+  ASSERT_TRUE(late);
+  EXPECT_EQ(std::get<0>(*late)->scan_id, "D");
+  EXPECT_TRUE(std::get<1>(*late));
+  EXPECT_FALSE(stage.add(model_of("D")));
 }
 
 TEST(LandmarksHandlerTest, RegistersTheModelToAMeshThatComesAlone) {

@@ -188,6 +188,18 @@ TEST_F(CheckBagTest, ScansThatNoBodyCanBeSeenIn) {
             Names{"bad_scan"});
 }
 
+TEST_F(CheckBagTest, ACloudThatNoStageTakesHindersNothing) {
+  EXPECT_EQ(found_in([](rosbag::Bag& bag) {
+              write_scan(bag, 10, scan_at(10));
+              sensor_msgs::PointCloud2 odd = scan_at(11);
+              bag.write("/lidar", ros::Time(11), odd);
+              odd = scan_at(10.5);
+              odd.fields[2].name = "depth";
+              bag.write("/lidar", ros::Time(12), odd);
+            }),
+            (Names{"note stamps_backwards", "note bad_scan"}));
+}
+
 TEST_F(CheckBagTest, LatchedMessagesThatWentIntoAnotherPart) {
   EXPECT_EQ(found_in([](rosbag::Bag& bag) {
               write_scan(bag, 10, scan_at(10));

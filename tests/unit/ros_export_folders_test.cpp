@@ -1,5 +1,7 @@
 /// Folders of exports: encrypted, old, made to harm, deleted.
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -38,7 +40,8 @@ TEST_F(ExportFolders, AnEncryptedExportIsReadWithItsKeyAlone) {
   export_fit(scan_, root_ / "plain", kWhole);
   for (const auto& entry : fs::directory_iterator(root_ / "plain"))
     EXPECT_EQ(text_of(entry.path()), text_of(fs::path(out) / entry.path().filename())) << entry.path();
-  EXPECT_EQ(delete_exports(root_ / "exports", scan_.body->scan_id), std::vector<std::string>{folder});
+  std::vector<geometry::Refusal> left;
+  EXPECT_EQ(delete_exports(root_ / "exports", scan_.body->scan_id, left), std::vector<std::string>{folder});
 }
 
 TEST_F(ExportFolders, AnAgeThatHangsOrFailsIsRefused) {
@@ -117,8 +120,10 @@ TEST_F(ExportFolders, ExportsAreDeletedByScanAndNothingElseIs) {
   EXPECT_EQ(not_deleted("relative", id), "bad_option");
   EXPECT_EQ(not_deleted(root_, ""), "bad_option");
   EXPECT_EQ(not_deleted(root_ / "nowhere", id), "cannot_write");
-  EXPECT_EQ(delete_exports(root_.string() + "/", id),
+  std::vector<geometry::Refusal> left;
+  EXPECT_EQ(delete_exports(root_.string() + "/", id, left),
             (std::vector<std::string>{root_ / "one", root_ / "two"}));
+  EXPECT_TRUE(left.empty());
   EXPECT_EQ(not_deleted(root_, id), "nothing_yet");
   EXPECT_TRUE(fs::exists(root_ / "other" / "fit.json"));
   EXPECT_TRUE(fs::exists(root_ / "no_export" / "fit.json"));
@@ -129,6 +134,32 @@ TEST_F(ExportFolders, ExportsAreDeletedByScanAndNothingElseIs) {
   fs::remove(root_ / "other" / "precious");
   EXPECT_EQ(not_deleted(root_ / "other", "3.000000000-00000003"), "");  // the export itself
   EXPECT_FALSE(fs::exists(root_ / "other"));
+}
+
+TEST_F(ExportFolders, OneThatCannotBeDeletedDoesNotKeepTheOthers) {
+  for (const char* name : {"a", "b", "c"}) export_fit(scan_, root_ / name, kWhole);
+  std::ofstream(root_ / "b" / "note.txt") << "mine";
+  std::vector<geometry::Refusal> left;
+  EXPECT_EQ(delete_exports(root_, scan_.body->scan_id, left),
+            (std::vector<std::string>{root_ / "a", root_ / "c"}));
+  ASSERT_EQ(left.size(), 1u);
+  EXPECT_NE(std::string(left[0].what()).find("note.txt"), std::string::npos);
+  EXPECT_TRUE(fs::exists(root_ / "b" / "fit.json"));
+}
+
+// Another user's export may be hers: nobody may say that there is none.
+TEST_F(ExportFolders, OneThatCannotBeReadIsNotSaidToBeNobodys) {
+  export_fit(scan_, root_ / "one", kWhole);
+  fs::permissions(root_ / "one", fs::perms::none);
+  const pid_t child = fork();
+  if (child == 0) {  // without the rights of root
+    if (geteuid() == 0 && (chmod(root_.c_str(), 0755) != 0 || setuid(65534) != 0)) _exit(2);
+    _exit(not_deleted(root_, scan_.body->scan_id) == "cannot_write" ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  fs::permissions(root_ / "one", fs::perms::owner_all);
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 }  // namespace

@@ -26,6 +26,28 @@ std::string address_of_any() {
   return inet_ntoa(address.sin_addr);
 }
 
+/// The same of the next protocol, which roscpp takes with ROS_IPV6=on. Empty: this machine has none.
+std::string address_of_any6() {
+  const int number = socket(AF_INET6, SOCK_STREAM, 0);
+  sockaddr_in6 address{};
+  address.sin6_family = AF_INET6;
+  socklen_t length = sizeof address;
+  char text[INET6_ADDRSTRLEN] = "";
+  if (bind(number, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
+      getsockname(number, reinterpret_cast<sockaddr*>(&address), &length) == 0)
+    inet_ntop(AF_INET6, &address.sin6_addr, text, sizeof text);
+  close(number);
+  return text;
+}
+
+TEST(Loopback, HoldsForTheNextProtocol) {
+  setenv("ROS_HOSTNAME", "booth", 1);
+  if (address_of_any6().empty()) GTEST_SKIP() << "no IPv6 here";
+  EXPECT_EQ(address_of_any6(), "::");
+  setenv("ROS_HOSTNAME", "localhost", 1);
+  EXPECT_EQ(address_of_any6(), "::1");
+}
+
 TEST(Loopback, FollowsRosHostnameThenRosIp) {
   ASSERT_EQ(without_figures("1"), "#");  // the library is there
   unsetenv("ROS_HOSTNAME");

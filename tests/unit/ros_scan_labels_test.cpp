@@ -38,6 +38,17 @@ TEST(ScanLabels, LabelsOfOneScanAddUpAndTheLaterHolds) {
   EXPECT_EQ(labels.of("3").scan_id, "3");
 }
 
+TEST(ScanLabels, WhatIsDroppedIsNotKnownAndTheOthersAre) {
+  ScanLabels labels;
+  labels.add(label("1", "a.ply", "4711"));
+  labels.add(label("2", "b.ply", "0815"));
+  labels.drop("1");
+  labels.drop("3");
+  EXPECT_EQ(labels.of("1").customer, "");
+  EXPECT_EQ(labels.of("1").source, "");
+  EXPECT_EQ(labels.of("2").customer, "0815");
+}
+
 TEST(ScanLabels, OldOnesGo) {
   ScanLabels labels;
   for (std::size_t i = 0; i <= ScanLabels::kKept; ++i) labels.add(label(std::to_string(i), "", "x"));

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <set>
 
 #include "control_mesh/template.hpp"
@@ -75,6 +76,23 @@ TEST(ShippedFiles, ConfigurationsNameStages) {
       EXPECT_TRUE(stage.second.IsMap()) << file << ": " << stage.first.Scalar();
     }
   }
+}
+
+// What an earlier launch set would act in the next one under the same master, without a word.
+TEST(ShippedFiles, NodesThatTakeConfigurationsForgetThoseOfEarlierLaunches) {
+  const std::regex node("<node [^>]*name=\"([a-z_]+)\"[^>]*>");
+  int found = 0;
+  for (const char* name : {"pipeline.launch", "booth.launch", "depth_cameras.launch"}) {
+    std::ifstream file(kLaunch / name);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (std::sregex_iterator match(text.begin(), text.end(), node), end; match != end; ++match) {
+      if (kStages.count((*match)[1]) == 0) continue;
+      ++found;
+      EXPECT_NE(match->str().find("clear_params=\"true\""), std::string::npos)
+          << name << ": " << match->str();
+    }
+  }
+  EXPECT_GE(found, 6);
 }
 
 // `fit` takes the one, the nodes the other.

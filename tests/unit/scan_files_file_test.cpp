@@ -9,6 +9,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -302,6 +303,13 @@ TEST(ScanFileUnit, ChangesTheFieldsThatAreReadAndNoOther) {
   cloud.data.assign(16, 7);
   const float x = 1500;
   std::memcpy(cloud.data.data(), &x, sizeof x);
+  scan_files::apply({"mm", "z"}, cloud);
+  EXPECT_NEAR(geometry::points_of(cloud).points[0].x(), 1.5, 1e-6);
+  for (std::size_t i = 12; i < 16; ++i) EXPECT_EQ(cloud.data[i], 7) << i;
+
+  cloud.is_bigendian = cloud.is_bigendian == 0 ? 1 : 0;  // the same of a cloud in the other order of bytes
+  std::memcpy(cloud.data.data(), &x, sizeof x);
+  std::reverse(cloud.data.begin(), cloud.data.begin() + 4);
   scan_files::apply({"mm", "z"}, cloud);
   EXPECT_NEAR(geometry::points_of(cloud).points[0].x(), 1.5, 1e-6);
   for (std::size_t i = 12; i < 16; ++i) EXPECT_EQ(cloud.data[i], 7) << i;
