@@ -117,7 +117,9 @@ class Batch {
       if (errno != EINTR) files::fail(options_.out);
     const std::filesystem::path file = std::filesystem::path(options_.out) / "batch.json";
     std::ifstream before(file);
-    if (Json::parse(before, nullptr, false) != description) fit::write_json(file, description);
+    const Json known =
+        Json::parse(before, nullptr, false);  // discarded where there is none: equal to nothing
+    if (!(known == description)) fit::write_json(file, description);
   }
 
   void read_done() {

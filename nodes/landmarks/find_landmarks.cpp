@@ -121,12 +121,6 @@ class Reader {
                  const std::optional<Vector3d>& on_model, double support, double shift = 0) {
     add(Kind::point, name, on_mesh, on_model, support, is_seen(on_mesh), shift);
   }
-  /// Beside a limb: where that touches the trunk, or a web closes the gap, the mesh shows another place. On
-  /// one that was given, nobody knows what was seen.
-  void add_point_beside_limb(const std::string& name, const std::optional<Vector3d>& on_mesh,
-                             const std::optional<Vector3d>& on_model, double support) {
-    add(Kind::point, name, on_mesh, on_model, support, body_.scanned && is_seen(on_mesh));
-  }
   bool is_seen(const std::optional<Vector3d>& on_mesh) const {
     return on_mesh && unseen_share(mesh_.surface, *on_mesh, kSeen) < 0.5;
   }
@@ -303,8 +297,8 @@ class Reader {
         find_axilla(mesh_.surface, side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
     const auto on_model =
         find_axilla(skin_.surface, side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
-    add_point_beside_limb(std::string("axilla") + kSuffix[side], on_mesh, on_model,
-                          support_at(on_model ? *on_model : bone));
+    add_point(std::string("axilla") + kSuffix[side], on_mesh, on_model,
+              support_at(on_model ? *on_model : bone));
   }
 
   void upper_arm(Side side) {
@@ -363,8 +357,8 @@ class Reader {
     if (find(Kind::height, level) == nullptr) return;
     const auto on_model = find_side(skin_.trunk, side, height(level));
     if (on_model)
-      add_point_beside_limb(level + "_side" + kSuffix[side], find_side(mesh_.trunk, side, height(level)),
-                            on_model, std::max(support_at(*on_model), support_of_level(level)));
+      add_point(level + "_side" + kSuffix[side], find_side(mesh_.trunk, side, height(level)), on_model,
+                std::max(support_at(*on_model), support_of_level(level)));
   }
 
   void neck() {
