@@ -224,8 +224,8 @@ class FitBatch(unittest.TestCase):
             rows = list(csv.DictReader(file))
         rows[1]["girths.bust"] = str(float(rows[1]["girths.bust"]) - 0.004)
         rows[1]["status"] = "refused"
-        rows[0]["solver.status"] = "capped"
-        rows[0]["girths.hip"] = ""
+        rows[1]["solver.status"] = "capped"
+        rows[1]["girths.hip"] = ""
         with open(other, "w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, rows[0])
             writer.writeheader()
@@ -308,7 +308,8 @@ class FitBatch(unittest.TestCase):
                           for n in task.read_text().split() if b"poisson" in pathlib.Path(f"/proc/{n}/cmdline").read_bytes()]
             return surface
         wait_until(surface_is_made)
-        time.sleep(0.05)  # it has begun
+        wait_until(lambda: any("libpcl_surface" in line for line in open(f"/proc/{surface[0]}/maps", encoding="utf-8")))
+        time.sleep(0.2)  # loaded, and under way
         os.kill(surface[0], signal.SIGSTOP)
         os.kill(workers_of(process.pid)[0], signal.SIGKILL)
         wait_until(lambda: not pathlib.Path(f"/proc/{surface[0]}").exists(), 5)
