@@ -103,17 +103,24 @@ def scan(chain, case, right):
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end and not condition():
             time.sleep(0.1)
-    wait(lambda: chain.shop.result("left", stamp) or chain.named(stamp))
+
+    def newest():
+        return next((r for r in reversed(chain.shop.ask("results")) if r["booth"] == "left" and r["stamp"] == stamp), None)
+
+    def is_right():
+        result = newest()
+        return result is not None and result["digest"] == right[body]
+    wait(lambda: newest() or chain.named(stamp))
+    if not is_right():  # a message that is late may bring the right one
+        wait(lambda: is_right() or chain.named(stamp))
     seconds = round(time.monotonic() - begin, 2)
-    result = chain.shop.result("left", stamp)
-    is_right = result is not None and result["digest"] == right[body]
-    if not is_right:
-        wait(lambda: chain.named(stamp))
+    if not is_right():
         time.sleep(dice.uniform(0, SETTLED))
+    result = newest()
     mixed = [r for r in chain.shop.ask("results") if r["digest"] in right and r["digest"] != right[chain.shop.bodies[r["booth"], r["stamp"]]]]
     named = chain.named(stamp)
-    return {"case": case, "body": body, "result": "right" if is_right else "none" if result is None else "another", "named": named, "seconds": seconds,
-            "mixed": len(mixed), "fine": not mixed and (is_right or bool(named)),
+    return {"case": case, "body": body, "result": "right" if is_right() else "none" if result is None else "another", "named": named, "seconds": seconds,
+            "mixed": len(mixed), "fine": not mixed and (is_right() or bool(named)),
             "events": [f"{event['what']} {event['way']}" for event in chain.events if event.get("stamp") == stamp]}
 
 

@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
 #include <thread>
 
+#include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
 #include "geometry/surface_tree.hpp"
 #include "measured_body.hpp"
@@ -150,6 +152,43 @@ TEST(Reconstruction, SolesLieOnTheFloor) {
   const auto box = geometry::bounding_box(her().body.mesh.vertices);
   EXPECT_NEAR(box[0].z(), 0, 0.001);  // the floor's level is known to noise / sqrt(points)
   EXPECT_NEAR(box[1].z(), woman().truth.height("stature"), 0.003);
+}
+
+/// On a round plate of that height, which stands on the floor; what it hides of that is not seen.
+PointCloud on_plate(double height) {
+  constexpr double kRadius = 0.22, kSpacing = 0.003;
+  PointCloud scan;
+  std::vector<Eigen::Vector3d> low;  // of her, from above
+  for (const Eigen::Vector3d& p : booth_scan().points) {
+    if (p.z() < 0.005) {
+      if (p.head<2>().norm() > kRadius) scan.points.push_back(p);
+      continue;
+    }
+    scan.points.emplace_back(p + height * Eigen::Vector3d::UnitZ());
+    if (p.z() < 0.06) low.emplace_back(p.x(), p.y(), 0);
+  }
+  const geometry::PointTree feet(low);
+  for (double x = -kRadius; x < kRadius; x += kSpacing)
+    for (double y = -kRadius; y < kRadius; y += kSpacing)
+      if (std::hypot(x, y) < kRadius &&
+          !feet.any_within({x, y, 0}, 0.012, [](int) { return true; }))  // beneath them it is not seen
+        scan.points.emplace_back(x, y, height + kNoise * std::sin(1e4 * x + 7e3 * y));
+  for (double turn = 0; turn < 2 * M_PI; turn += kSpacing / kRadius)
+    for (double z = kSpacing; z < height; z += kSpacing)
+      scan.points.emplace_back(kRadius * std::cos(turn), kRadius * std::sin(turn), z);
+  return scan;
+}
+
+TEST(Reconstruction, OnAPlateSheIsNoTaller) {
+  for (const double height : {0.025, 0.045}) {
+    const reconstruction::Reconstruction result = test::reconstructed(on_plate(height), quick());
+    expect_sound(result.body, kTriangles);
+    EXPECT_NEAR(result.model.ground, height, 0.002);
+    EXPECT_EQ(result.model.ground_deviation, 0);
+    const auto box = geometry::bounding_box(result.body.mesh.vertices);
+    EXPECT_NEAR(box[0].z(), height, 0.002);
+    EXPECT_NEAR(box[1].z() - box[0].z(), woman().truth.height("stature"), 0.004);  // ISO 20685
+  }
 }
 
 TEST(Reconstruction, WithoutAFloorTheSolesLieBelowTheLowestPoints) {
