@@ -187,7 +187,7 @@ body_model::Samples samples_of(const PointCloud& cloud) {
   const PointCloud means = merged(cloud, kSampleCube);
   body_model::Samples samples;
   for (std::size_t i = 0; i < means.points.size(); ++i) {
-    if (means.normals[i].squaredNorm() < 0.5) continue;  // two sheets that face each other
+    if (means.normals[i].squaredNorm() < 0.5) continue;  // no normal is known
     samples.points.push_back(means.points[i]);
     samples.normals.push_back(means.normals[i]);
   }
