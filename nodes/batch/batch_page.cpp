@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "files/html.hpp"
 #include "geometry/percentile.hpp"
@@ -145,12 +146,15 @@ std::string worst(const Table& table, const std::map<std::size_t, std::string>& 
 }
 
 std::string drift(const Comparison& comparison) {
+  std::set<std::string> figures;
+  for (const Drift& one : comparison.drifts) figures.insert(one.figure);
+  for (const auto& other : comparison.others) figures.insert(other.first);
   std::string text = fmt::format(
       "<h2>Against the other table</h2>\n<p>{} scans in common, {} with another status, {} figures "
       "differ.</p>\n"
       "<div class=wide><table><tr><th>figure<th>scans<th>mean of new - "
       "old<th>deviation<th>largest<th>row</tr>\n",
-      comparison.common, comparison.changes.size(), comparison.drifts.size() + comparison.others.size());
+      comparison.common, comparison.changes.size(), figures.size());
   for (const Drift& one : comparison.drifts)
     text += "<tr><td>" + html_escaped(one.figure) + "</td>" + number(static_cast<double>(one.count)) +
             number(one.mean) + number(one.deviation) + number(one.largest) +

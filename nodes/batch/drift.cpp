@@ -74,11 +74,12 @@ Comparison compare(const Table& table, const std::string& file) {
     if (const std::string status = line["status"], old = then["status"]; status != old)
       result.changes.push_back({row, old, status});
     for (const char* name : kNoFigures) then.erase(name);
+    if (then.empty() || !line.contains("result")) continue;  // of one that was refused all figures are gone
     for (const Figure& figure : figures_of(line.value("result", Json::object()))) {
-      const auto cell = then.extract(figure.first);
       const auto* now = std::get_if<double>(&figure.second);
       const auto* text = std::get_if<std::string>(&figure.second);
       if (text != nullptr && text->empty()) continue;  // as a cell that is empty
+      const auto cell = then.extract(figure.first);
       if (cell.empty()) {
         ++result.others[figure.first].gained;
         continue;

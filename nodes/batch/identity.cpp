@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <sstream>
 #include <vector>
 
 #include "geometry/shipped_files.hpp"
@@ -96,16 +97,17 @@ const std::string& build_identity() {
 }
 
 std::string manifest_identity(const std::vector<Job>& jobs, const std::string& file) {
-  const std::string folder = fs::absolute(file).parent_path().lexically_normal().string() + "/";
+  const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
   Digest digest;
   for (const Job& job : jobs) {
     digest.text(job.name);
     for (const auto& [name, values] : job.options) {
       digest.text(name);
-      for (std::string value : values) {
-        for (std::size_t at = value.find(folder); at != std::string::npos; at = value.find(folder))
-          value.erase(at, folder.size());
-        digest.text(value);
+      for (const std::string& value : values) {
+        std::istringstream parts(value);  // of a garment
+        for (std::string part; std::getline(parts, part, '+');)
+          digest.text(fs::path(part).is_absolute() ? fs::path(part).lexically_relative(folder).string()
+                                                   : part);
       }
     }
   }

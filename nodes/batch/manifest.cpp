@@ -81,9 +81,11 @@ class Reader {
   }
 
   bool read_row(std::istream& stream, std::vector<std::string>& fields) {
+    const std::size_t first = line_;
     try {
       return files::read_csv_row(stream, fields, line_);
     } catch (const files::CsvFault& wrong) {
+      line_ = first;
       throw fault_here(wrong.what());
     }
   }

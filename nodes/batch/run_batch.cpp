@@ -132,7 +132,7 @@ class Batch {
         return;
       }
       rows_[row] = {key, line.value("manifest", "")};
-      if (!key.empty()) done_[key] = {line.at("status"), place, row};
+      if (!key.empty()) done_[key] = {line.at("status"), place};
     });
   }
 
@@ -146,14 +146,18 @@ class Batch {
       progress.add("refused", false);
       return;
     }
-    // The row itself from before, or the same scan and settings in another row; but a refusal names its file.
-    if (const auto found = done_.find(identity.key);
-        found != done_.end() && (found->second.status != "refused" || found->second.row == job.row)) {
-      if (lacks_line(job, identity.key)) {
-        Json line = file_.line_at(found->second.place);
-        line.erase("cost");  // it took nothing
-        file_.add(with_head(job, identity, line));
-      }
+    const auto found = done_.find(identity.key);
+    if (found != done_.end() && rows_[job.row] == LastLine{identity.key, manifest_}) {
+      progress.add(found->second.status, false);
+      return;
+    }
+    // The row itself from another manifest, or the same scan and settings in another row. A refusal names its
+    // file, and is found again.
+    if (found != done_.end() && found->second.status != "refused") {
+      lacks_line(job, identity.key);
+      Json line = file_.line_at(found->second.place);
+      line.erase("cost");  // it took nothing
+      file_.add(with_head(job, identity, line));
       progress.add(found->second.status, false);
       return;
     }
@@ -175,8 +179,7 @@ class Batch {
     }
     const std::string status = finished.line.at("status");
     lacks_line(*work.job, work.identity.key);
-    done_[work.identity.key] = {status, file_.add(with_head(*work.job, work.identity, finished.line)),
-                                work.job->row};
+    done_[work.identity.key] = {status, file_.add(with_head(*work.job, work.identity, finished.line))};
     progress.add(status, true);
     for (const Job* job : work.also) begin(*job, progress);
   }
@@ -215,7 +218,7 @@ class Batch {
   WorkerPool pool_;
   struct Done {
     std::string status;
-    std::size_t place, row;
+    std::size_t place;
   };
   std::unordered_map<std::string, Done> done_;           // by key
   using LastLine = std::pair<std::string, std::string>;  // key, manifest

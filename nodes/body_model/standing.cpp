@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "body_model/recognition.hpp"
 #include "geometry/checked_yaml.hpp"
@@ -78,6 +79,12 @@ Vector3d upright(const RegisteredBody& body, const Standing& standing) {
 Ground ground_without_feet(const RegisteredBody& body, const Standing& standing) {
   return {body.vertical.dot(stance_of(body).soles) - standing.soles * std::exp(body.parameters.log_scale),
           standing.without_feet};
+}
+
+double lowest_of_soles(const RegisteredBody& body) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vector3d& p : soles_of(body)) lowest = std::min(lowest, body.vertical.dot(p));
+  return lowest;
 }
 
 Ground ground_under(const RegisteredBody& body, const std::vector<Vector3d>& points,

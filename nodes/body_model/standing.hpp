@@ -37,6 +37,9 @@ struct Ground {
 /// By the model's soles alone: where it has feet that are not there.
 Ground ground_without_feet(const RegisteredBody& body, const Standing& standing);
 
+/// Of the model's soles, along body.vertical, m.
+double lowest_of_soles(const RegisteredBody& body);
+
 /// From the model's soles and from the lowest points of a scan alike, as each is off on its own.
 Ground ground_under(const RegisteredBody& body, const std::vector<Eigen::Vector3d>& points,
                     const Standing& standing);

@@ -7,7 +7,7 @@ bool read_csv_row(std::istream& stream, std::vector<std::string>& fields, std::s
   if (stream.tellg() == std::streampos(0) && stream.peek() == 0xEF) stream.ignore(3);
   if (stream.peek() == std::istream::traits_type::eof()) return false;
   fields.emplace_back();
-  bool quoted = false, closed = false;  // in quotes; behind a field that was
+  bool quoted = false, closed = false;  // in quotes; after a field in quotes
   for (int c = stream.get(); c != std::istream::traits_type::eof(); c = stream.get()) {
     if (c == '"' && quoted && stream.peek() == '"') {
       fields.back() += static_cast<char>(stream.get());
@@ -27,7 +27,7 @@ bool read_csv_row(std::istream& stream, std::vector<std::string>& fields, std::s
     } else if (c == '\n') {
       return true;
     } else if (c != '\r') {
-      if (closed) throw CsvFault("has text behind a field in quotes");
+      if (closed) throw CsvFault("has text after a field in quotes");
       fields.back() += static_cast<char>(c);
     }
   }

@@ -22,7 +22,7 @@ struct CsvFault : std::runtime_error {
 };
 
 /// The next row's fields; `line` grows by the line ends that lie in quotes. False: there is none. A byte
-/// order mark is skipped. \throw CsvFault: a quote within a field, text behind a quoted one, a quote left
+/// order mark is skipped. \throw CsvFault: a quote within a field, text after one in quotes, a quote left
 /// open
 bool read_csv_row(std::istream& stream, std::vector<std::string>& fields, std::size_t& line);
 

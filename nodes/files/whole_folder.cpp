@@ -58,7 +58,8 @@ class LockedParent {
           entry.symlink_status().type() == fs::file_type::directory)
         try {
           remove_folder(directory_, entry.path());
-        } catch (const fs::filesystem_error&) {  // another user's, or not ours: it hinders its own name alone
+        } catch (const fs::filesystem_error&) {  // another user's, or not ours: only a folder of its name
+                                                 // cannot be written
         }
     }
   }

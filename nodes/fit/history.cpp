@@ -144,16 +144,20 @@ std::vector<Visit> find_visits(const std::vector<std::string>& folders, const st
       throw geometry::Refusal(geometry::refusal::kBrokenFile, folder + ": there is no such folder");
     look(folder);
     constexpr auto kSkip = fs::directory_options::skip_permission_denied;
-    std::error_code gone;  // a folder that is deleted meanwhile
-    for (fs::recursive_directory_iterator entry(folder, kSkip, gone), end; entry != end && !gone;
-         entry.increment(gone)) {
-      std::error_code unknown;
-      if (!entry->is_directory(unknown)) continue;
-      if (entry->path().filename().string().front() == '.')
-        entry.disable_recursion_pending();  // an export that was never finished, or is being deleted
-      else
-        look(entry->path());
-    }
+    std::error_code failed;
+    do {  // again where a folder was deleted meanwhile, which ends the walk
+      failed.clear();
+      for (fs::recursive_directory_iterator entry(folder, kSkip, failed), end; entry != end && !failed;
+           entry.increment(failed)) {
+        std::error_code unknown;
+        if (!entry->is_directory(unknown)) continue;
+        if (entry->path().extension() == ".unfinished")  // an export, never finished or being deleted
+          entry.disable_recursion_pending();
+        else
+          look(entry->path());
+      }
+    } while (failed == std::errc::no_such_file_or_directory && fs::is_directory(folder));
+    if (failed) throw fs::filesystem_error("cannot be looked through", folder, failed);
   }
   std::sort(visits.begin(), visits.end(), [](const Visit& a, const Visit& b) {
     return a.time != b.time ? a.time < b.time : a.folder < b.folder;

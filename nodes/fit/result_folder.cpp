@@ -30,7 +30,7 @@ void remove_results(const fs::path& folder, const ResultNames& names) {
   for (const char* name : names) fs::remove(folder / name, not_there);
 }
 
-/// Its files would be another customer's, its document would stay.
+/// What is read from it is its document's, and a folder with other files is not deleted as an export.
 bool is_export(const ProgramRun& run) {
   std::error_code not_there;
   return std::any_of(kExportDocuments.begin(), kExportDocuments.end(), [&](const char* name) {
@@ -56,7 +56,7 @@ int run_into_folder(const ProgramRun& run) {
     return 2;
   }
   if (is_export(run)) {
-    fmt::print(stderr, "--out: {} is an export: its files would be replaced\n", run.out);
+    fmt::print(stderr, "--out: {} is an export, which takes no other files\n", run.out);
     return 2;
   }
   try {

@@ -28,15 +28,17 @@ void PipelineWatch::hear(const StageReport& report, double now) {
   }
   const bool new_words = before == stages_.end() || before->second.report.state != report.state ||
                          before->second.report.message != report.message;
+  const bool starts =
+      report.state == "working" && (new_words || before->second.report.scan_id != report.scan_id);
   const bool new_scan = before != stages_.end() && before->second.report.scan_id != report.scan_id;
   const double said_at = new_words ? now : before->second.said_at;
   if (report.stage == kStages.front() && new_scan) scan_at_ = now;
   // A stage that has come back does not know what it worked on before.
-  if (report.stage == kStages.front() && !report.scan_id.empty() && report.scan_id != newest_) {
+  if (report.stage == kStages.front() && !report.scan_id.empty() && (starts || report.scan_id != newest_)) {
     newest_ = report.scan_id;
     refused_.clear();
   }
-  if (is_of_booth(report.stage) && !report.scan_id.empty() && new_words)
+  if (is_of_booth(report.stage) && !report.scan_id.empty() && (new_words || new_scan))
     refused_ = report.refused() ? report.scan_id : "";
   stages_[report.stage] = {report, now, said_at};
 }

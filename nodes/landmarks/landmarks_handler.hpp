@@ -19,8 +19,8 @@
 namespace tensegric_fit::node {
 
 /// A mesh of a reconstruction comes with its registered model. One that comes alone, from elsewhere or from
-/// an old bag, has the model registered to it here, once it has waited for kPatience; should its model come
-/// after all, it is measured once more.
+/// an old bag, has the model registered to it here, once it has waited for kPatience; if its model comes
+/// later, it is measured once more.
 class LandmarksHandler {
  public:
   static constexpr double kPatience = 3;  ///< seconds; the two leave the reconstruction within milliseconds

@@ -101,10 +101,23 @@ double sum_of_products(const std::vector<Eigen::Vector3d>& a, const std::vector<
   return sum;
 }
 
+/// Directions out of the body, whatever was given.
+std::vector<Eigen::Vector3d> outward_hints(const std::vector<Eigen::Vector3d>& points,
+                                           const std::vector<Eigen::Vector3d>& hints) {
+  std::vector<Eigen::Vector3d> seen = seen_from(points);
+  for (Eigen::Vector3d& direction : seen) direction /= std::max(1.0, direction.norm());
+  const double agreement = sum_of_products(hints, seen);
+  if (agreement == 0) return seen;
+  std::vector<Eigen::Vector3d> outwards = hints;
+  if (agreement < 0)  // made for a viewpoint within the body, say
+    for (Eigen::Vector3d& direction : outwards) direction = -direction;
+  return outwards;
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3d> outward_normals(const std::vector<Eigen::Vector3d>& points,
-                                             const std::vector<Eigen::Vector3d>& hints) {
+                                             const std::vector<Eigen::Vector3d>& hints, bool outward) {
   const geometry::PointTree tree(points);
   std::vector<Eigen::Vector3d> normals(points.size());
   std::array<std::vector<Link>, 2> links_of_half;
@@ -121,13 +134,7 @@ std::vector<Eigen::Vector3d> outward_normals(const std::vector<Eigen::Vector3d>&
   std::merge(links_of_half[0].begin(), links_of_half[0].end(), links_of_half[1].begin(),
              links_of_half[1].end(), std::back_inserter(links), more_certain);
 
-  std::vector<Eigen::Vector3d> outwards = seen_from(points);
-  for (Eigen::Vector3d& direction : outwards) direction /= std::max(1.0, direction.norm());
-  if (const double agreement = sum_of_products(hints, outwards); agreement != 0) {
-    outwards = hints;
-    if (agreement < 0)  // made for a viewpoint within the body, say
-      for (Eigen::Vector3d& direction : outwards) direction = -direction;
-  }
+  const std::vector<Eigen::Vector3d> outwards = outward ? hints : outward_hints(points, hints);
   std::vector<double> evidence(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) evidence[i] = outwards[i].dot(normals[i]);
   SignedPatches patches(evidence);

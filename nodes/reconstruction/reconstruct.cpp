@@ -54,6 +54,7 @@ constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher
 // them (9 training women), and no plate that carries a person is thinner.
 constexpr double kPlate = 0.015;
 constexpr std::size_t kFewestOfPlate = 100;  // points that show its top
+constexpr double kBesideFeet = 0.02;         // m from skin: no part of a foot or shoe
 
 // What lies so far over a floor is not the floor: four deviations of its points, and m at least and at most.
 constexpr double kFloorNoises = 4, kLeastCut = 0.004, kMostCut = 0.008;
@@ -208,7 +209,7 @@ bool take_limbs(Person& person, const RegisteredBody& model) {
     person.cloud.points.push_back(person.left_out.points[i]);
     person.cloud.normals.push_back(skin_normals[skin.nearest(person.left_out.points[i])]);
   }
-  person.cloud.normals = outward_normals(person.cloud.points, person.cloud.normals);
+  person.cloud.normals = outward_normals(person.cloud.points, person.cloud.normals, true);
   person.left_out = pick(person.left_out, all_but(limbs, person.left_out.points.size()));
   return true;
 }
@@ -224,15 +225,18 @@ RegisteredBody registered(Person& person, const Anatomy& anatomy) {
   return model;
 }
 
-/// The plate that she stands on, if its top is seen: how high, and how much of what lies over it is its own.
+/// The plate that she stands on, if its top is seen round her feet: how high, and how much of what lies over
+/// it is its own.
 struct Plate {
   double top, cut;  // m
 };
-std::optional<Plate> find_plate(const PointCloud& cloud, double soles) {
+std::optional<Plate> find_plate(const PointCloud& cloud, const RegisteredBody& model, double soles) {
   constexpr double kLevel = 0.95;  // of a normal's z: 18 degrees
+  const geometry::PointTree skin(model.skin);
   std::vector<double> heights;
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
-    if (std::abs(cloud.points[i].z() - soles) < kPlate && cloud.normals[i].z() > kLevel)
+    if (std::abs(cloud.points[i].z() - soles) < kPlate && cloud.normals[i].z() > kLevel &&
+        !skin.any_within(cloud.points[i], kBesideFeet, [](int) { return true; }))
       heights.push_back(cloud.points[i].z());
   if (heights.size() < kFewestOfPlate) return std::nullopt;
   const double top = geometry::median(heights);
@@ -241,17 +245,16 @@ std::optional<Plate> find_plate(const PointCloud& cloud, double soles) {
 }
 
 /// Where she stands on a plate on the floor, or on a turntable: the ground is its top, and its points are not
-/// hers.
+/// hers. Heels, or a foot that is lifted, leave the floor her ground.
 void leave_plate(Person& person, RegisteredBody& model, const body_model::Standing& standing) {
-  const body_model::Ground soles = body_model::ground_without_feet(model, standing);
-  if (body_model::lacks_feet(model) || soles.height < kPlate) return;
-  const std::optional<Plate> plate = find_plate(person.cloud, soles.height);
-  model.ground = plate ? plate->top : soles.height;
-  model.ground_deviation = plate ? 0 : soles.deviation;
-  const double cut = model.ground + (plate ? plate->cut : kMostCut);
+  const double soles = body_model::ground_without_feet(model, standing).height;
+  if (soles < kPlate || body_model::lowest_of_soles(model) < kPlate || body_model::lacks_feet(model)) return;
+  const std::optional<Plate> plate = find_plate(person.cloud, model, soles);
+  if (!plate) return;
+  model.ground = plate->top;
   std::vector<int> above;
   for (std::size_t i = 0; i < person.cloud.points.size(); ++i)
-    if (person.cloud.points[i].z() > cut) above.push_back(static_cast<int>(i));
+    if (person.cloud.points[i].z() > plate->top + plate->cut) above.push_back(static_cast<int>(i));
   person.cloud = pick(person.cloud, above);
   const Eigen::Isometry3d down(Eigen::Translation3d(0, 0, -model.ground));
   geometry::move(person.cloud, down);

@@ -48,9 +48,10 @@ bool is_about_no_body(const std::string& topic, const std::string& forget) {
          topic == "/clock" || topic.rfind(forget, 0) == 0;
 }
 
-/// Topics that nodes publish which let go of scans, and those that scans come on.
+/// Topics that nodes publish which let go of scans, and those that scans and labels come on.
 Names body_topics(const Graph& graph, const Names& asked, const ros::NodeHandle& node) {
-  Names topics{node.resolveName("scan/points"), node.resolveName("worn/points")};
+  Names topics{node.resolveName("scan/points"), node.resolveName("scan/label"),
+               node.resolveName("worn/points")};
   const std::string forget = node.resolveName("forget") + "/";
   for (const auto& [topic, publishers] : graph.publishers)
     if (!is_about_no_body(topic, forget) &&
@@ -155,7 +156,8 @@ bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response)
     response.message = "which scan is to be forgotten?";
     return true;
   }
-  const Names asked = subscribers_of(node_.resolveName("forget/order"));
+  Graph before = graph();  // nodes that let go publish nothing for a moment
+  const Names asked = before.subscribers[node_.resolveName("forget/order")];
   const Names silent = order(ForgetOrder::LET_GO, request, response);
   order(ForgetOrder::GO_ON, request, response);
   for (const std::string& node : silent) response.not_reached.push_back(node + ": did not answer");
@@ -171,10 +173,13 @@ bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response)
                                  response.removed.empty() ? "nothing of it was found" : "forgotten",
                                  response.complete ? "" : ", but not everywhere");
   Graph now = graph();
-  for (const std::string& topic : body_topics(now, asked, node_))
-    for (const std::string& node : now.subscribers[topic])
+  for (const std::string& topic : body_topics(before, asked, node_)) {
+    Names listeners = before.subscribers[topic];
+    listeners.insert(now.subscribers[topic].begin(), now.subscribers[topic].end());
+    for (const std::string& node : listeners)
       if (asked.count(node) == 0)
         response.not_reached.push_back(node + ": what it keeps or shows of " + topic);
+  }
   if (!request.scan_file) response.not_reached.emplace_back("the file that it was played from, where it was");
   response.not_reached.emplace_back(
       "bags, copies of exports, results of fit, other machines, backups, swap, blocks of the disk that are "

@@ -31,18 +31,17 @@ void HeldScan::rest() {
 void HeldScan::publish(const std::string& scan_id) {
   const std::lock_guard<std::mutex> lock(mutex_);
   published_ = scan_id;
-  published_beside_ = beside_;
 }
 
 void HeldScan::begin_beside(const std::string& scan_id) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  beside_ = scan_id;
+  beside_.insert(scan_id);
 }
 
 void HeldScan::clear() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (std::string* scan_id : {&begun_, &waiting_, &working_, &published_, &beside_, &published_beside_})
-    scan_id->clear();
+  for (std::string* scan_id : {&begun_, &waiting_, &working_, &published_}) scan_id->clear();
+  beside_.clear();
 }
 
 void HeldScan::forget(const std::string& scan_id) {
@@ -57,9 +56,8 @@ bool HeldScan::is_forgotten(const std::string& scan_id) const {
 
 bool HeldScan::holds(const std::string& scan_id) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (const std::string* held : {&begun_, &waiting_, &working_, &published_, &beside_, &published_beside_})
-    if (*held == scan_id) return true;
-  return false;
+  return begun_ == scan_id || waiting_ == scan_id || working_ == scan_id || published_ == scan_id ||
+         beside_.count(scan_id) != 0;
 }
 
 bool HeldScan::works_on_other(const std::string& scan_id) const {

@@ -19,7 +19,8 @@ class HeldScan {
   void work(const std::string& scan_id);     ///< the work that waited is under way
   void rest();                               ///< it is over
   void publish(const std::string& scan_id);  ///< it took the place of what was published before
-  /// Of a stage that takes a second scan beside: its data have come; publish() is of the last of these, too.
+  /// The same of a second scan that a stage compares with the first. It is held from then on: what is
+  /// published may name any of those that came.
   void begin_beside(const std::string& scan_id);
   void clear();
   /// It is not worked on again, should it come again: a booth may latch it.
@@ -33,8 +34,7 @@ class HeldScan {
  private:
   mutable std::mutex mutex_;
   std::string begun_, waiting_, working_, published_;  // empty: none
-  std::string beside_, published_beside_;
-  std::set<std::string> forgotten_;
+  std::set<std::string> beside_, forgotten_;
 };
 
 }  // namespace tensegric_fit::node

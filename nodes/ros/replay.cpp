@@ -57,7 +57,11 @@ void Replay::on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& me
     const auto report = stage_report_in(status, node_.getNamespace());
     if (!report) continue;  // another booth's
     diagnostics_[report->stage] = message;
-    if (!scan_id_.empty() && fact(status, "last_error_scan_id") == scan_id_) refused_ = true;
+    if (scan_id_.empty()) continue;
+    // The last error stays with a stage: of a garment after others it says nothing.
+    if ((report->refused() && report->scan_id == scan_id_) ||
+        (!went_through_ && fact(status, "last_error_scan_id") == scan_id_))
+      refused_ = true;
   }
 }
 
@@ -124,7 +128,7 @@ bool Replay::send(const sensor_msgs::PointCloud2& scan, const ros::Time& time, r
   scan_stamp_ = scan.header.stamp;
   body_frame_ = nullptr;
   got_ = Answer();
-  refused_ = false;
+  refused_ = went_through_ = false;
   scans_.publish(scan);
   const bool ended = wait([this] { return answered(); });
   if (worn_) write_input(*worn_, time, out);
@@ -154,7 +158,8 @@ bool Replay::send(const Garment& garment, const ros::Time& time, rosbag::Bag& ou
     return false;
   }
   if (!went_through_) return true;
-  got_.fit = nullptr;  // nothing was heard since it was asked for
+  ros::spinOnce();  // what was said of the garment before
+  got_.fit = nullptr;
   got_.deformed = nullptr;
   refused_ = false;
   write_input(garment, time, out);

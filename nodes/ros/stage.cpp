@@ -164,7 +164,8 @@ void Stage::finish(const Job& job, const Result& result, double milliseconds) {
   if (job.passing) return;
   if (!dropped) HeldScan::of_process().publish(job.scan_id);
   std::lock_guard<std::mutex> lock(report_mutex_);
-  state_.scan_id = job.scan_id;  // something else may have been refused meanwhile
+  const State before = state_;  // another scan may have been refused meanwhile
+  state_.scan_id = job.scan_id;
   state_.level = DiagnosticStatus::OK;
   state_.word = dropped ? "superseded" : "done";
   state_.message = dropped ? "dropped work on scan " + job.scan_id + ": something newer came" : "done";
@@ -177,7 +178,11 @@ void Stage::finish(const Job& job, const Result& result, double milliseconds) {
   state_.milliseconds = milliseconds;
   state_.facts = result.facts;
   report();
-  ROS_INFO("%s: scan %s %s in %.1f ms", name_.c_str(), job.scan_id.c_str(), state_.word.c_str(),
+  if (before.word == "refused" && !before.scan_id.empty() && before.scan_id != job.scan_id) {
+    state_ = before;  // it came last, and is shown until the next
+    report();
+  }
+  ROS_INFO("%s: scan %s %s in %.1f ms", name_.c_str(), job.scan_id.c_str(), dropped ? "superseded" : "done",
            milliseconds);
 }
 

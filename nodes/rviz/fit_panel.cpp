@@ -169,6 +169,10 @@ void FitPanel::take_garment(const Garment& garment) {
 void FitPanel::remember(const Garment& garment) {
   const auto [known, is_new] = known_.emplace(garment.name, garment);
   if (is_new) return;
+  if (garment.lines.size() >= known->second.lines.size()) {
+    known->second = garment;
+    return;
+  }
   std::vector<GarmentLine> lines = known->second.lines;
   for (const GarmentLine& line : garment.lines) {
     const auto same = std::find_if(lines.begin(), lines.end(),
@@ -201,6 +205,7 @@ void FitPanel::follow_pipeline() {
 
 void FitPanel::take_fit(const FitState& fit) {
   if (fit.status == FitState::SOLVING) {
+    if (!body_.empty() && fit.scan_id != body_.scan_id()) return;
     show_words(fit_, words::solving(static_cast<int>(fit.iteration)));
     const std::vector<AskedLine> worn = session_.now().worn();
     for (std::size_t i = 0; i < std::min(worn.size(), fit.line_ratios.size()); ++i)
@@ -229,6 +234,7 @@ void FitPanel::forget_outcome() {
   session_.forget_lengths();
   for (LineRow* row : rows_) row->forget_outcome();
   for (QLabel* label : {fit_, folds_, volumes_, tightness_}) show_words(label, "");
+  build_regions();
   show_lines();
 }
 
@@ -332,6 +338,7 @@ void FitPanel::take_body(const TriangleMesh& body) {
       customer_->setModified(false);  // what is typed is of the body that was shown
       customer_->clearFocus();
       table_->setRowCount(0);
+      forget_outcome();
     }
     show_whose();
     show_outcome();

@@ -201,7 +201,7 @@ def messages_that_are_no_good(shop):
         time.sleep(1)
         assert shop.rviz.poll() is None, "rviz has ended"
     fits = rospy.Publisher("control/deformed", FitState, queue_size=9)
-    wait_for("rviz and this as subscribers", lambda: fits.get_num_connections() >= 2)
+    wait_for("rviz, the chain and this as subscribers", lambda: fits.get_num_connections() >= 3)
     fit = shop.message["control/deformed"]
     for course in ([0.1] * 5, [float("nan")] * 6):
         bad = copy.deepcopy(fit)

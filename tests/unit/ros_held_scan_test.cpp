@@ -40,21 +40,18 @@ TEST_F(HeldScanTest, AScanIsHeldWhileItIsWorkedOnThoughANewerOneHasCome) {
   EXPECT_TRUE(held_.holds("c"));
 }
 
-TEST_F(HeldScanTest, ASecondScanBesideIsHeldWhileItIsThereOrPublished) {
+TEST_F(HeldScanTest, SecondScansAreHeldUntilANewStart) {
   do_work("a");
   held_.begin_beside("worn");
   EXPECT_TRUE(held_.holds("worn"));
   held_.work("a");
-  held_.publish("a");
   held_.begin_beside("worn too");
+  held_.publish("a");
   held_.rest();
   EXPECT_TRUE(held_.holds("worn")) << "its result is latched";
   EXPECT_TRUE(held_.holds("worn too"));
-  held_.work("a");
-  held_.publish("a");
-  held_.rest();
-  EXPECT_FALSE(held_.holds("worn"));
   held_.clear();
+  EXPECT_FALSE(held_.holds("worn"));
   EXPECT_FALSE(held_.holds("worn too"));
 }
 
