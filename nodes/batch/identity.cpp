@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <sstream>
 #include <vector>
 
 #include "geometry/shipped_files.hpp"
@@ -103,12 +102,8 @@ std::string manifest_identity(const std::vector<Job>& jobs, const std::string& f
     digest.text(job.name);
     for (const auto& [name, values] : job.options) {
       digest.text(name);
-      for (const std::string& value : values) {
-        std::istringstream parts(value);  // of a garment
-        for (std::string part; std::getline(parts, part, '+');)
-          digest.text(fs::path(part).is_absolute() ? fs::path(part).lexically_relative(folder).string()
-                                                   : part);
-      }
+      for (const std::string& part : name == "garment" ? garment_parts(values.at(0)) : values)
+        digest.text(fs::path(part).is_absolute() ? fs::path(part).lexically_relative(folder).string() : part);
     }
   }
   return digest.hex(kManifestDigits);

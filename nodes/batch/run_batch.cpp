@@ -142,7 +142,7 @@ class Batch {
       identity = identity_of(job, build_identity());
     } catch (const geometry::Refusal& refusal) {  // without a key: the file may be there the next time
       const Json reason{{"code", refusal.code()}, {"message", refusal.what()}};
-      if (lacks_line(job, "")) file_.add(with_head(job, {}, {{"status", "refused"}, {"reason", reason}}));
+      if (note_line(job, "")) file_.add(with_head(job, {}, {{"status", "refused"}, {"reason", reason}}));
       progress.add("refused", false);
       return;
     }
@@ -154,7 +154,7 @@ class Batch {
     // The row itself from another manifest, or the same scan and settings in another row. A refusal names its
     // file, and is found again.
     if (found != done_.end() && found->second.status != "refused") {
-      lacks_line(job, identity.key);
+      note_line(job, identity.key);
       Json line = file_.line_at(found->second.place);
       line.erase("cost");  // it took nothing
       file_.add(with_head(job, identity, line));
@@ -178,15 +178,14 @@ class Batch {
       return;
     }
     const std::string status = finished.line.at("status");
-    lacks_line(*work.job, work.identity.key);
+    note_line(*work.job, work.identity.key);
     done_[work.identity.key] = {status, file_.add(with_head(*work.job, work.identity, finished.line))};
     progress.add(status, true);
     for (const Job* job : work.also) begin(*job, progress);
   }
 
-  /// Whether the row's last line is of another key or manifest: the merge takes the last one. From now on it
-  /// is of these.
-  bool lacks_line(const Job& job, const std::string& key) {
+  /// The row's last line, which the merge takes, is of this key and manifest from now on. Whether it was not.
+  bool note_line(const Job& job, const std::string& key) {
     const LastLine last{key, manifest_};
     return std::exchange(rows_[job.row], last) != last;
   }

@@ -144,7 +144,9 @@ std::vector<Visit> find_visits(const std::vector<std::string>& folders, const st
       throw geometry::Refusal(geometry::refusal::kBrokenFile, folder + ": there is no such folder");
     look(folder);
     constexpr auto kSkip = fs::directory_options::skip_permission_denied;
+    constexpr int kMostWalks = 10;
     std::error_code failed;
+    int walks = 0;
     do {  // again where a folder was deleted meanwhile, which ends the walk
       failed.clear();
       for (fs::recursive_directory_iterator entry(folder, kSkip, failed), end; entry != end && !failed;
@@ -156,7 +158,7 @@ std::vector<Visit> find_visits(const std::vector<std::string>& folders, const st
         else
           look(entry->path());
       }
-    } while (failed == std::errc::no_such_file_or_directory && fs::is_directory(folder));
+    } while (failed == std::errc::no_such_file_or_directory && ++walks < kMostWalks);
     if (failed) throw fs::filesystem_error("cannot be looked through", folder, failed);
   }
   std::sort(visits.begin(), visits.end(), [](const Visit& a, const Visit& b) {

@@ -29,7 +29,8 @@ void PipelineWatch::hear(const StageReport& report, double now) {
   const bool new_words = before == stages_.end() || before->second.report.state != report.state ||
                          before->second.report.message != report.message;
   const bool starts =
-      report.state == "working" && (new_words || before->second.report.scan_id != report.scan_id);
+      report.state == "working" && (before == stages_.end() || before->second.report.state != "working" ||
+                                    before->second.report.scan_id != report.scan_id);
   const bool new_scan = before != stages_.end() && before->second.report.scan_id != report.scan_id;
   const double said_at = new_words ? now : before->second.said_at;
   if (report.stage == kStages.front() && new_scan) scan_at_ = now;

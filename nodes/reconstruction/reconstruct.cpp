@@ -54,7 +54,7 @@ constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher
 // them (9 training women), and no plate that carries a person is thinner.
 constexpr double kPlate = 0.015;
 constexpr std::size_t kFewestOfPlate = 100;  // points that show its top
-constexpr double kBesideFeet = 0.02;         // m from skin: no part of a foot or shoe
+constexpr double kBesideFeet = 0.02;         // m; what is farther from her skin is no foot or shoe
 
 // What lies so far over a floor is not the floor: four deviations of its points, and m at least and at most.
 constexpr double kFloorNoises = 4, kLeastCut = 0.004, kMostCut = 0.008;
@@ -248,7 +248,8 @@ std::optional<Plate> find_plate(const PointCloud& cloud, const RegisteredBody& m
 /// hers. Heels, or a foot that is lifted, leave the floor her ground.
 void leave_plate(Person& person, RegisteredBody& model, const body_model::Standing& standing) {
   const double soles = body_model::ground_without_feet(model, standing).height;
-  if (soles < kPlate || body_model::lowest_of_soles(model) < kPlate || body_model::lacks_feet(model)) return;
+  if (soles < kPlate || body_model::lowest_of_soles(model) < kPlate / 2 || body_model::lacks_feet(model))
+    return;
   const std::optional<Plate> plate = find_plate(person.cloud, model, soles);
   if (!plate) return;
   model.ground = plate->top;

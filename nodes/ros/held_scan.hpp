@@ -19,8 +19,8 @@ class HeldScan {
   void work(const std::string& scan_id);     ///< the work that waited is under way
   void rest();                               ///< it is over
   void publish(const std::string& scan_id);  ///< it took the place of what was published before
-  /// The same of a second scan that a stage compares with the first. It is held from then on: what is
-  /// published may name any of those that came.
+  /// The data of a second scan have come, which a stage compares with the first. It is held from then on:
+  /// what is published may name any of those that came.
   void begin_beside(const std::string& scan_id);
   void clear();
   /// It is not worked on again, should it come again: a booth may latch it.

@@ -150,6 +150,10 @@ void Replay::send(const ScanLabel& label, const ros::Time& time, rosbag::Bag& ou
 
 bool Replay::send(const Garment& garment, const ros::Time& time, rosbag::Bag& out) {
   if (options_.measure_only) return false;
+  ros::spinOnce();  // what was said of the garment before
+  got_.fit = nullptr;
+  got_.deformed = nullptr;
+  refused_ = false;
   SetGarment call;
   call.request.garment = garment;
   if (!set_garment_.call(call) || !call.response.accepted) {
@@ -158,10 +162,6 @@ bool Replay::send(const Garment& garment, const ros::Time& time, rosbag::Bag& ou
     return false;
   }
   if (!went_through_) return true;
-  ros::spinOnce();  // what was said of the garment before
-  got_.fit = nullptr;
-  got_.deformed = nullptr;
-  refused_ = false;
   write_input(garment, time, out);
   const bool ended = wait([this] { return answered(); });
   write_answer(time, out, false);

@@ -180,7 +180,7 @@ PointCloud on_plate(double height) {
 }
 
 TEST(Reconstruction, OnAPlateSheIsNoTaller) {
-  for (const double height : {0.025, 0.045}) {
+  for (const double height : {0.018, 0.025, 0.045}) {
     const reconstruction::Reconstruction result = test::reconstructed(on_plate(height), quick());
     expect_sound(result.body, kTriangles);
     EXPECT_NEAR(result.model.ground, height, 0.002);
