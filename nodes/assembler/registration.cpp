@@ -51,24 +51,17 @@ struct Pair {
   std::vector<int> points;
 };
 
-// By median: a few stray points far away would move a mean.
-Vector3d centre_of(const std::vector<PointCloud>& columns) {
-  Vector3d centre = Vector3d::Zero();
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> values;
-    for (const PointCloud& column : columns)
-      for (const Vector3d& p : column.points) values.push_back(p[axis]);
-    if (!values.empty()) centre[axis] = geometry::median(std::move(values));
-  }
-  return centre;
-}
-
 class Columns {
  public:
   explicit Columns(const std::vector<PointCloud>& columns)
-      : columns_(columns), motion_(columns.size(), Isometry3d::Identity()), centre_(centre_of(columns)) {
-    for (const PointCloud& column : columns)
+      : columns_(columns), motion_(columns.size(), Isometry3d::Identity()), centre_(Vector3d::Zero()) {
+    std::size_t count = 0;
+    for (const PointCloud& column : columns) {
       trees_.push_back(column.points.empty() ? nullptr : std::make_unique<PointTree>(column.points));
+      for (const Vector3d& p : column.points) centre_ += p;
+      count += column.points.size();
+    }
+    centre_ /= static_cast<double>(std::max<std::size_t>(count, 1));
     find_pairs();
   }
 

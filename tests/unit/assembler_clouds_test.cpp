@@ -149,30 +149,6 @@ TEST(AssemblerTest, WhatMovedBetweenTwoColumnsDoesNotPull) {
   EXPECT_LT(disagreement(booth, assembly.registration->corrections), 0.3 * before(booth));
 }
 
-TEST(RegistrationTest, AFewPointsFarAwayDoNotMoveTheCentreThatColumnsTurnAbout) {
-  const Booth& booth = off_by(0.002);
-  std::vector<geometry::PointCloud> columns;
-  AssemblerOptions as_it_is;
-  as_it_is.refine = false;
-  const geometry::PointCloud cloud = assemble(booth.capture, booth.booth_from_sensor, as_it_is).cloud;
-  columns.resize(4);
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    geometry::PointCloud& column = columns[cloud.sensor[i] / 3];
-    column.points.push_back(cloud.points[i]);
-    column.normals.push_back(cloud.normals[i]);
-  }
-  const auto plain = assembler::register_columns(columns, {});
-  for (int i = 0; i < 150; ++i) {  // 1 % of the first one's
-    columns[0].points.emplace_back(1e4 + 0.001 * i, 0, 1);
-    columns[0].normals.emplace_back(-1, 0, 0);
-  }
-  const auto strays = assembler::register_columns(columns, {});
-  ASSERT_EQ(plain.status, RegistrationStatus::refined);
-  ASSERT_EQ(strays.status, RegistrationStatus::refined);
-  // A tenth of the noise; about a centre 25 m away it was another motion.
-  EXPECT_NEAR(disagreement(booth, strays.corrections), disagreement(booth, plain.corrections), 0.00008);
-}
-
 TEST(AssemblerTest, ColumnsThatFitAreLeftAlone) {
   const Booth& booth = off_by(0);
   const Assembly assembly = assemble(booth.capture, booth.booth_from_sensor, by_column());
