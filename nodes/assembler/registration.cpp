@@ -165,7 +165,7 @@ class Columns {
   static double spread_of(const std::vector<Match>& found) {
     std::vector<double> sizes;
     for (const Match& match : found) sizes.push_back(std::abs(match.residual));
-    return std::max(kLeastSpread, 1.4826 * geometry::median(sizes));  // of a normal distribution
+    return std::max(kLeastSpread, geometry::robust_deviation(sizes));
   }
 
   SmallMotion twist(const Isometry3d& motion) const {

@@ -102,7 +102,7 @@ std::string manifest_identity(const std::vector<Job>& jobs, const std::string& f
     digest.text(job.name);
     for (const auto& [name, values] : job.options) {
       digest.text(name);
-      for (const std::string& part : name == "garment" ? garment_parts(values.at(0)) : values)
+      for (const std::string& part : name == "garment" ? geometry::joined_words(values.at(0)) : values)
         digest.text(fs::path(part).is_absolute() ? fs::path(part).lexically_relative(folder).string() : part);
     }
   }
@@ -113,7 +113,7 @@ Identity identity_of(const Job& job, const std::string& build) {
   Digest digest;
   for (const auto& [name, values] : job.options) {
     digest.text(name);
-    for (const std::string& value : name == "garment" ? garment_parts(values.at(0)) : values) {
+    for (const std::string& value : name == "garment" ? geometry::joined_words(values.at(0)) : values) {
       // A file counts by its content, wherever it lies.
       std::error_code error;
       if (name == "scan" || name == "mesh" || name == "tissue" ||

@@ -11,6 +11,7 @@
 
 #include "files/csv.hpp"
 #include "fit/command_line.hpp"
+#include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::batch {
@@ -180,7 +181,7 @@ class Reader {
     std::error_code error;
     if (fs::is_regular_file(folder_ / word, error)) return path_of(word);
     std::string all;
-    for (const std::string& part : garment_parts(word)) {
+    for (const std::string& part : geometry::joined_words(word)) {
       const bool file = part.find('/') != std::string::npos || fs::path(part).extension() == ".yaml";
       all += (all.empty() ? "" : "+") + (file ? path_of(part) : part);
     }
@@ -226,16 +227,6 @@ std::vector<std::string> Job::arguments() const {
 
 std::vector<Job> read_manifest(const std::string& file) {
   return Reader(file)();
-}
-
-std::vector<std::string> garment_parts(const std::string& garment) {
-  std::error_code error;
-  if (fs::is_regular_file(garment, error)) return {garment};
-  std::vector<std::string> parts;
-  std::istringstream stream(garment);
-  for (std::string part; std::getline(stream, part, '+');) parts.push_back(part);
-  if (garment.empty() || garment.back() == '+') parts.emplace_back();  // that `fit` refuses it
-  return parts;
 }
 
 }  // namespace tensegric_fit::batch

@@ -24,8 +24,4 @@ struct Job {
 /// \throw Refusal broken_file, naming file and line: not readable, unknown columns, values that `fit` refuses
 std::vector<Job> read_manifest(const std::string& file);
 
-/// Garments that are worn at once, as `fit` takes them: names and files joined by '+'; a file whose own path
-/// has one is one.
-std::vector<std::string> garment_parts(const std::string& garment);
-
 }  // namespace tensegric_fit::batch

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace tensegric_fit::geometry {
@@ -20,6 +21,12 @@ Value median(std::vector<Value> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// The standard deviation of a Gaussian whose distances from its middle have this median: 1 / its 0.75
+/// quantile (Rousseeuw and Croux 1993). \pre not empty
+inline double robust_deviation(std::vector<double> distances) {
+  return 1.4826 * median(std::move(distances));
 }
 
 }  // namespace tensegric_fit::geometry

@@ -49,4 +49,16 @@ std::string yaml_file(const std::string& folder, const std::string& word, const 
   return file.string();
 }
 
+std::vector<std::string> joined_words(const std::string& words) {
+  std::error_code unreadable;
+  if (fs::is_regular_file(words, unreadable)) return {words};
+  std::vector<std::string> parts;
+  for (std::size_t start = 0; start <= words.size();) {
+    const std::size_t end = std::min(words.find('+', start), words.size());
+    parts.push_back(words.substr(start, end - start));
+    start = end + 1;
+  }
+  return parts;
+}
+
 }  // namespace tensegric_fit::geometry

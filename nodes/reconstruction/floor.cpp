@@ -16,6 +16,8 @@ constexpr double kColumn = 0.03;       // m, side of a column
 constexpr double kThickness = 0.008;   // m, half: noise and misregistration of a floor
 constexpr double kSmallestArea = 0.1;  // m^2; less could be the underside of something that was scanned
 constexpr int kTrials = 400;
+// Tolerances: deviations of a floor's points that reach over it (1 in 30,000 does farther), and m.
+constexpr double kDeviations = 4, kLeastReach = 0.004, kMostReach = 0.008;
 const double kLeastUp = std::cos(20 * M_PI / 180);
 
 /// The lowest point of every column that holds points, in column order.
@@ -96,6 +98,10 @@ void refine(const Points& points, Floor& floor) {
 }
 
 }  // namespace
+
+double reach_of_floor(double noise) {
+  return std::clamp(kDeviations * noise, kLeastReach, kMostReach);
+}
 
 std::optional<Floor> find_floor(const Points& points) {
   const Points lowest = lowest_of_columns(points);

@@ -8,10 +8,8 @@
 #include <memory>
 #include <optional>
 
-#include "body_model/recognition.hpp"
 #include "geometry/decimate.hpp"
 #include "geometry/moved_cloud.hpp"
-#include "geometry/percentile.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
 #include "reconstruction/body_points.hpp"
@@ -21,6 +19,7 @@
 #include "reconstruction/left_out.hpp"
 #include "reconstruction/mending.hpp"
 #include "reconstruction/normals.hpp"
+#include "reconstruction/plate.hpp"
 #include "reconstruction/poisson.hpp"
 #include "reconstruction/registration.hpp"
 #include "reconstruction/repair.hpp"
@@ -50,16 +49,6 @@ constexpr double kLowestBust = 0.53, kHighestBust = 0.88;  // of the height: fro
 // nipples are smaller than the others' edges are long.
 constexpr double kBeltShare = 0.15, kBeltLow = 0.66, kBeltHigh = 0.78;
 constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher stands on something else
-// m; soles of the model that are higher stand on a plate. On floors that were seen they are within 4 mm of
-// them (9 training women), and no plate that carries a person is thinner.
-constexpr double kPlate = 0.015;
-constexpr std::size_t kFewestOfPlate = 100;  // points that show its top
-constexpr double kBesideFeet = 0.02;         // m; what is farther from her skin is no foot or shoe
-
-// What lies so far over a floor is not the floor: four deviations of its points, and m at least and at most.
-constexpr double kFloorNoises = 4, kLeastCut = 0.004, kMostCut = 0.008;
-constexpr double kDeviations = 1.4826;  // a Gaussian's deviation / median distance from the middle
-
 constexpr double kSampleCube = 0.007;  // m: 30,000 samples of a person
 
 PointCloud pick(const PointCloud& cloud, const std::vector<int>& indices) {
@@ -70,6 +59,13 @@ PointCloud pick(const PointCloud& cloud, const std::vector<int>& indices) {
     if (!cloud.sensor.empty()) result.sensor.push_back(cloud.sensor[i]);
   }
   return result;
+}
+
+PointCloud above(const PointCloud& cloud, double height) {
+  std::vector<int> indices;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    if (cloud.points[i].z() > height) indices.push_back(static_cast<int>(i));
+  return pick(cloud, indices);
 }
 
 /// Without duplicates, and no denser than helps: denser scans do not take longer or more memory.
@@ -121,11 +117,7 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
                     : level(Eigen::Vector3d::UnitZ(), middle.z(), middle);
   geometry::move(scan, from_scan);
   if (floor) {
-    const double cut = std::clamp(kFloorNoises * floor->noise, kLeastCut, kMostCut);
-    std::vector<int> above;
-    for (std::size_t i = 0; i < scan.points.size(); ++i)
-      if (scan.points[i].z() > cut) above.push_back(static_cast<int>(i));
-    scan = pick(scan, above);
+    scan = above(scan, reach_of_floor(floor->noise));
   }
   const std::vector<int> hers = body_points(scan.points);
   PointCloud body = pick(scan, hers);
@@ -225,38 +217,13 @@ RegisteredBody registered(Person& person, const Anatomy& anatomy) {
   return model;
 }
 
-/// The plate that she stands on, if its top is seen round her feet: how high, and how much of what lies over
-/// it is its own.
-struct Plate {
-  double top, cut;  // m
-};
-std::optional<Plate> find_plate(const PointCloud& cloud, const RegisteredBody& model, double soles) {
-  constexpr double kLevel = 0.95;  // of a normal's z: 18 degrees
-  const geometry::PointTree skin(model.skin);
-  std::vector<double> heights;
-  for (std::size_t i = 0; i < cloud.points.size(); ++i)
-    if (std::abs(cloud.points[i].z() - soles) < kPlate && cloud.normals[i].z() > kLevel &&
-        !skin.any_within(cloud.points[i], kBesideFeet, [](int) { return true; }))
-      heights.push_back(cloud.points[i].z());
-  if (heights.size() < kFewestOfPlate) return std::nullopt;
-  const double top = geometry::median(heights);
-  for (double& height : heights) height = std::abs(height - top);
-  return Plate{top, std::clamp(kFloorNoises * kDeviations * geometry::median(heights), kLeastCut, kMostCut)};
-}
-
 /// Where she stands on a plate on the floor, or on a turntable: the ground is its top, and its points are not
 /// hers. Heels, or a foot that is lifted, leave the floor her ground.
 void leave_plate(Person& person, RegisteredBody& model, const body_model::Standing& standing) {
-  const double soles = body_model::ground_without_feet(model, standing).height;
-  if (soles < kPlate || body_model::lowest_of_soles(model) < kPlate / 2 || body_model::lacks_feet(model))
-    return;
-  const std::optional<Plate> plate = find_plate(person.cloud, model, soles);
+  const std::optional<Plate> plate = find_plate(person.cloud, model, standing);
   if (!plate) return;
   model.ground = plate->top;
-  std::vector<int> above;
-  for (std::size_t i = 0; i < person.cloud.points.size(); ++i)
-    if (person.cloud.points[i].z() > plate->top + plate->cut) above.push_back(static_cast<int>(i));
-  person.cloud = pick(person.cloud, above);
+  person.cloud = above(person.cloud, plate->top + reach_of_floor(plate->noise));
   const Eigen::Isometry3d down(Eigen::Translation3d(0, 0, -model.ground));
   geometry::move(person.cloud, down);
   model = moved(model, down);

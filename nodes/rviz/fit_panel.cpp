@@ -4,15 +4,10 @@
 #include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "geometry/fit_warning.hpp"
-#include "geometry/moved_skin.hpp"
 #include "geometry/status.hpp"
 #include "inspect/panel_words.hpp"
-#include "inspect/pointing.hpp"
-#include "inspect/pressure_words.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/flat.hpp"
-#include "ros/line_force.hpp"
 #include "ros/log_words.hpp"
 #include "ros/stage_report_message.hpp"
 #include "rviz/qt_text.hpp"
@@ -34,24 +29,6 @@ std::vector<AskedLine> lines_in(const Garment& garment) {
   std::vector<AskedLine> lines;
   for (const GarmentLine& line : garment.lines) lines.push_back({line.name, line.ratio, ""});
   return lines;
-}
-
-// The region in which the middle of a line lies.
-std::string region_of(const LineResult& line, const ControlMesh& control) {
-  if (line.nodes.empty()) return "";
-  const std::uint32_t node = line.nodes[line.nodes.size() / 2];
-  for (const ControlRegion& region : control.regions)
-    for (const std::uint32_t t : region.triangles)
-      for (int corner = 0; corner < 3; ++corner)
-        if (3 * t + corner < control.triangles.size() && control.triangles[3 * t + corner] == node)
-          return region.name;
-  return "";
-}
-
-// Labels have a fixed height: what does not fit is there on hover.
-void show_words(QLabel* label, const std::string& words) {
-  label->setText(text(words));
-  label->setToolTip(text(words));
 }
 
 }  // namespace
@@ -229,57 +206,6 @@ void FitPanel::take_fit(const FitState& fit) {
   new_girths_ = true;  // and the view, once the body is there
 }
 
-// Figures are of the body that is shown, or there are none.
-void FitPanel::forget_outcome() {
-  session_.forget_lengths();
-  for (LineRow* row : rows_) row->forget_outcome();
-  for (QLabel* label : {fit_, folds_, volumes_, tightness_}) show_words(label, "");
-  build_regions();
-  show_lines();
-}
-
-void FitPanel::show_outcome() {
-  if (!fitted_) return;
-  const FitState& fit = *fitted_;
-  if (!body_.empty() && fit.scan_id != body_.scan_id()) return forget_outcome();
-  const std::string ended = words::fit_ended(fit.garment, fit.status, fit.note, fit.milliseconds);
-  fit_->setText(text(words::without_details(ended)));
-  fit_->setToolTip(text(ended));
-  std::map<std::string, std::string> regions;
-  std::vector<std::string> messages;
-  for (std::size_t i = 0; i < fit.lines.size(); ++i) {
-    const LineResult& line = fit.lines[i];
-    if (fit.garment == session_.now().garment) session_.set_length(line.name, line.initial);
-    if (fit.scan_id == control_.scan_id) regions[line.name] = region_of(line, control_);
-    const words::LineOutcome outcome{line.request, line.ratio, line.tension, line.reachable,
-                                     fit.status == FitState::INFEASIBLE};
-    std::string warning = words::line_warning(outcome);
-    if (!warning.empty()) messages.push_back("'" + line.name + "': " + warning);
-    if (warning.empty()) warning = lack_of(line);
-    const auto force = node::force_of(forces_, fit, i);
-    const std::string pressed = force ? words::pressure_warning(force->kilopascals) : "";
-    if (!pressed.empty()) messages.push_back("'" + line.name + "': " + pressed);
-    if (warning.empty()) warning = pressed;
-    for (LineRow* row : rows_)
-      if (row->line() == line.name) {
-        row->set_outcome(line.ratio, warning);
-        if (force)
-          row->set_force(words::pull(force->newtons), words::pressure(force->kilopascals),
-                         words::pull_help(force->newtons, force->kilopascals));
-        else
-          row->set_force("", "", "");
-      }
-  }
-  session_.place(regions);
-  show_warnings(messages);
-  QStringList volumes;
-  for (const RegionResult& region : fit.regions)
-    volumes << text(words::volume(region.name, region.volume_before, region.volume_after));
-  volumes_->setText(volumes.join(" \u00b7 "));
-  build_regions();
-  show_lines();
-}
-
 void FitPanel::take_forces(const LineForces& forces) {
   forces_ = forces;
   show_outcome();
@@ -301,32 +227,6 @@ void FitPanel::show_whose() {
   customer_->setPlaceholderText(text(label.source));
   customer_->setToolTip(text(words::customer_help(label.source)));
   if (!customer_->isModified()) customer_->setText(text(label.customer));
-}
-
-void FitPanel::show_warnings(std::vector<std::string> messages) {
-  const FitWarnings none;
-  const FitWarnings& known = warnings_.scan_id == fitted_->scan_id ? warnings_ : none;
-  for (const FitWarning& warning : known.warnings) messages.push_back(warning.message);
-  const auto is_said = [messages](const std::string& line) {  // of the line, by its figures
-    return std::any_of(messages.begin(), messages.end(),
-                       [&](const std::string& message) { return message.rfind("'" + line + "': ", 0) == 0; });
-  };
-  for (const FitWarning& notice : known.notices)
-    if (notice.code == geometry::notice::kOverStretched ||
-        notice.code == geometry::notice::kPressedTogether ||
-        (notice.code == geometry::notice::kUnderConstricted && !is_said(notice.line)))
-      messages.push_back(notice.message);
-  const std::string words = words::warnings(messages);
-  if (!words.empty() && folds_->toolTip() != text(words))
-    ROS_WARN("fit panel: %s", node::without_figures(words).c_str());
-  show_words(folds_, words);
-}
-
-std::string FitPanel::lack_of(const LineResult& line) const {
-  if (!fitted_ || warnings_.scan_id != fitted_->scan_id || warnings_.garment != fitted_->garment) return "";
-  for (const FitWarning& notice : warnings_.notices)
-    if (notice.code == geometry::notice::kUnderConstricted && notice.line == line.name) return notice.message;
-  return "";
 }
 
 void FitPanel::take_body(const TriangleMesh& body) {
@@ -387,36 +287,6 @@ void FitPanel::show_lines() {
   undo_->setEnabled(session_.can_undo());
   redo_->setEnabled(session_.can_redo());
   linked_->setEnabled(session_.has_pairs());
-}
-
-void FitPanel::show_girths() {
-  if (!new_girths_ || body_.empty() || measured_scan_ != body_.scan_id()) return;
-  new_girths_ = false;
-  follow_view();
-  const std::vector<Eigen::Vector3d> worn = body_.vertices(1);
-  table_->show_measures(measures_, {body_.mesh(), worn});
-
-  const std::string pressed = extreme_skin(true), stretched = extreme_skin(false);
-  show_words(tightness_, pressed + (pressed.empty() || stretched.empty() ? "" : " ") + stretched);
-}
-
-std::string FitPanel::extreme_skin(bool tightest) const {
-  const std::vector<double> distortion = body_.values(ColourBy::distortion, 1);
-  const auto extreme = tightest ? std::min_element(distortion.begin(), distortion.end())
-                                : std::max_element(distortion.begin(), distortion.end());
-  const Eigen::Vector3d place = body_.mesh().vertices[extreme - distortion.begin()];
-  const auto& landmarks = measures_.landmarks;
-  const auto nearest =
-      std::min_element(landmarks.begin(), landmarks.end(), [&](const auto& a, const auto& b) {
-        return (a.position - place).squaredNorm() < (b.position - place).squaredNorm();
-      });
-  return words::over_constriction(*extreme, nearest == landmarks.end() ? "" : spoken(nearest->name));
-}
-
-void FitPanel::follow_view() {
-  view_->set_body(measured_frame_, measures_.body_from_scan, body_.mesh().vertices);
-  if (!fitted_ || fitted_->scan_id != measured_scan_) return;
-  view_->set_garment(fitted_->garment, courses_);
 }
 
 void FitPanel::answer(const std::string& words, bool done) {

@@ -21,7 +21,7 @@ namespace {
 constexpr int kWidth = 400, kHeight = 116, kMargin = 12, kBarTop = 26, kBarHeight = 16;  // pixels
 constexpr int kPaperOpacity = 215;
 
-std::string next_name() {
+std::string next_legend_name() {
   static int count = 0;
   return "tensegric_fit_legend_" + std::to_string(count++);
 }
@@ -65,7 +65,7 @@ QImage legend_picture(const ColourScale& scale, const std::string& sentence) {
 }
 
 Legend::Legend()
-    : name_(next_name()),
+    : name_(next_legend_name()),
       overlay_(Ogre::OverlayManager::getSingleton().create(name_)),
       panel_(static_cast<Ogre::PanelOverlayElement*>(
           Ogre::OverlayManager::getSingleton().createOverlayElement("Panel", name_ + "_panel"))),

@@ -19,7 +19,7 @@ namespace {
 
 constexpr float kSheen = 0.08F;  // highlight, small enough to leave the colours readable
 
-std::string next_name() {
+std::string next_body_name() {
   static int count = 0;
   return "tensegric_fit_body_" + std::to_string(count++);
 }
@@ -59,7 +59,7 @@ void write(const Ogre::HardwareVertexBufferSharedPtr& buffer, const std::vector<
 OgreBody::OgreBody(Ogre::SceneManager* scene, Ogre::SceneNode* parent)
     : scene_(scene),
       node_(parent->createChildSceneNode()),
-      name_(next_name()),
+      name_(next_body_name()),
       material_(Ogre::MaterialManager::getSingleton().create(name_, Ogre::RGN_DEFAULT)) {
   material_->setReceiveShadows(false);
   set_passes(material_->getTechnique(0), false, finish_);

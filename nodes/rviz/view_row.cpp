@@ -15,7 +15,7 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr double kMargin = 0.12;     // m about what is shown
+constexpr double kAround = 0.12;     // m about what is shown
 constexpr double kAngle = M_PI / 4;  // rad: rviz's field of view
 
 }  // namespace
@@ -75,7 +75,7 @@ void ViewRow::look(From from, bool whole) {
   whole_ = whole;
   if (!manager_ || !body_from_scan_ || skin_.empty()) return;
   const bool all = whole || lines_.empty();
-  const OrbitView view = framed(all ? skin_ : lines_, *body_from_scan_, from, all ? 0 : kMargin, kAngle);
+  const OrbitView view = framed(all ? skin_ : lines_, *body_from_scan_, from, all ? 0 : kAround, kAngle);
   rviz::ViewController* controller = manager_->getViewManager()->getCurrent();
   Ogre::Vector3 place;
   Ogre::Quaternion turn;

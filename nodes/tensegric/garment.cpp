@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "geometry/checked_yaml.hpp"
 #include "geometry/shipped_files.hpp"
@@ -181,15 +180,12 @@ Garment load_garment(const std::string& path) {
 }
 
 Garment take_garment(const std::string& words, const std::string& folder) {
-  std::error_code no_file;
-  if (std::filesystem::is_regular_file(words, no_file) || words.find('+') == std::string::npos)
-    return load_garment(geometry::yaml_file(folder, words, kBadGarment));
+  const std::vector<std::string> parts = geometry::joined_words(words);
+  if (parts.size() == 1) return load_garment(geometry::yaml_file(folder, words, kBadGarment));
   Garment all;
   all.name = words;
-  for (std::size_t start = 0; start <= words.size();) {
-    const std::size_t end = std::min(words.find('+', start), words.size());
-    const Garment one =
-        load_garment(geometry::yaml_file(folder, words.substr(start, end - start), kBadGarment));
+  for (const std::string& part : parts) {
+    const Garment one = load_garment(geometry::yaml_file(folder, part, kBadGarment));
     for (const std::string& region : one.regions)
       if (std::find(all.regions.begin(), all.regions.end(), region) == all.regions.end())
         all.regions.push_back(region);
@@ -198,7 +194,6 @@ Garment take_garment(const std::string& words, const std::string& folder) {
         throw Refusal(kBadGarment, "of " + words + " two garments have a line '" + line.name + "'");
       all.lines.push_back(line);
     }
-    start = end + 1;
   }
   return all;
 }

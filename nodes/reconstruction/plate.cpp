@@ -1,0 +1,40 @@
+#include "reconstruction/plate.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "body_model/recognition.hpp"
+#include "geometry/percentile.hpp"
+#include "geometry/point_tree.hpp"
+
+namespace tensegric_fit::reconstruction {
+namespace {
+
+// Tolerances. m: on floors that were seen the model's soles are within 4 mm of them (9 training women), so
+// that higher ones stand on something; its top is as near to them as that. Of a foot that is tilted the
+// lowest place may be half as high.
+constexpr double kPlate = 0.015;
+constexpr double kLevelNormal = 0.95;  // of a normal's z, 18 degrees: noise tilts those of a plane by less
+constexpr double kBesideFeet = 0.02;   // m from her skin: beyond the soles of a shoe
+constexpr std::size_t kFewestOfTop = 100;  // points: its height is known to an eighth of their noise
+
+}  // namespace
+
+std::optional<Plate> find_plate(const geometry::PointCloud& cloud, const body_model::RegisteredBody& model,
+                                const body_model::Standing& standing) {
+  const double soles = body_model::ground_without_feet(model, standing).height;
+  if (soles < kPlate || body_model::lowest_of_soles(model) < kPlate / 2 || body_model::lacks_feet(model))
+    return std::nullopt;
+  const geometry::PointTree skin(model.skin);
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    if (std::abs(cloud.points[i].z() - soles) < kPlate && cloud.normals[i].z() > kLevelNormal &&
+        !skin.any_within(cloud.points[i], kBesideFeet, [](int) { return true; }))
+      heights.push_back(cloud.points[i].z());
+  if (heights.size() < kFewestOfTop) return std::nullopt;
+  const double top = geometry::median(heights);
+  for (double& height : heights) height = std::abs(height - top);
+  return Plate{top, geometry::robust_deviation(heights)};
+}
+
+}  // namespace tensegric_fit::reconstruction
