@@ -91,13 +91,13 @@ class AssemblerNode {
     }
   }
 
-  /// They can come after the clouds. By the wall's clock: a recording's can stand still.
+  /// They can come after the clouds. By a clock of its own: a recording's can stand still, the wall's jump.
   void wait_for_transforms(const assembler::Capture& capture) const {
     const AssemblerHandler::Setup& setup = handler_.setup();
-    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(setup.capture.timeout);
+    const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(setup.capture.timeout);
     for (const auto& cloud : capture.clouds)
       while (cloud && !transforms_.canTransform(setup.frame_id, cloud->frame_id, time_of(cloud->stamp)) &&
-             ros::WallTime::now() < end && ros::ok())
+             ros::SteadyTime::now() < end && ros::ok())
         ros::WallDuration(0.01).sleep();
   }
 

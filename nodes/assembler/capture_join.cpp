@@ -71,9 +71,12 @@ std::optional<Capture> CaptureJoin::next(double now) {
                      return now - open.since >= timeout_ || open.capture.missing().empty();
                    });
   if (!due) return std::nullopt;
-  left_ = std::move(open_.front().capture);
+  Capture capture = std::move(open_.front().capture);
   open_.erase(open_.begin());
-  return left_;
+  left_ = capture;
+  for (auto& cloud : left_->clouds)  // a body's points are not kept
+    if (cloud) cloud = std::make_shared<const SensorCloud>(SensorCloud{cloud->stamp, {}, {}});
+  return capture;
 }
 
 }  // namespace tensegric_fit::assembler

@@ -66,8 +66,8 @@ class CaptureJoin {
   int sensors_;
   std::uint64_t slop_;
   double timeout_;
-  std::vector<Open> open_;  // in the order of their stamps
-  std::optional<Capture> left_;
+  std::vector<Open> open_;       // in the order of their stamps
+  std::optional<Capture> left_;  // stamps alone
 };
 
 }  // namespace tensegric_fit::assembler

@@ -33,6 +33,7 @@ constexpr double kInside = 0.005,
                  kStraightIn = 0.7;  // m under other skin; cosine with its normal: beside it is not under it
 constexpr double kOneSkin = 0.015;  // m between the skins of two legs that lie on one: at half bodies 70 % of
                                     // a leg is nearer, on 149 training scans nothing is nearer than 30 mm
+constexpr double kOtherSkin = 0.1;  // m apart at rest: no arm's skin at the armpit or the shoulder is
 constexpr double kClearly =
     0.2;  // between the shares of the trunk's halves that were seen: tolerance between
           // 0.04, the most on training scans, and 0.3, the least on half bodies
@@ -78,6 +79,10 @@ std::string limb_of(const std::string& part) {
   return "";
 }
 
+bool is_hand(const Model& model, int v) {
+  return model.parts[model.part[v]].rfind("hand", 0) == 0;
+}
+
 /// How much more of her left half of the trunk has samples than of the right, -1 to 1.
 double more_on_left(const RegisteredBody& body) {
   double there[2] = {0, 0}, whole[2] = {0, 0};  // of the trunk's left and right half
@@ -91,8 +96,8 @@ double more_on_left(const RegisteredBody& body) {
   return there[0] / whole[0] - there[1] / whole[1];
 }
 
-/// Of each vertex: whether it lies inside another limb or the trunk, or on the other leg, as a limb does for
-/// which there are no samples of its own.
+/// Of each vertex: whether it lies inside another limb or the trunk, or on the other leg, or the arm on the
+/// trunk, as a limb does for which there are no samples of its own.
 std::vector<char> run_into_others(const RegisteredBody& body) {
   const Model& model = *body.model;
   const std::vector<Vector3d> normals = geometry::vertex_normals(body.skin, model.triangles);
@@ -121,18 +126,20 @@ std::vector<char> run_into_others(const RegisteredBody& body) {
       const Vector3d off = body.skin[v] - body.skin[other];
       const double depth = -off.dot(normals[other]);
       inside[v] = static_cast<char>(depth > kInside && depth > kStraightIn * off.norm());
-      const bool one_skin = is_leg && limb_of(model.parts[model.part[other]]).rfind("leg", 0) == 0 &&
-                            off.norm() < kOneSkin && normals[v].dot(normals[other]) > kTurned;
-      if (one_skin && is_left_leg(body.skin[v]) != (limb == "leg_L")) inside[v] = 1;
+      if (off.norm() > kOneSkin || normals[v].dot(normals[other]) < kTurned) continue;
+      const std::string on = limb_of(model.parts[model.part[other]]);
+      if (is_leg && on.rfind("leg", 0) == 0 && is_left_leg(body.skin[v]) != (limb == "leg_L")) inside[v] = 1;
+      if (!is_leg && on.empty() && !is_hand(model, v) &&
+          (model.mean[v] - model.mean[other]).norm() > kOtherSkin)
+        inside[v] = 1;
     }
   }
   return inside;
 }
 
-/// Of each part: which share of its skin has samples.
-std::vector<double> shares_there(const RegisteredBody& body) {
+/// Of each part: which share of its skin has samples. `inside`: run_into_others.
+std::vector<double> shares_there(const RegisteredBody& body, const std::vector<char>& inside) {
   const Model& model = *body.model;
-  const std::vector<char> inside = run_into_others(body);
   std::vector<double> there(model.parts.size(), 0), whole(model.parts.size(), 0);
   const auto count = [&](int v, double weight) {
     whole[model.part[v]] += weight;
@@ -140,13 +147,16 @@ std::vector<double> shares_there(const RegisteredBody& body) {
         body.off[v] > kThere && model.parts[model.part[v]].rfind("foot", 0) != 0;  // nobody sees soles
     if (body.support[v] < kThere && !beside && !inside[v]) there[model.part[v]] += weight;
   };
-  const auto is_hand = [&](int v) { return model.parts[model.part[v]].rfind("hand", 0) == 0; };
   for (std::size_t i = 0; i < model.fit_points.size(); ++i)
-    if (!is_hand(model.fit_points[i])) count(model.fit_points[i], model.fit_weights[i]);
+    if (!is_hand(model, model.fit_points[i])) count(model.fit_points[i], model.fit_weights[i]);
   for (int v = 0; v < static_cast<int>(body.skin.size()); ++v)
-    if (is_hand(v)) count(v, 1);  // a hand has few fit points, and none on its fingers
+    if (is_hand(model, v)) count(v, 1);  // a hand has few fit points, and none on its fingers
   for (std::size_t p = 0; p < there.size(); ++p) there[p] = whole[p] > 0 ? there[p] / whole[p] : 1;
   return there;
+}
+
+std::vector<double> shares_there(const RegisteredBody& body) {
+  return shares_there(body, run_into_others(body));
 }
 
 double share_of_crown(const RegisteredBody& body) {
@@ -352,6 +362,14 @@ std::vector<char> parts_there(const RegisteredBody& body) {
   std::vector<char> there;
   for (const double share : shares_there(body)) there.push_back(static_cast<char>(share >= kLeastOfPart));
   return there;
+}
+
+std::vector<char> lost_skin(const RegisteredBody& body) {
+  std::vector<char> lost = run_into_others(body);
+  const std::vector<double> there = shares_there(body, lost);
+  for (std::size_t v = 0; v < lost.size(); ++v)
+    if (there[body.model->part[v]] >= kLeastOfPart) lost[v] = 0;
+  return lost;
 }
 
 bool lacks_feet(const RegisteredBody& body) {

@@ -21,6 +21,10 @@ std::vector<geometry::Missing> missing_parts(const RegisteredBody& body);
 /// Of each part of the model, whether the scan has at least about half of it.
 std::vector<char> parts_there(const RegisteredBody& body);
 
+/// Of each vertex of the skin, whether it is of a limb that is not there and lies in or on other skin, which
+/// is then not the limb's.
+std::vector<char> lost_skin(const RegisteredBody& body);
+
 /// Neither foot is there: nothing shows where she stands.
 bool lacks_feet(const RegisteredBody& body);
 

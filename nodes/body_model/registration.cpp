@@ -191,6 +191,7 @@ RegisteredBody register_mesh(const Registrar& registrar, const geometry::Triangl
   for (const Vector3d& v : mesh.vertices) body.ground = std::min(body.ground, body.vertical.dot(v));
   // Reconstruction ends soles on the ground; whether it saw a floor is not known here.
   if (body.scanned) body.ground_deviation = registrar.standing().ground;
+  body.ground_deviation = deviation_of_ground(body, body.ground, body.ground_deviation, registrar.standing());
   return body;
 }
 

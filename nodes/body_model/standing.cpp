@@ -2,8 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "body_model/recognition.hpp"
 #include "geometry/checked_yaml.hpp"
@@ -17,20 +19,51 @@ using Eigen::Vector3d;
 using geometry::mean_of;
 
 constexpr double kSole = 0.006;  // m over the lowest point of the feet at rest: skin that bears her
-// Deviations: of 100 women who stand upright 13 seem to lean by 2, one by 3. In between the scan's
-// vertical gives way by degrees, so that a rounding error of the scan moves no measure by much.
+// Deviations: of 100 women who stand upright one seems to lean by 2.5 (fit_standing.py). Round that the
+// scan's vertical gives way by degrees, so that a rounding error of the scan moves no measure by much.
 constexpr double kUpright = 2, kLeaning = 3;
 constexpr std::size_t kStray = 9;  // points that may lie below the feet
 
-/// Of the model's soles, where pose and shape have them.
-std::vector<Vector3d> soles_of(const RegisteredBody& body) {
+constexpr double kApart = 3;  // deviations: lowest place and soles that are farther apart are not of one foot
+
+/// Which legs and feet are there, left and right.
+struct Legs {
+  explicit Legs(const RegisteredBody& body) {
+    const std::vector<char> there = parts_there(body);
+    for (const int side : {0, 1}) {
+      const auto has = [&](const char* part) {
+        return there[body.model->part_named(part + std::string(side == 0 ? "_L" : "_R"))] != 0;
+      };
+      thigh[side] = has("thigh");
+      shank[side] = has("shank");
+      foot[side] = has("foot");
+    }
+  }
+  std::array<bool, 2> thigh, shank, foot;
+};
+
+bool both(const std::array<bool, 2>& sides) {
+  return sides[0] && sides[1];
+}
+
+bool neither(const std::array<bool, 2>& sides) {
+  return !sides[0] && !sides[1];
+}
+
+/// Of the model's soles, left and right or one, where pose and shape have them.
+std::vector<Vector3d> soles_of(const RegisteredBody& body, const std::array<bool, 2>& sides = {true, true}) {
   const Model& model = *body.model;
   double lowest = model.mean.front().z();
   for (const Vector3d& p : model.mean) lowest = std::min(lowest, p.z());
   std::vector<Vector3d> soles;
   for (std::size_t v = 0; v < model.mean.size(); ++v)
-    if (model.mean[v].z() < lowest + kSole) soles.push_back(body.posed[v]);
+    if (model.mean[v].z() < lowest + kSole && sides[model.mean[v].x() > 0 ? 0 : 1])
+      soles.push_back(body.posed[v]);
   return soles;
+}
+
+double ground_by(const RegisteredBody& body, const std::vector<Vector3d>& soles, const Standing& standing) {
+  return body.vertical.dot(mean_of(soles)) - standing.soles * std::exp(body.parameters.log_scale);
 }
 
 Vector3d normal_of(const std::vector<Vector3d>& points, const Vector3d& up) {
@@ -46,15 +79,17 @@ Vector3d normal_of(const std::vector<Vector3d>& points, const Vector3d& up) {
 Standing load_standing(const std::string& path) {
   constexpr const char* kCode = geometry::refusal::kBrokenFile;
   const YAML::Node root = geometry::load_yaml_map(path, kCode);
-  geometry::check_keys(
-      root, {"made", "bodies", "error", "forwards", "sideways", "along", "seen", "soles", "without_feet"},
-      path, kCode);
+  geometry::check_keys(root,
+                       {"made", "bodies", "error", "forwards", "legs_forwards", "sideways", "along", "seen",
+                        "soles", "without_feet", "without_thighs"},
+                       path, kCode);
   const auto degrees = [&](const char* key) {
     return geometry::number_in(root, key, -5, 5, path, kCode) * M_PI / 180;
   };
-  const auto metres = [&](const char* key) { return geometry::number_in(root, key, 0, 0.02, path, kCode); };
-  return {degrees("forwards"), degrees("sideways"), degrees("along"),      metres("seen"),
-          metres("soles"),     metres("error"),     metres("without_feet")};
+  const auto metres = [&](const char* key) { return geometry::number_in(root, key, 0, 0.1, path, kCode); };
+  return {degrees("forwards"), degrees("legs_forwards"), degrees("sideways"),
+          degrees("along"),    metres("seen"),           metres("soles"),
+          metres("error"),     metres("without_feet"),   metres("without_thighs")};
 }
 
 Stance stance_of(const RegisteredBody& body) {
@@ -63,22 +98,36 @@ Stance stance_of(const RegisteredBody& body) {
           .normalized();
   const std::vector<Vector3d> soles = soles_of(body);
   const Vector3d up = (legs + normal_of(soles, legs)).normalized();
-  return {up, body.left().cross(up).normalized(), mean_of(soles)};
+  return {up, body.left().cross(up).normalized(), legs, mean_of(soles)};
 }
 
 Vector3d upright(const RegisteredBody& body, const Standing& standing) {
+  const Legs there(body);
+  if (!both(there.thigh) || !both(there.shank)) return body.vertical;
   const Stance stance = stance_of(body);
-  const Vector3d up = (stance.up - std::tan(standing.forwards) * stance.forward).normalized();
-  const Vector3d tilt = up - up.dot(body.vertical) * body.vertical, left = stance.up.cross(stance.forward);
+  const bool has_soles = both(there.foot);
+  const Vector3d shown = has_soles ? stance.up : stance.legs, forward = body.left().cross(shown).normalized();
+  const Vector3d up =
+      (shown - std::tan(has_soles ? standing.forwards : standing.legs_forwards) * forward).normalized();
+  const Vector3d tilt = up - up.dot(body.vertical) * body.vertical, left = shown.cross(forward);
   const double deviations =
-      std::hypot(tilt.dot(left) / standing.sideways, tilt.dot(stance.forward) / standing.along);
+      std::hypot(tilt.dot(left) / standing.sideways, tilt.dot(forward) / standing.along);
   const double leaning = std::clamp((deviations - kUpright) / (kLeaning - kUpright), 0.0, 1.0);
   return (body.vertical + leaning * (up - body.vertical)).normalized();
 }
 
 Ground ground_without_feet(const RegisteredBody& body, const Standing& standing) {
-  return {body.vertical.dot(stance_of(body).soles) - standing.soles * std::exp(body.parameters.log_scale),
-          standing.without_feet};
+  const Legs there(body);
+  const double deviation = neither(there.thigh) ? standing.without_thighs : standing.without_feet;
+  return {ground_by(body, neither(there.foot) ? soles_of(body) : soles_of(body, there.foot), standing),
+          deviation};
+}
+
+double deviation_of_ground(const RegisteredBody& body, double by_lowest, double deviation,
+                           const Standing& standing) {
+  const double apart = std::abs(by_lowest - ground_without_feet(body, standing).height);
+  // each of the two deviates by sqrt(2) of what their mean does, their difference by twice that
+  return apart > kApart * 2 * standing.ground ? std::max(deviation, apart / 2) : deviation;
 }
 
 double lowest_of_soles(const RegisteredBody& body) {
@@ -94,7 +143,8 @@ Ground ground_under(const RegisteredBody& body, const std::vector<Vector3d>& poi
   for (const Vector3d& p : points) heights.push_back(body.vertical.dot(p));
   if (heights.size() <= kStray || lacks_feet(body)) return by_soles;
   std::nth_element(heights.begin(), heights.begin() + kStray, heights.end());
-  return {(by_soles.height + heights[kStray] - standing.seen) / 2, standing.ground};
+  const double by_lowest = heights[kStray] - standing.seen;
+  return {(by_soles.height + by_lowest) / 2, deviation_of_ground(body, by_lowest, standing.ground, standing)};
 }
 
 }  // namespace tensegric_fit::body_model

@@ -9,11 +9,13 @@ namespace tensegric_fit::body_model {
 /// tests/body_model/fit_standing.py.
 struct Standing {
   double forwards;         ///< rad: soles and legs of the model lean forwards by so much
+  double legs_forwards;    ///< rad: the legs alone, where the feet are not there
   double sideways, along;  ///< rad: deviations of that lean, to the side and forwards, sway included
   double seen;             ///< m above the ground: the lowest points that sensors see of feet
   double soles;            ///< m above the ground: the model's soles, on average
   double ground;           ///< m: deviation of the ground that these two give
-  double without_feet;     ///< m: the same where no foot is there, and the model's soles alone say it
+  /// m: the same where no foot is there, and where no thigh is either, and the model's soles alone say it
+  double without_feet, without_thighs;
 };
 
 /// \throw Refusal broken_file: not there, unknown keys, values out of range
@@ -22,11 +24,13 @@ Standing load_standing(const std::string& path);
 /// How legs and soles stand: before what is known of other women is taken off.
 struct Stance {
   Eigen::Vector3d up, forward;  ///< unit vectors, perpendicular to each other
+  Eigen::Vector3d legs;         ///< up by the legs alone, a unit vector
   Eigen::Vector3d soles;        ///< m, their middle
 };
 Stance stance_of(const RegisteredBody& body);
 
-/// Up, a unit vector: body.vertical, the booth's own, unless legs and soles clearly stand on another.
+/// Up, a unit vector: body.vertical, the booth's own, unless legs and soles clearly stand on another. Legs
+/// that are not there, both of them whole, show nothing; nor do feet.
 Eigen::Vector3d upright(const RegisteredBody& body, const Standing& standing);
 
 /// The ground along body.vertical.
@@ -34,11 +38,17 @@ struct Ground {
   double height, deviation;  ///< m
 };
 
-/// By the model's soles alone: where it has feet that are not there.
+/// By the model's soles alone: where it has feet that are not there. Where one foot is there, by that one's.
 Ground ground_without_feet(const RegisteredBody& body, const Standing& standing);
 
 /// Of the model's soles, along body.vertical, m.
 double lowest_of_soles(const RegisteredBody& body);
+
+/// `deviation`, unless the lowest place that was seen and the model's soles are clearly apart, as where the
+/// lowest part of the feet was not seen: then so much that either may be right. `by_lowest`: m, the ground by
+/// that place.
+double deviation_of_ground(const RegisteredBody& body, double by_lowest, double deviation,
+                           const Standing& standing);
 
 /// From the model's soles and from the lowest points of a scan alike, as each is off on its own.
 Ground ground_under(const RegisteredBody& body, const std::vector<Eigen::Vector3d>& points,

@@ -2,10 +2,12 @@
 
 #include <tensegric_fit/FitState.h>
 
+#include <ros/names.h>
+
 #include <algorithm>
-#include <limits>
 
 #include "geometry/range.hpp"
+#include "geometry/status.hpp"
 #include "ros/scan_tag.hpp"
 #include "ros/stage_report_message.hpp"
 
@@ -14,7 +16,6 @@ namespace {
 
 constexpr std::size_t kRemembered = 64;     // scans
 const geometry::Range kTimeout{0.1, 3600};  // s
-constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 
 }  // namespace
 
@@ -23,6 +24,9 @@ CaptureHandler::Setup CaptureHandler::setup_from(Parameters& parameters) {
   setup.timeout = parameters.number("timeout", setup.timeout, kTimeout);
   setup.slop = parameters.number("slop", setup.slop, geometry::kSlop);
   setup.trigger = parameters.text("trigger", setup.trigger);
+  std::string error;
+  if (!ros::names::validate(setup.trigger, error))
+    throw geometry::Refusal(geometry::refusal::kBadOption, "parameter 'trigger': " + error);
   parameters.check_all_known();
   return setup;
 }
@@ -31,13 +35,13 @@ CaptureHandler::CaptureHandler(Parameters parameters, std::string name_space)
     : setup_(setup_from(parameters)), name_space_(std::move(name_space)) {}
 
 void CaptureHandler::begin(const CaptureGoal& goal, double now) {
+  landmarks_.clear();
+  fit_status_.clear();
   if (goal.timeout != 0) geometry::check_option("timeout", goal.timeout, kTimeout);
   goal_ = goal;
   begun_ = now;
-  landmarks_.clear();
-  fit_status_.clear();
   armed_ = setup_.trigger.empty();
-  watch(armed_ ? 0 : kNever);
+  watch(armed_ ? 0 : capture::kNever);
 }
 
 void CaptureHandler::pulled(std::uint64_t stamp) {
@@ -62,12 +66,16 @@ void CaptureHandler::add(const sensor_msgs::PointCloud2& scan) {
     return;  // a node sends its last one again
   seen_.push_back(scan_id);
   if (seen_.size() > kRemembered) seen_.pop_front();
-  if (watch_) watch_->add_scan(scan_id, scan.header.stamp.toNSec());
+  if (!watch_) return;
+  watch_->add_scan(scan_id, scan.header.stamp.toNSec());
+  if (watch_->scan_id().empty()) return;
+  for (auto it = landmarks_.begin(); it != landmarks_.end();)
+    it = it->first == watch_->scan_id() ? std::next(it) : landmarks_.erase(it);
 }
 
 void CaptureHandler::add(const Landmarks::ConstPtr& landmarks) {
-  if (!watch_) return;
-  landmarks_[landmarks->scan_id] = landmarks;
+  if (!watch_ || (!watch_->scan_id().empty() && watch_->scan_id() != landmarks->scan_id)) return;
+  landmarks_[landmarks->scan_id] = landmarks;  // they may overtake their scan
   watch_->add_landmarks(landmarks->scan_id);
 }
 
@@ -98,6 +106,10 @@ CaptureFeedback CaptureHandler::feedback(double now) {
 std::optional<CaptureResult> CaptureHandler::result(double now) {
   const auto end = watch_->end(now);
   if (!end) return std::nullopt;
+  const bool waits =
+      end->code == geometry::refusal::kTimedOut || end->code == geometry::refusal::kMissingSensor;
+  if (waits && unanswered_ && scan_id().empty())
+    return refused(geometry::refusal::kTriggerFailed, setup_.trigger + " has not answered; " + end->message);
   if (!end->code.empty()) return refused(end->code, end->message);
   CaptureResult result;
   result.measured = true;

@@ -37,6 +37,8 @@ class CaptureHandler {
 
   double begun() const { return begun_; }
   bool waits_for_trigger() const { return is_busy() && !armed_; }
+  /// Whether a call of the trigger, of this goal or an earlier one, is still without its answer.
+  void set_unanswered(bool unanswered) { unanswered_ = unanswered; }
   /// A scan with an older stamp (ns) is another customer's.
   void pulled(std::uint64_t stamp);
 
@@ -71,7 +73,8 @@ class CaptureHandler {
   // of the current goal
   CaptureGoal goal_;
   double begun_ = 0;
-  bool armed_ = false;                                    // the trigger was pulled, or there is none
+  bool armed_ = false;  // the trigger was pulled, or there is none
+  bool unanswered_ = false;
   std::unique_ptr<capture::CaptureWatch> watch_;          // null: no goal
   std::map<std::string, Landmarks::ConstPtr> landmarks_;  // by scan
   std::map<std::string, std::string> fit_status_;         // by scan

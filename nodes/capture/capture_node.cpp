@@ -51,6 +51,8 @@ class BoothTrigger {
     return true;
   }
 
+  bool is_under_way() const { return call_.valid(); }
+
   /// What went wrong with a call that has ended, once; empty where nothing did.
   std::string complaint() {
     if (!call_.valid() || call_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return "";
@@ -143,6 +145,7 @@ class CaptureNode {
     if (!handler_.is_busy()) return;
     const bool waited = handler_.waits_for_trigger();
     if (waited) pull_trigger();
+    handler_.set_unanswered(trigger_.is_under_way());
     if (!waited && !complaint.empty())  // else it is about an earlier customer's
       finish(handler_.refused(geometry::refusal::kTriggerFailed, complaint));
     else if (const auto result = handler_.result(now()))

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/scan_stamp.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::capture {
@@ -22,7 +23,8 @@ constexpr Step kChain[] = {{"reconstruction", 0.25, 3},
                            {"control_mesh", 0.85, 0.5},
                            {"tensegric", 0.9, 0.1},
                            {"tffd", 0.95, 0.2}};
-constexpr int kMeasuring = 2, kAll = 5;  // stages of the chain
+constexpr int kMeasuring = 2, kAll = 5;                  // stages of the chain
+constexpr const char* kBehindAScan[] = {"correlation"};  // other stages that work on one
 
 std::uint64_t gap(std::uint64_t a, std::uint64_t b) {
   return a > b ? a - b : b - a;
@@ -36,12 +38,22 @@ CaptureWatch::CaptureWatch(CaptureGoal goal, const StageBoard& board, double slo
       slop_(static_cast<std::uint64_t>(std::llround(1e9 * slop))),
       start_(now) {}
 
+bool CaptureWatch::is_early(std::uint64_t stamp) const {
+  return stamp < goal_.not_before && (stamp != 0 || goal_.not_before == kNever);
+}
+
+void CaptureWatch::note_early(std::uint64_t stamp) {
+  if (goal_.not_before != kNever) early_ = std::max(early_, stamp);
+}
+
 void CaptureWatch::add_cloud(const std::string& sensor, std::uint64_t stamp) {
-  if (stamp >= goal_.not_before) clouds_[sensor].push_back(stamp);
+  if (is_early(stamp)) return note_early(stamp);
+  clouds_[sensor].push_back(stamp);
 }
 
 void CaptureWatch::add_scan(const std::string& scan_id, std::uint64_t stamp) {
-  if (stamp < goal_.not_before || scan_id == scan_id_ || refused_) return;
+  if (is_early(stamp)) return note_early(stamp);
+  if (scan_id == scan_id_ || refused_) return;
   if (!scan_id_.empty()) {
     if (!is_complete())
       refused_ = CaptureEnd{geometry::refusal::kSuperseded,
@@ -53,9 +65,13 @@ void CaptureWatch::add_scan(const std::string& scan_id, std::uint64_t stamp) {
 }
 
 void CaptureWatch::add_refusal(const StageReport& report) {
-  const bool of_chain = std::any_of(std::begin(kChain), std::end(kChain),
-                                    [&](const Step& step) { return report.stage == step.stage; });
-  if (scan_id_.empty() && !of_chain && !refused_) refused_ = CaptureEnd{report.code, report.last_error};
+  const bool is_behind =
+      std::any_of(std::begin(kChain), std::end(kChain),
+                  [&](const Step& step) { return report.stage == step.stage; }) ||
+      std::find(std::begin(kBehindAScan), std::end(kBehindAScan), report.stage) != std::end(kBehindAScan);
+  if (is_behind || !scan_id_.empty() || refused_) return;
+  const auto stamp = geometry::stamp_in(report.scan_id);
+  if (!stamp || !is_early(*stamp)) refused_ = CaptureEnd{report.code, report.last_error};
 }
 
 std::vector<std::string> CaptureWatch::missing() const {
@@ -95,6 +111,12 @@ std::string CaptureWatch::waiting_for(double now) const {
   else
     words = fmt::format("scan {}: waiting for {}{}", scan_id_, stage(),
                         board_.find(stage()) == nullptr ? ", which never reported: is it running?" : "");
+  if (scan_id_.empty() && early_ > 0)
+    words += fmt::format(
+        ", and what came was stamped {:.1f} s and more before it was asked for: are the clocks of scanner "
+        "and "
+        "capture set alike?",
+        1e-9 * static_cast<double>(goal_.not_before - early_));
   const std::string trouble = board_.trouble(now);
   return trouble.empty() ? words : words + " (" + trouble + ")";
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -16,8 +17,12 @@ struct CaptureGoal {
   std::vector<std::string> sensors;  ///< that must take part; empty: any
   double timeout;                    ///< s
   bool with_fit = false;             ///< ends with the garment on, not with the measurements
-  std::uint64_t not_before = 0;      ///< ns; a scan with an older stamp is another's
+  /// ns; a scan with an older stamp is another's. One without a stamp (0) counts, unless nothing does yet.
+  std::uint64_t not_before = 0;
 };
+
+/// `CaptureGoal::not_before` while nothing counts.
+inline constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 
 /// How far a capture has come.
 struct CaptureProgress {
@@ -43,7 +48,7 @@ class CaptureWatch {
   void add_scan(const std::string& scan_id, std::uint64_t stamp);
   void add_landmarks(const std::string& scan_id) { measured_.insert(scan_id); }
   void add_fit(const std::string& scan_id) { fitted_.insert(scan_id); }
-  /// A stage has just refused something: StageBoard::report.
+  /// A stage has just refused something: StageBoard::report. What brings a scan about ends the wait for it.
   void add_refusal(const StageReport& report);
 
   const std::string& scan_id() const { return scan_id_; }
@@ -52,6 +57,8 @@ class CaptureWatch {
   std::optional<CaptureEnd> end(double now) const;
 
  private:
+  bool is_early(std::uint64_t stamp) const;
+  void note_early(std::uint64_t stamp);
   std::vector<std::string> missing() const;
   std::string stage() const;
   std::string waiting_for(double now) const;
@@ -68,6 +75,7 @@ class CaptureWatch {
   std::uint64_t stamp_ = 0;                  // of the scan
   std::set<std::string> measured_, fitted_;  // scans; a message may overtake its scan
   std::optional<CaptureEnd> refused_;
+  std::uint64_t early_ = 0;  // the newest stamp that did not count, though a scan was asked for
   double share_ = 0;
 };
 

@@ -4,8 +4,6 @@
 
 #include <boost/make_shared.hpp>
 
-#include <sstream>
-
 #include "body_model/model_message.hpp"
 #include "body_model/registration.hpp"
 #include "geometry/shipped_files.hpp"
@@ -39,13 +37,16 @@ ControlMeshHandler::ControlMeshHandler(Parameters parameters) {
   options.thickness = parameters.number("thickness", options.thickness, control_mesh::kThickness);
   const int coarse =
       parameters.integer("coarse_triangles", 0, {0, control_mesh::kControlTriangles.high});  // 0: none
-  std::istringstream names(parameters.text("template", "bust+hips"));
+  const std::string names = parameters.text("template", "bust+hips");
   const std::string folder = parameters.text("template_directory", geometry::shipped_folder("templates"));
   parameters.check_all_known();
-  for (std::string name; std::getline(names, name, '+');)
+  for (const std::string& name : geometry::joined_words(names)) {
+    if (name.empty())
+      throw geometry::Refusal(geometry::refusal::kBadOption,
+                              "parameter 'template' has an empty name: '" + names + "'");
     patterns_.push_back(
         control_mesh::load_template(geometry::yaml_file(folder, name, geometry::refusal::kBadTemplate)));
-  if (patterns_.empty()) throw geometry::Refusal(geometry::refusal::kBadOption, "template is empty");
+  }
   if (coarse == 0) return;
   if (coarse >= options.control_triangles)
     throw geometry::Refusal(geometry::refusal::kBadOption,

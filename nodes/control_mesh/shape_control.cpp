@@ -1,5 +1,7 @@
 #include "control_mesh/shape_control.hpp"
 
+#include <numeric>
+
 #include "control_mesh/inner_nodes.hpp"
 #include "control_mesh/skin.hpp"
 #include "geometry/checked_yaml.hpp"
@@ -71,6 +73,9 @@ ShapeFixing load_shape_fixing(const std::string& path) {
   for (const YAML::Node& box : file["boxes"]) {
     geometry::check_keys(box, {"min", "max"}, path + ": boxes", kBadShape);
     fixing.boxes.push_back({point_at(box, "min", path + ": boxes"), point_at(box, "max", path + ": boxes")});
+    if (!(fixing.boxes.back()[0].array() <= fixing.boxes.back()[1].array()).all())
+      throw Refusal(kBadShape, path + ": box " + std::to_string(fixing.boxes.size()) +
+                                   " holds nothing: its 'min' is beyond its 'max'");
   }
   return fixing;
 }
@@ -108,7 +113,9 @@ geometry::ControlMesh simplified_control(const geometry::TriangleMesh& shape, co
                   "'nodes' number the vertices of a given control mesh: use 'boxes' where it is made by "
                   "simplification");
   check_outside(shape);
-  return control_from_shape(geometry::with_triangles(shape, triangles), fixing);
+  std::vector<int> all(shape.triangles.size());
+  std::iota(all.begin(), all.end(), 0);  // vertices without a triangle are none of the control mesh's
+  return control_from_shape(geometry::with_triangles(geometry::submesh(shape, all), triangles), fixing);
 }
 
 }  // namespace tensegric_fit::control_mesh

@@ -7,6 +7,7 @@
 
 #include "geometry/even_steps.hpp"
 #include "geometry/section.hpp"
+#include "geometry/status.hpp"
 
 namespace tensegric_fit::control_mesh {
 namespace {
@@ -80,6 +81,7 @@ Skin::Skin(geometry::TriangleMesh surface)
   const auto box = geometry::bounding_box(surface_.vertices);
   corner_ = box[0];
   const double size = (box[1] - box[0]).maxCoeff();
+  if (!(size > 0)) throw geometry::Refusal(geometry::refusal::kBadMesh, "the surface has no extent");
   cell_ = std::clamp(kCell, size / kMostCells, size / kLeastCells);
   cells_ = ((box[1] - box[0]) / cell_).array().floor().cast<int>() + 1;
   triangles_in_.resize(static_cast<std::size_t>(cells_.x()) * cells_.y() * cells_.z());

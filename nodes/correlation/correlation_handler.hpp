@@ -73,6 +73,7 @@ class CorrelationHandler {
     geometry::TriangleMesh control;
     Eigen::Isometry3d body_from_scan;
     Facts facts;
+    std::string warning;  ///< empty where there is nothing to be said
   };
   /// For one thread, which need not be that of add(). \throw Refusal as MeasureScan and correlate
   Output handle(const Input& input);

@@ -77,7 +77,7 @@ class CorrelationNode {
                 correlation_.publish(output->correlation);
                 show(output);
               },
-              output->facts};
+              output->facts, output->warning};
     });
   }
 

@@ -13,6 +13,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <regex>
 #include <set>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "depth_cameras/camera_message.hpp"
 #include "depth_cameras/camera_poses.hpp"
 #include "depth_cameras/one_moment.hpp"
+#include "geometry/scan_stamp.hpp"
 #include "geometry/slop.hpp"
 #include "ros/await.hpp"
 #include "ros/parameters.hpp"
@@ -106,16 +108,17 @@ class Camera {
     if (!frame.empty()) image.header.frame_id = info.header.frame_id = frame;
     info_out_.publish(info);
     image_out_.publish(image);
-    taken_ = true;
+    taken_ = seen.image->header.stamp.toNSec();
   }
 
-  /// True where there was something to let go of.
-  bool forget() {
-    if (!taken_) return false;
+  /// What it handed on last, where that was taken within so many ns of the stamp. True where there was
+  /// something to let go of.
+  bool forget(std::uint64_t stamp, std::uint64_t within) {
+    if (!taken_ || std::max(*taken_, stamp) - std::min(*taken_, stamp) > within) return false;
     image_out_.shutdown();
     info_out_.shutdown();
     advertise();
-    taken_ = false;
+    taken_.reset();
     return true;
   }
 
@@ -140,13 +143,16 @@ class Camera {
   message_filters::TimeSynchronizer<Image, CameraInfo> both_;
   ros::Subscriber image_, info_;
   ros::Publisher image_out_, info_out_;
-  bool taken_ = false;
+  std::optional<std::uint64_t> taken_;  // stamp of what is latched
 };
 
 class DepthCameras {
  public:
   DepthCameras(const ros::NodeHandle& node, ros::NodeHandle private_node)
-      : setup_(setup_from(Parameters(private_node))), loader_(false), stage_("depth_cameras", node) {
+      : setup_(setup_from(Parameters(private_node))),
+        loader_(false),
+        named_(setup_.cameras.size()),
+        stage_("depth_cameras", node) {
     publish_poses();
     for (std::size_t i = 0; i < setup_.cameras.size(); ++i)
       cameras_.push_back(
@@ -160,11 +166,13 @@ class DepthCameras {
     caller_.start();
   }
 
-  /// The clouds are the nodelets' to publish and the assembler's to keep.
-  void forget(const ForgetOrder&, ForgetAnswer& done) {
+  /// The clouds are the nodelets' to publish and the assembler's to keep. Images are known by their stamps.
+  void forget(const ForgetOrder& order, ForgetAnswer& done) {
+    const auto stamp = geometry::stamp_in(order.scan_id);
+    if (!stamp) return;
     const std::lock_guard<std::mutex> lock(mutex_);
     bool any = false;
-    for (const auto& camera : cameras_) any |= camera->forget();
+    for (const auto& camera : cameras_) any |= camera->forget(*stamp, slop());
     if (any) done.removed = {"the latched depth images"};
   }
 
@@ -184,7 +192,10 @@ class DepthCameras {
     try {
       check_depth_image(*seen.image, *seen.info);
     } catch (const Refusal& refused) {
-      stage_.drop("", Refusal(refused.code(), "cameras/" + setup_.cameras[camera] + ": " + refused.what()));
+      if (const auto now = ros::SteadyTime::now(); now >= named_[camera]) {
+        named_[camera] = now + kNamedAgain;
+        stage_.drop("", Refusal(refused.code(), "cameras/" + setup_.cameras[camera] + ": " + refused.what()));
+      }
       return;
     }
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -200,11 +211,17 @@ class DepthCameras {
 
   /// Until there are images of all cameras that are of one moment.
   void hold(std::size_t camera, const Seen& seen) {
-    if (!asked_ || seen.image->header.stamp < since_) return;
+    if (!asked_) return;
+    if (seen.image->header.stamp < since_) {
+      early_[camera].push_back(seen.image->header.stamp);
+      return;
+    }
     std::deque<Seen>& held = held_[camera];
     if (!held.empty() && seen.image->header.stamp <= held.back().image->header.stamp) return;
     held.push_back(seen);
-    if (held.size() > kMostHeld) held.pop_front();
+    while (held.size() > kMostHeld ||
+           held.back().image->header.stamp - held.front().image->header.stamp > kHeld)
+      held.pop_front();
     const std::vector<int> chosen = of_one_moment();
     if (std::count(chosen.begin(), chosen.end(), depth_cameras::kNone) == 0) take_held(chosen);
   }
@@ -213,8 +230,10 @@ class DepthCameras {
     std::vector<std::deque<std::uint64_t>> stamps(held_.size());
     for (std::size_t i = 0; i < held_.size(); ++i)
       for (const Seen& seen : held_[i]) stamps[i].push_back(seen.image->header.stamp.toNSec());
-    return depth_cameras::of_one_moment(stamps, static_cast<std::uint64_t>(std::llround(1e9 * setup_.slop)));
+    return depth_cameras::of_one_moment(stamps, slop());
   }
+
+  std::uint64_t slop() const { return static_cast<std::uint64_t>(std::llround(1e9 * setup_.slop)); }
 
   void take_held(const std::vector<int>& chosen) {
     for (std::size_t i = 0; i < chosen.size(); ++i)
@@ -227,6 +246,7 @@ class DepthCameras {
     std::unique_lock<std::mutex> lock(mutex_);
     since_ = ros::Time::now();
     held_.assign(cameras_.size(), {});
+    early_.assign(cameras_.size(), {});
     asked_ = true;
     response.success =
         await(taken_, lock, std::chrono::duration<double>(setup_.timeout), [this] { return !asked_; });
@@ -253,22 +273,33 @@ class DepthCameras {
     if (!silent.empty())
       words = fmt::format("no depth image with CameraInfo of the same stamp within {} s from: {}",
                           setup_.timeout, fmt::join(silent, ", "));
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      if (held_[i].empty() && early_[i].size() > kInFlight)
+        words += fmt::format(
+            "; images from cameras/{} are stamped {:.1f} s and more before they were asked for: are "
+            "the clocks set alike?",
+            setup_.cameras[i], (since_ - early_[i].back()).toSec());
     if (!apart.empty())
       words += fmt::format("{}no depth image within {} s (parameter 'slop') of those of the others from: {}",
                            words.empty() ? "" : "; ", setup_.slop, fmt::join(apart, ", "));
     return words;
   }
 
-  static constexpr std::size_t kMostHeld = 5;  // images per camera: bounds memory
+  static constexpr std::size_t kMostHeld = 32;  // images per camera: bounds memory, like the next
+  inline static const ros::Duration kHeld{1};   // s; cameras of one moment may be so much later than others
+  static constexpr std::size_t kInFlight = 2;   // images that were on their way when they were asked for
+  inline static const ros::WallDuration kNamedAgain{1};  // s until a camera's fault is named again
 
   const Setup setup_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
   nodelet::Loader loader_;
-  std::mutex mutex_;  // guards cameras_ once they run, and the next four
+  std::mutex mutex_;  // guards cameras_ once they run, and the next five
   std::condition_variable taken_;
   bool asked_ = false;
   ros::Time since_;
-  std::vector<std::deque<Seen>> held_;  // by camera, since it was asked
+  std::vector<std::deque<Seen>> held_;         // by camera, since it was asked
+  std::vector<std::vector<ros::Time>> early_;  // by camera: stamps of images that came since, and are older
+  std::vector<ros::SteadyTime> named_;  // by camera: when its faults may be named again; of the main thread
   std::vector<std::unique_ptr<Camera>> cameras_;
   Stage stage_;
   ros::CallbackQueue calls_;

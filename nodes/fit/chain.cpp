@@ -137,8 +137,9 @@ Fit wear(const Body& body, const Fitting& fitting, const tensegric::Garment& gar
   }
   const Stopwatch watch(times.tffd);
   fit.deformed = fitting.binding.deform(fit.solution.outer, fit.solution.inner);
+  fit.bones = settings.solver.bones;
   fit.distortion =
-      tffd::body_distortion(fitting.binding, tffd::control_distortion(fitting.control, fit.solution.outer));
+      tffd::body_distortion(fitting.binding, tffd::control_distortion(fitting.binding, fit.solution.outer));
   for (std::size_t r = 0; r < fitting.carried.size(); ++r) {
     const Eigen::Vector3d apex = geometry::region_apex(fitting.control, fitting.control.regions[r]);
     fit.body_volumes_before.push_back(

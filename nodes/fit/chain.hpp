@@ -56,6 +56,7 @@ struct Fitting {
 struct Fit {
   tensegric::Solution solution;
   std::vector<Eigen::Vector3d> deformed;    ///< one per body vertex, scan frame
+  geometry::BoneFrames bones;               ///< the posture in which it is worn
   std::vector<double> distortion;           ///< area after / before, one per body vertex (P1 Fig. 8)
   std::vector<double> body_volumes_before;  ///< one per region, m^3, under the skin that it carries
   std::vector<double> body_volumes_after;

@@ -11,8 +11,9 @@ std::vector<Effect> effects_of(const Body& body, const Fit& fit) {
   const auto find = [&landmarks](const std::string& name) {
     return std::find_if(landmarks.begin(), landmarks.end(), [&](const auto& l) { return l.name == name; });
   };
-  const std::vector<Eigen::Vector3d> worn =
-      geometry::landmarks_after(body.measures, {body.mesh.mesh, fit.deformed});
+  const std::vector<Eigen::Vector3d> skin =
+                                         geometry::in_scan_posture(body.mesh.mesh, fit.deformed, fit.bones),
+                                     worn = geometry::landmarks_after(body.measures, {body.mesh.mesh, skin});
   std::vector<Effect> effects;
   for (const std::string name : {"bust_point", "buttock"}) {
     const auto left = find(name + "_L"), right = find(name + "_R");

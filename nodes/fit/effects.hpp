@@ -10,8 +10,8 @@
 namespace tensegric_fit::fit {
 
 /// Heights of the bust points (bust_point_height: mean of both, above the soles) and of the buttocks,
-/// and how far left and right are apart (bust_point_spread), before and after; metres. What the body has no
-/// landmarks for is left out.
+/// and how far left and right are apart (bust_point_spread), before and after; metres, in the scan's posture.
+/// What the body has no landmarks for is left out.
 struct Effect {
   std::string name;
   double before, after;

@@ -29,10 +29,11 @@ std::string glb_of(const Body& body, const Fit* fit) {
 
 std::vector<mesh_files::MeasureEntry> measures_of(const Body& body, const Fit* fit) {
   if (fit == nullptr) return mesh_files::measure_entries(body.mesh.mesh, body.measures, nullptr);
-  const geometry::MovedSkin skin{body.mesh.mesh, fit->deformed};
+  const Points after = geometry::in_scan_posture(body.mesh.mesh, fit->deformed, fit->bones);
+  const geometry::MovedSkin skin{body.mesh.mesh, after};
   const std::vector<geometry::ChangedMeasure> heights = geometry::heights_after(body.measures, skin),
                                               girths = geometry::girths_after(body.measures, skin);
-  const mesh_files::WornBody worn{fit->deformed, heights, girths};
+  const mesh_files::WornBody worn{after, heights, girths};
   return mesh_files::measure_entries(body.mesh.mesh, body.measures, &worn);
 }
 

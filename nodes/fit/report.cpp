@@ -125,8 +125,9 @@ void add_fit(const Body& body, const Fitting& fitting, const Fit& fit,
                                {"ratio", line.final / line.initial},
                                {"straight", line.straight},
                                {"reachable", line.reachable},
-                               {"tension", line.tension},
-                               {"tension_N", line.newtons}});
+                               {"tension", line.tension}});
+    if (!solution.calibrated) continue;
+    report["lines"].back()["tension_N"] = line.newtons;
     if (line.pressure > 0) report["lines"].back()["pressure_kPa"] = 1e-3 * line.pressure;
   }
   report["regions"] = Json::array();

@@ -101,6 +101,15 @@ double top(const std::vector<Vector3d>& vertices, const Eigen::Isometry3d& body_
 
 }  // namespace
 
+std::vector<Vector3d> in_scan_posture(const TriangleMesh& before, const std::vector<Vector3d>& after,
+                                      const BoneFrames& bones) {
+  std::vector<Vector3d> back = after;
+  if (bones.still()) return back;
+  for (std::size_t v = 0; v < back.size(); ++v)
+    back[v] = bones.frame_at(before.vertices[v]).inverse() * after[v];
+  return back;
+}
+
 std::vector<Vector3d> carried(const std::vector<Vector3d>& points, const MovedSkin& skin) {
   return CarriedPoints(skin.before, SurfaceTree(skin.before), points).at(skin.after);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/body_measures.hpp"
+#include "geometry/posture.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::geometry {
@@ -16,6 +17,12 @@ struct MovedSkin {
   const TriangleMesh& before;
   const std::vector<Eigen::Vector3d>& after;
 };
+
+/// `after` of a body that the bones carry, taken back to the scan's posture: what a garment alone does to it.
+/// \pre one position per vertex of `before`
+std::vector<Eigen::Vector3d> in_scan_posture(const TriangleMesh& before,
+                                             const std::vector<Eigen::Vector3d>& after,
+                                             const BoneFrames& bones);
 
 /// The points displaced as the places of the skin nearest to them are. As a CarriedPoints that is used once.
 std::vector<Eigen::Vector3d> carried(const std::vector<Eigen::Vector3d>& points, const MovedSkin& skin);

@@ -62,8 +62,13 @@ class Reader {
 
   geometry::TriangleMesh mesh() {
     const Json& scenes = array("scenes");
-    if (scenes.empty()) {
-      for (std::size_t n = 0; n < array("nodes").size(); ++n) add_node(n, Eigen::Affine3d::Identity(), 0);
+    if (scenes.empty()) {  // whatever is nobody's child
+      std::vector<char> is_child(array("nodes").size(), 0);
+      for (const Json& node : array("nodes"))
+        for (const Json& child : list(node, "children"))
+          if (const std::size_t n = index(child); n < is_child.size()) is_child[n] = 1;
+      for (std::size_t n = 0; n < is_child.size(); ++n)
+        if (!is_child[n]) add_node(n, Eigen::Affine3d::Identity(), 0);
     } else {
       const Json& scene = at(scenes, root_.contains("scene") ? number(root_, "scene") : 0);
       for (const Json& node : list(scene, "nodes")) add_node(index(node), Eigen::Affine3d::Identity(), 0);

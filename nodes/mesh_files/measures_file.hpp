@@ -29,7 +29,7 @@ struct MeasureEntry {
 
 /// A body under a garment. Holds references only. Metres, scan frame.
 struct WornBody {
-  const std::vector<Eigen::Vector3d>& skin;  ///< one per vertex of the body
+  const std::vector<Eigen::Vector3d>& skin;  ///< one per vertex of the body, in the scan's posture
   const std::vector<geometry::ChangedMeasure>&heights, &girths;
 };
 

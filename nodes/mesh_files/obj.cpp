@@ -4,6 +4,7 @@
 
 #include "geometry/status.hpp"
 #include "mesh_files/formats.hpp"
+#include "mesh_files/number_from.hpp"
 
 namespace tensegric_fit::mesh_files {
 namespace {
@@ -51,7 +52,7 @@ Eigen::Vector3d vertex_from(Lines& lines, const std::string& path) {
   Eigen::Vector3d p;
   for (int axis = 0; axis < 3; ++axis) {
     const std::string_view word = lines.word();
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), p[axis]);
+    const auto [end, error] = number_from(word.data(), word.data() + word.size(), p[axis]);
     if (word.empty() || error != std::errc() || end != word.data() + word.size())
       throw Refusal(refusal::kBrokenFile, lines.where(path) + " has no three coordinates");
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
@@ -11,6 +10,7 @@
 
 #include "geometry/status.hpp"
 #include "mesh_files/formats.hpp"
+#include "mesh_files/number_from.hpp"
 
 namespace tensegric_fit::mesh_files {
 namespace {
@@ -118,7 +118,7 @@ std::vector<Eigen::Vector3d> read_xyz(const std::string& path) {
       if (word == std::string_view::npos) break;
       is_empty = false;
       line = line.substr(word);
-      const auto [stop, error] = std::from_chars(line.data(), line.data() + line.size(), p[axis]);
+      const auto [stop, error] = number_from(line.data(), line.data() + line.size(), p[axis]);
       if (error != std::errc()) break;
       line = line.substr(stop - line.data());
     }

@@ -1,11 +1,11 @@
 // STL, binary and ASCII. The file's length says which: binary files often begin with "solid", too.
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <string_view>
 
 #include "geometry/status.hpp"
 #include "mesh_files/formats.hpp"
+#include "mesh_files/number_from.hpp"
 
 namespace tensegric_fit::mesh_files {
 namespace {
@@ -51,7 +51,7 @@ geometry::TriangleMesh ascii(std::string_view rest, const std::string& path) {
     Eigen::Vector3d p;
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view number = word();
-      const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), p[axis]);
+      const auto [end, error] = number_from(number.data(), number.data() + number.size(), p[axis]);
       if (number.empty() || error != std::errc() || end != number.data() + number.size()) throw broken;
     }
     mesh.vertices.push_back(p);

@@ -1,5 +1,7 @@
 #include "reconstruction/reconstruct.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -73,7 +75,10 @@ PointCloud above(const PointCloud& cloud, double height) {
 PointCloud without_surplus(PointCloud scan, const Options& options) {
   scan = merged(scan, kDuplicate);
   if (scan.points.size() < static_cast<std::size_t>(options.min_points))
-    throw geometry::Refusal(geometry::refusal::kTooFewPoints, "most points of the scan are duplicates");
+    throw geometry::Refusal(
+        geometry::refusal::kTooFewPoints,
+        fmt::format("without duplicates (closer than {:g} mm) the scan has {} points, {} are needed",
+                    1000 * kDuplicate, scan.points.size(), options.min_points));
   for (double cube = 1.5 * kDuplicate; scan.points.size() > kEnoughPoints && cube < kCoarsest; cube *= 1.5)
     scan = merged(scan, cube);
   return scan;

@@ -22,6 +22,8 @@ Eigen::Isometry3d isometry_in(const Landmarks::_body_from_scan_type& rows) {
   const bool rigid = isometry.matrix().allFinite() && turn.isUnitary(1e-6) && turn.determinant() > 0 &&
                      isometry.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1);
   if (!rigid) throw Refusal(geometry::refusal::kBadMesh, "body_from_scan is not a rigid motion");
+  if (isometry.translation().cwiseAbs().maxCoeff() > kFarthest)
+    throw Refusal(geometry::refusal::kBadMesh, "body_from_scan moves by 10,000 km");
   return isometry;
 }
 
@@ -143,6 +145,8 @@ geometry::BodyMeasures measures_in(const Landmarks& message) {
     const Eigen::Vector3d position = Eigen::Vector3d::Map(point.position.data());
     if (!position.allFinite())
       throw Refusal(geometry::refusal::kNonFinite, "landmark '" + point.name + "' is not finite");
+    if (position.cwiseAbs().maxCoeff() > kFarthest)
+      throw Refusal(geometry::refusal::kBadMesh, "landmark '" + point.name + "' is 10,000 km away");
     measures.landmarks.push_back({point.name, position, point.confidence, point.reason});
   }
   measures.heights = measures_from(message.heights);
@@ -151,6 +155,11 @@ geometry::BodyMeasures measures_in(const Landmarks& message) {
     measures.loops.push_back({girth.name, points_in(girth.points)});
   for (const Missing& missing : message.missing) measures.missing.push_back({missing.name, missing.reason});
   return measures;
+}
+
+geometry::BoneFrames bones_of(const FitState& fit, const geometry::BodyMeasures& measures) {
+  if (fit.twist == 0 && fit.side_lean == 0) return {};  // which no measures are needed for
+  return {measures, {fit.twist, fit.side_lean}};
 }
 
 ControlMesh to_message(const ScanTag& tag, const geometry::ControlMesh& control) {

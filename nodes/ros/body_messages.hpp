@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tensegric_fit/ControlMesh.h>
+#include <tensegric_fit/FitState.h>
 #include <tensegric_fit/Landmarks.h>
 #include <tensegric_fit/TriangleMesh.h>
 
@@ -10,6 +11,7 @@
 #include "geometry/body_measures.hpp"
 #include "geometry/control_mesh.hpp"
 #include "geometry/fracture.hpp"
+#include "geometry/posture.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "ros/scan_tag.hpp"
 
@@ -32,6 +34,9 @@ Landmarks to_message(const ScanTag& tag, const geometry::BodyMeasures& measures)
 
 /// \throw Refusal non_finite, bad_mesh: a transform that is not rigid
 geometry::BodyMeasures measures_in(const Landmarks& message);
+
+/// The posture in which a fit is worn. \throw Refusal as BoneFrames
+geometry::BoneFrames bones_of(const FitState& fit, const geometry::BodyMeasures& measures);
 
 ControlMesh to_message(const ScanTag& tag, const geometry::ControlMesh& control);
 

@@ -74,7 +74,7 @@ std::vector<FileContent> contents_of(const FitFigures& figures) {
   constexpr auto kExact = geometry::Coordinates::float64;
   const geometry::TriangleMesh rest = in_body_frame(figures.body, figures),
                                worn = in_body_frame(deformed, figures);
-  const mesh_files::WornBody worn_body{figures.deformed, figures.heights, figures.girths};
+  const mesh_files::WornBody worn_body{figures.in_scan_posture, figures.heights, figures.girths};
   const auto measures = mesh_files::measure_entries(figures.body, figures.measures, &worn_body);
   const inspect::FitScene scene = scene_of(figures);
   const FileContent front = png("front.png", inspect::front_picture(scene)),

@@ -75,9 +75,12 @@ FitFigures figures_of(const FittedScan& scan) {
   figures.measures = measures_in(*scan.landmarks);
   check_sizes(figures);
   check_finite(figures);
-  const geometry::MovedSkin skin{figures.body, figures.deformed};
+  figures.in_scan_posture =
+      geometry::in_scan_posture(figures.body, figures.deformed, bones_of(*scan.fit, figures.measures));
+  const geometry::MovedSkin skin{figures.body, figures.in_scan_posture};
   figures.heights = geometry::heights_after(figures.measures, skin);
   figures.girths = geometry::girths_after(figures.measures, skin);
+  figures.bust_points = geometry::bust_points_apart(figures.measures, skin);
   add_sizes(figures);
   return figures;
 }

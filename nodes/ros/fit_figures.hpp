@@ -38,18 +38,21 @@ struct FittedScan {
 struct FitFigures {
   FittedScan scan;
   geometry::TriangleMesh body;
-  std::vector<Eigen::Vector3d> deformed;  ///< one per vertex of `body`
-  std::vector<double> distortion;         ///< one per vertex of `body`
+  std::vector<Eigen::Vector3d> deformed;         ///< one per vertex of `body`
+  std::vector<Eigen::Vector3d> in_scan_posture;  ///< `deformed`, without the posture in which it is worn
+  std::vector<double> distortion;                ///< one per vertex of `body`
   geometry::ControlMesh control;
   std::vector<Eigen::Vector3d> control_deformed;  ///< one per outer node
   geometry::BodyMeasures measures;
-  std::vector<geometry::ChangedMeasure> heights, girths;
-  std::vector<inspect::BraSize> sizes;         ///< bra_sizes of the body before
-  bool head = true;                            ///< false: `body` and what goes with it have none
-  std::optional<inspect::BraSize> size_after;  ///< of the girths with the garment on
+  std::vector<geometry::ChangedMeasure> heights, girths;  ///< in the scan's posture
+  std::optional<geometry::ChangedMeasure> bust_points;    ///< their distance
+  std::vector<inspect::BraSize> sizes;                    ///< bra_sizes of the body before
+  bool head = true;                                       ///< false: `body` and what goes with it have none
+  std::optional<inspect::BraSize> size_after;             ///< of the girths with the garment on
 };
 
-/// \throw Refusal bad_mesh, non_finite: arrays that do not fit each other, or a number that is not finite
+/// \throw Refusal bad_mesh, non_finite: arrays that do not fit each other, or a number that is not finite; as
+/// BoneFrames, where the fit is in a posture
 FitFigures figures_of(const FittedScan& scan);
 
 }  // namespace tensegric_fit::node

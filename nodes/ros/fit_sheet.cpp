@@ -72,7 +72,7 @@ std::string first_rows(const FitFigures& figures) {
   for (const ChangedMeasure& measure : figures.heights)
     if (measure.before.name == "bust" && measure.after)
       rows += row({"lift of the bust, mm", "", "", fmt::format("{:+.0f}", 1e3 * measure.change() + 0.0)});
-  if (const auto apart = geometry::bust_points_apart(figures.measures, {figures.body, figures.deformed}))
+  if (const auto& apart = figures.bust_points)
     rows += row({"bust points apart, cm", centimetres(apart->before.metres), centimetres(*apart->after),
                  inspect::words::centimetre_change(apart->change())});
   return rows;

@@ -67,8 +67,8 @@ void Forgetter::let_go() {
   done.removed = {"what it held, and its latched messages"};
   answer(*order_, done);
   order_.reset();
-  for (const ros::WallTime end = ros::WallTime::now() + kOrdererPatience;
-       ros::ok() && !go_on_ && ros::WallTime::now() < end;)
+  for (const ros::SteadyTime end = ros::SteadyTime::now() + kOrdererPatience;
+       ros::ok() && !go_on_ && ros::SteadyTime::now() < end;)
     call_callbacks();
 }
 

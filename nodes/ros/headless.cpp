@@ -65,6 +65,7 @@ FitFigures headless(FitFigures figures) {
       });
   figures.body = {cut.of(figures.body.vertices), cut.triangles};
   figures.deformed = cut.of(figures.deformed);
+  figures.in_scan_posture = cut.of(figures.in_scan_posture);
   figures.distortion = cut.of(figures.distortion);
   for (geometry::FitWarning& warning : figures.scan.warnings) {
     std::vector<int> left;

@@ -96,6 +96,7 @@ class FitPanel : public rviz::Panel {
   void follow_view();
   void show_state();
   void show_age(const PipelineWatch::State& state);
+  std::vector<Eigen::Vector3d> without_posture(const std::vector<Eigen::Vector3d>& worn) const;
   std::string extreme_skin(bool tightest) const;             // a sentence, "" where it bears it
   void answer(const std::string& words, bool done = false);  // to the clerk, and to the log
 

@@ -1,9 +1,12 @@
 #include <algorithm>
 
 #include "geometry/fit_warning.hpp"
+#include "geometry/moved_skin.hpp"
+#include "geometry/status.hpp"
 #include "inspect/panel_words.hpp"
 #include "inspect/pointing.hpp"
 #include "inspect/pressure_words.hpp"
+#include "ros/body_messages.hpp"
 #include "ros/line_force.hpp"
 #include "ros/log_words.hpp"
 #include "rviz/fit_panel.hpp"
@@ -107,11 +110,21 @@ void FitPanel::show_girths() {
   if (!new_girths_ || body_.empty() || measured_scan_ != body_.scan_id()) return;
   new_girths_ = false;
   follow_view();
-  const std::vector<Eigen::Vector3d> worn = body_.vertices(1);
+  const std::vector<Eigen::Vector3d> worn = without_posture(body_.vertices(1));
   table_->show_measures(measures_, {body_.mesh(), worn});
 
   const std::string pressed = extreme_skin(true), stretched = extreme_skin(false);
   show_words(tightness_, pressed + (pressed.empty() || stretched.empty() ? "" : " ") + stretched);
+}
+
+// As in the scan's posture: what the garment alone does.
+std::vector<Eigen::Vector3d> FitPanel::without_posture(const std::vector<Eigen::Vector3d>& worn) const {
+  if (!fitted_ || fitted_->scan_id != body_.scan_id()) return worn;
+  try {
+    return geometry::in_scan_posture(body_.mesh(), worn, node::bones_of(*fitted_, measures_));
+  } catch (const geometry::Refusal&) {  // it cannot be of these measures
+    return worn;
+  }
 }
 
 std::string FitPanel::extreme_skin(bool tightest) const {

@@ -34,7 +34,7 @@ void CoarseFitter::take(const geometry::ControlMesh& coarse, const geometry::Con
                         const geometry::BodyMeasures* measures,
                         std::function<geometry::TriangleMesh()> body) {
   skin_.reset();
-  fitter_.take(coarse, measures, std::move(body));
+  fitter_.take("", coarse, measures, std::move(body));
   fine_ = fine;
   bones_ = measures ? geometry::BoneFrames(*measures, posture_) : geometry::BoneFrames();
   skin_ = bind_body_([nodes = geometry::TriangleMesh{fine.outer, fine.triangles}] { return nodes; }, coarse,

@@ -25,6 +25,8 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 TensionLaw law_in(const GarmentLine& line) {
   TensionLaw law;
+  if (line.law.empty() && (line.stiffness != 0 || !line.stretch.empty() || !line.tension.empty()))
+    refuse(line, "has a stiffness or a table, and no 'law' that says so");
   if (line.law.empty() || line.law == GarmentLine::RIGID) return law;
   if (line.law == GarmentLine::STIFFNESS) {
     if (line.stiffness == 0) refuse(line, "law 'stiffness' needs a stiffness");
@@ -196,6 +198,8 @@ FitState to_message(const FitName& name, const tensegric::Solution& solution, do
     message.volume_errors.push_back(region.volume_error);
     message.regions.push_back(std::move(result));
   }
+  if (!solution.history.empty())
+    message.volume_errors = solution.history.back().volume_errors;  // of what is kept
   return message;
 }
 
@@ -214,13 +218,12 @@ FitState to_message(const FitName& name, const tensegric::Iterate& iterate,
   return message;
 }
 
-LineForces forces_message(const FitName& name, const tensegric::Model& model,
-                          const tensegric::Solution& solution) {
+LineForces forces_message(const FitName& name, const tensegric::Solution& solution) {
   LineForces message;
   message.header = name.tag.header;
   message.scan_id = name.tag.scan_id;
   message.garment = name.garment;
-  if (model.options.uniform || name.solver != tensegric::SolverName::equilibrium) return message;
+  if (!solution.calibrated) return message;
   for (const tensegric::LineResult& line : solution.lines) {
     message.lines.push_back(line.name);
     message.tension.push_back(line.tension);

@@ -53,8 +53,7 @@ FitState to_message(const FitName& name, const tensegric::Iterate& iterate,
                     double milliseconds);
 
 /// Forces of the lines in a fit that has ended, as far as they were calibrated.
-LineForces forces_message(const FitName& name, const tensegric::Model& model,
-                          const tensegric::Solution& solution);
+LineForces forces_message(const FitName& name, const tensegric::Solution& solution);
 
 /// Where the bands of a fit that has ended lie. \pre fibres of a line have as many points at rest as worn
 BandShapes bands_message(const FitName& name, const tensegric::Solution& solution);

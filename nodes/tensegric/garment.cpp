@@ -99,6 +99,7 @@ GarmentLine read_line(const YAML::Node& node, const std::string& where) {
     line.tension_limit =
         geometry::number_in(node, "tension_limit", kTension.low, kTension.high, where, kBadGarment);
   line.through = words(node, "through", where);
+  if (node["through"] && line.through.empty()) refuse(where, "'through' is empty");
   line.fan = words(node, "fan", where);
   if (node["fan"] && line.fan.empty()) refuse(where, "'fan' is empty");
   const auto follow = geometry::optional<std::string>(node, "follow", "skin", where, kBadGarment);
@@ -154,6 +155,10 @@ void check_line(GarmentLine& line, const std::string& where) {
   for (const Eigen::Vector3d& point : line.points)
     if (!point.allFinite()) refuse(where, "'points' are not all finite");
   check("width", line.width, kLineWidth, where);
+  if (line.taut && line.through.empty() && !line.on_body())
+    refuse(where,
+           "'follow' says 'taut', which a string of the template's own course cannot be: give its nodes by "
+           "'through'");
   check("smooth", line.smooth, kLineWidth, where);
   if (!line.fan.empty() && line.width == 0) refuse(where, "'fan' needs a 'width' above 0, where it begins");
   if (line.smooth > 0 && !line.on_body())

@@ -4,10 +4,11 @@
 
 namespace tensegric_fit::tensegric {
 
-void GarmentFitter::check(const Garment& garment) const {
+void GarmentFitter::check(const Garment& garment, const std::string& scan_id) const {
   SolverOptions options = options_.solver;
   options.volume = KeptVolume::control;  // which volume is kept makes no garment good or bad
-  if (const auto known = wearer()) lay_garment(known->model, garment, options, {}, known->body->lay(garment));
+  if (const auto known = wearer(); known && known->scan_id == scan_id)
+    lay_garment(known->model, garment, options, {}, known->body->lay(garment));
 }
 
 std::optional<Solution> GarmentFitter::fit(const Garment& garment, SolverName solver, int rest,
@@ -47,13 +48,15 @@ std::shared_ptr<const GarmentFitter::Wearer> GarmentFitter::wearer() const {
   return wearer_;
 }
 
-void GarmentFitter::take(const geometry::ControlMesh& control, const geometry::BodyMeasures* measures,
+void GarmentFitter::take(const std::string& scan_id, const geometry::ControlMesh& control,
+                         const geometry::BodyMeasures* measures,
                          std::function<geometry::TriangleMesh()> body) {
   const geometry::BoneFrames bones =
       measures ? geometry::BoneFrames(*measures, options_.posture) : geometry::BoneFrames();
   const bool knows_skin = static_cast<bool>(body);
-  const std::shared_ptr<const Wearer> wearer(new Wearer{
-      build_model(control, options_.model), bind_body_(std::move(body), control, bones, options_.beta)});
+  const std::shared_ptr<const Wearer> wearer(
+      new Wearer{scan_id, build_model(control, options_.model),
+                 bind_body_(std::move(body), control, bones, options_.beta)});
   const bool keeps_body = options_.solver.volume == KeptVolume::body;
   std::vector<PosedVolume> body_volumes;
   if (keeps_body) body_volumes = wearer->body->volumes();

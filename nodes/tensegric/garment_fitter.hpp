@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,17 +31,17 @@ class GarmentFitter {
   GarmentFitter(const FitterOptions& options, BindBody bind_body)
       : options_(options), bind_body_(std::move(bind_body)) {}
 
-  /// Whether the garment can be laid on the newest body; any garment can where there is none yet. For any
+  /// Whether the garment can be laid on that body; nothing is checked where another was taken last. For any
   /// thread. \throw Refusal unknown_line, bad_garment
-  void check(const Garment& garment) const;
+  void check(const Garment& garment, const std::string& scan_id) const;
 
   // What follows is for one thread.
 
   /// The next garments are fitted to this control mesh. `measures` are needed for a posture, else null;
   /// `body` makes the mesh of the same scan where it is asked for; null: strings alone, and nothing is known
   /// of the skin. \throw Refusal as build_model: the mesh before stays
-  void take(const geometry::ControlMesh& control, const geometry::BodyMeasures* measures,
-            std::function<geometry::TriangleMesh()> body);
+  void take(const std::string& scan_id, const geometry::ControlMesh& control,
+            const geometry::BodyMeasures* measures, std::function<geometry::TriangleMesh()> body);
 
   /// `rest` counts how often a start from rest was asked for: only a solution of the same count is started
   /// from, so that none of them is lost where a fit is left out or stopped. Nothing where `progress` stopped
@@ -52,6 +53,7 @@ class GarmentFitter {
 
  private:
   struct Wearer {
+    std::string scan_id;
     Model model;
     std::unique_ptr<const BodyUnderGarment> body;
   };

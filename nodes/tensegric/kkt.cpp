@@ -12,6 +12,7 @@ namespace tensegric_fit::tensegric {
 namespace {
 
 constexpr int kMostTries = 12;
+constexpr double kEigenvalueRounding = 1e-12;             // of the largest eigenvalue
 constexpr double kLeastTakenBack = 1.0 / 1024;            // of the negative parts
 constexpr double kTakenChange = 4, kRaiseChange = 8;      // from one try to the next
 constexpr double kFirstRaise = 1e-3, kLeastRaise = 1e-9;  // of the diagonal / spring of a part
@@ -130,8 +131,9 @@ void Kkt::assemble(const Balance& at, const std::vector<StraightPush>& lines, do
                        -whole * at.pressures[r] / problem_.volumes[r].area, hessian_);
 }
 
-// Factorises and forms the Schur complement; true where the balance is a minimum under its conditions: by the
-// law of inertia, where the matrix has as many negative pivots as the complement has negative eigenvalues.
+// Factorises and forms the Schur complement (without conditions that nothing can move); true where the
+// balance is a minimum under its conditions: by the law of inertia, where the matrix has as many negative
+// pivots as the complement has negative eigenvalues.
 bool Kkt::factorise(const Balance& at, const Load& load, const KktResidual& defect) {
   usable_ = factor_.factorise(hessian_);
   ++factorisations_;
@@ -161,14 +163,17 @@ bool Kkt::factorise(const Balance& at, const Load& load, const KktResidual& defe
   if (negative == 0) return true;
   std::vector<int> kept;
   for (int i = 0; i < count; ++i)
-    if (by_length_[i] > 0) kept.push_back(i);
+    if (by_length_[i] > 0 && !(by_multiplier_[i] == 0 && defect.jacobian.col(i).isZero(0))) kept.push_back(i);
   Eigen::MatrixXd compliance(kept.size(), kept.size());
   for (std::size_t i = 0; i < kept.size(); ++i)
     for (std::size_t j = 0; j < kept.size(); ++j)
       compliance(i, j) =
           product(kept[i], kept[j]) + (i == j ? by_multiplier_[kept[i]] / by_length_[kept[i]] : 0);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(compliance, Eigen::EigenvaluesOnly);
-  return (eigen.eigenvalues().array() < 0).count() == negative;
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(compliance, Eigen::EigenvaluesOnly).eigenvalues();
+  // conditions that repeat each other have eigenvalues of 0, but for rounding
+  const double zero = kEigenvalueRounding * values.cwiseAbs().maxCoeff();
+  return (values.array() < -zero).count() == negative;
 }
 
 Step Kkt::step(const Balance& at, const Load& load, const KktResidual& defect, bool to_saddle,

@@ -102,7 +102,11 @@ Problem lay_garment(const Model& model, const Garment& garment, const SolverOpti
                   {}};
   number_free_nodes(problem);
   const Positions at_end = posed(problem, 1);
-  for (Band& band : problem.bands) band.straight = straight_way(model, band, at_end);
+  for (Band& band : problem.bands) {
+    Band carried = band;  // ends that bone holds move with the posture
+    pose_band(carried, problem.rest, options.bones, 1);
+    band.straight = straight_way(model, carried, at_end);
+  }
   problem.units = unit_volumes(model, problem.free_index);
   problem.pressures = unit_pressures(model, problem.free_index);
   for (std::size_t r = 0; r < model.control.regions.size(); ++r) {

@@ -1,5 +1,7 @@
 #include "tensegric/solver.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -30,8 +32,8 @@ void add_sentence(std::string& note, const std::string& sentence) {
   if (!sentence.empty()) note += (note.empty() ? "" : " ") + sentence;
 }
 
-std::string millimetres(double metres) {
-  return std::to_string(std::lround(1000 * metres)) + " mm";
+std::string millimetres(double metres, int digits = 0) {
+  return fmt::format("{:.{}f} mm", 1000 * metres, digits);
 }
 
 // Lines that stayed longer than asked for, and why where it is plain.
@@ -39,9 +41,14 @@ std::string reach_note(const std::vector<LineResult>& lines, const std::vector<B
   std::string note;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const LineResult& line = lines[i];
-    if (bands[i].law.kind != TensionLaw::Kind::rigid || line.final <= line.neutral * (1 + 1e-6)) continue;
-    add_sentence(note, "Line " + line.name + " came down to " + millimetres(line.final) + "; " +
-                           millimetres(line.neutral) + " were asked for.");
+    if (bands[i].law.kind != TensionLaw::Kind::rigid) {
+      if (line.tension >= line.tension_limit) add_sentence(note, "Line " + line.name + " pulls its limit.");
+      continue;
+    }
+    if (line.final <= line.neutral * (1 + 1e-6)) continue;
+    const int digits = millimetres(line.final) == millimetres(line.neutral) ? 3 : 0;
+    add_sentence(note, "Line " + line.name + " came down to " + millimetres(line.final, digits) + "; " +
+                           millimetres(line.neutral, digits) + " were asked for.");
     if (line.neutral < line.straight)
       add_sentence(note, "It is " + millimetres(line.straight) +
                              " straight from one fixed node to the next: no pull makes it shorter.");
@@ -98,6 +105,7 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
     solution.regions.push_back(
         {region.name, region.control_rest, after, control_volume_error(region, after)});
   }
+  solution.calibrated = !problem.model.options.uniform && problem.options.solver == SolverName::equilibrium;
   solution.status = outcome.status;
   solution.iterations = outcome.iterations;
   solution.residual = outcome.residual;

@@ -98,6 +98,8 @@ struct Solution {
   double residual = 0;
   std::vector<Iterate> history;
   std::string note;  ///< a sentence for people where the status or the shape needs one
+  bool calibrated =
+      false;  ///< newtons and pressures mean something: the tissue's constants and `equilibrium`
 };
 
 /// Whether skin over these nodes (scan frame) is turned over: a shape that no body can take.

@@ -99,16 +99,21 @@ std::optional<TensegricHandler::Input> TensegricHandler::newly_complete() {
 }
 
 std::optional<TensegricHandler::Input> TensegricHandler::wear(GarmentRequest request) {
-  fitter_.check(request.garment);
+  check(request.garment);
   worn_ = std::move(request);
   if (!complete()) return std::nullopt;
   return input();
 }
 
 std::optional<TensegricHandler::Input> TensegricHandler::reset() {
-  fitter_.check(first_.garment);
+  check(first_.garment);
   ++rests_;
   return wear(first_);
+}
+
+// Not on the body of the customer before.
+void TensegricHandler::check(const tensegric::Garment& garment) const {
+  if (complete()) fitter_.check(garment, control_->scan_id);
 }
 
 // The body says which scan is the newest: one that was refused later on has no control mesh.
@@ -189,7 +194,8 @@ std::optional<TensegricHandler::Output> TensegricHandler::handle(
   };
   if (input.control != taken_) {
     const auto measures = measures_of(input);
-    fitter_.take(control_in(*input.control), measures ? &*measures : nullptr, body_of(input));
+    fitter_.take(input.control->scan_id, control_in(*input.control), measures ? &*measures : nullptr,
+                 body_of(input));
     taken_ = input.control;
   }
   std::optional<tensegric::Solution> solution = fitter_.fit(request.garment, solver, input.rest, progress);
@@ -198,7 +204,7 @@ std::optional<TensegricHandler::Output> TensegricHandler::handle(
   const auto message = boost::make_shared<FitState>(to_message(name, *solution, milliseconds_since(start)));
   const std::shared_ptr<const tensegric::Model> model = fitter_.model();
   return Output{message,
-                boost::make_shared<LineForces>(forces_message(name, *model, *solution)),
+                boost::make_shared<LineForces>(forces_message(name, *solution)),
                 name,
                 model,
                 std::move(*solution),

@@ -83,6 +83,7 @@ class TensegricHandler {
   static Setup setup_from(Parameters& parameters);
 
   std::optional<Input> wear(GarmentRequest request);
+  void check(const tensegric::Garment& garment) const;
   std::optional<Input> newly_complete();
   bool complete() const;
   Input input() const;

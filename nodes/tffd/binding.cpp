@@ -55,6 +55,19 @@ std::vector<Anchor> anchors_of(const NormalTerms& bound) {
   return anchors;
 }
 
+// Of each triangle two sides and the unit normal.
+std::vector<Eigen::Matrix3d> normal_axes(const std::vector<Eigen::Vector3d>& outer,
+                                         const std::vector<Eigen::Vector3i>& triangles) {
+  std::vector<Eigen::Matrix3d> axes(triangles.size());
+  for (std::size_t t = 0; t < axes.size(); ++t) {
+    const Eigen::Vector3d& p = outer[triangles[t][0]];
+    const Eigen::Vector3d u = outer[triangles[t][1]] - p, v = outer[triangles[t][2]] - p;
+    axes[t] << u, v,
+        u.cross(v).normalized();  // Eigen leaves the zero vector of a collapsed triangle as it is
+  }
+  return axes;
+}
+
 }  // namespace
 
 void check_options(const Options& options) {
@@ -106,6 +119,14 @@ Binding Binding::posed(const geometry::BoneFrames& bones) const {
   Binding other = *this;
   for (auto* points : {&other.vertices_, &other.outer_, &other.inner_})
     for (Eigen::Vector3d& p : *points) p = bones.moved(p);
+  if (bones.still() || setting_ != Setting::paper) return other;
+  const std::vector<Eigen::Matrix3d> axes = normal_axes(other.outer_, triangles_);
+  for (const Anchor& anchor : anchors_)
+    for (int i = terms_.starts[anchor.vertex]; i < terms_.starts[anchor.vertex + 1]; ++i) {
+      NormalTerm& term = other.terms_.terms[i];
+      term.local = axes[term.triangle].inverse() *
+                   (other.vertices_[anchor.vertex] - other.outer_[triangles_[term.triangle][0]]);
+    }
   return other;
 }
 
@@ -144,13 +165,7 @@ void Binding::move_by_weights(const std::vector<Eigen::Vector3d>& outer,
 
 void Binding::move_by_normals(const std::vector<Eigen::Vector3d>& outer,
                               std::vector<Eigen::Vector3d>& moved) const {
-  std::vector<Eigen::Matrix3d> axes(triangles_.size());
-  for (std::size_t t = 0; t < axes.size(); ++t) {
-    const Eigen::Vector3d& p = outer[triangles_[t][0]];
-    const Eigen::Vector3d u = outer[triangles_[t][1]] - p, v = outer[triangles_[t][2]] - p;
-    axes[t] << u, v,
-        u.cross(v).normalized();  // Eigen leaves the zero vector of a collapsed triangle as it is
-  }
+  const std::vector<Eigen::Matrix3d> axes = normal_axes(outer, triangles_);
   for (const Anchor& anchor : anchors_) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int i = terms_.starts[anchor.vertex]; i < terms_.starts[anchor.vertex + 1]; ++i) {

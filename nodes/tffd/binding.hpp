@@ -78,6 +78,8 @@ class Binding {
   const std::vector<Eigen::Vector3d>& outer() const { return outer_; }
   const std::vector<Eigen::Vector3d>& inner() const { return inner_; }
 
+  const std::vector<Eigen::Vector3i>& control_triangles() const { return triangles_; }
+
  private:
   void move_by_weights(const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner,
                        std::vector<Eigen::Vector3d>& moved) const;

@@ -27,11 +27,10 @@ std::vector<double> areas_around(const std::vector<Eigen::Vector3d>& vertices,
 
 }  // namespace
 
-std::vector<double> control_distortion(const geometry::ControlMesh& control,
-                                       const std::vector<Eigen::Vector3d>& outer) {
-  check_count(outer.size(), control.outer.size());
-  const std::vector<double> before = areas_around(control.outer, control.triangles);
-  std::vector<double> ratios = areas_around(outer, control.triangles);
+std::vector<double> control_distortion(const Binding& binding, const std::vector<Eigen::Vector3d>& outer) {
+  check_count(outer.size(), binding.outer().size());
+  const std::vector<double> before = areas_around(binding.outer(), binding.control_triangles());
+  std::vector<double> ratios = areas_around(outer, binding.control_triangles());
   for (std::size_t i = 0; i < ratios.size(); ++i) ratios[i] = before[i] > 0 ? ratios[i] / before[i] : 1;
   return ratios;
 }

@@ -10,7 +10,8 @@
 namespace tensegric_fit::tffd {
 
 /// check_skin, check_crossings, then under_constricted. `scanned`: the skin's places in the scan's posture,
-/// where the lines' courses at rest are; `skin.rest` may be posed. \throw Refusal as both
+/// where the lines' courses at rest and the warnings' places before are; `skin.rest` may be posed. \throw
+/// Refusal as both
 std::vector<geometry::FitWarning> check_garment(const std::vector<Eigen::Vector3d>& scanned,
                                                 const WornSkin& skin, const std::vector<WornLine>& lines,
                                                 const HoldOptions& options);

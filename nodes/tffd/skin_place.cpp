@@ -37,10 +37,11 @@ void take_place(const std::vector<int>& triangles, const WornSkin& skin, geometr
     areas.push_back(geometry::area_vector(skin.rest[t[0]], skin.rest[t[1]], skin.rest[t[2]]).norm() / 2);
     warning.area += areas.back();
   }
+  const std::vector<Eigen::Vector3d>& scanned = skin.scanned != nullptr ? *skin.scanned : skin.rest;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const double share = warning.area > 0 ? areas[i] / warning.area : 1.0 / static_cast<double>(areas.size());
     for (const int v : skin.triangles[triangles[i]]) {
-      warning.at_rest += share / 3 * skin.rest[v];
+      warning.at_rest += share / 3 * scanned[v];
       warning.worn += share / 3 * skin.worn[v];
       warning.vertices.push_back(v);
     }

@@ -27,6 +27,7 @@ struct WornSkin {
   const std::vector<Eigen::Vector3d>& rest;
   const std::vector<Eigen::Vector3d>& worn;
   const std::vector<Eigen::Vector3i>& triangles;
+  const std::vector<Eigen::Vector3d>* scanned = nullptr;  ///< in the scan's posture; null: `rest`
 };
 
 /// Triangles connected by their corners, or by `joined`: one list a place, of numbers in `picked`, ascending;
@@ -35,10 +36,10 @@ std::vector<std::vector<int>> places_of(const std::vector<int>& picked,
                                         const std::vector<Eigen::Vector3i>& triangles,
                                         const std::vector<std::pair<int, int>>& joined = {});
 
-/// Gives a new warning its place: area, middle before and after, vertices of these triangles.
+/// Gives a new warning its place: area, middle as scanned and as worn, vertices of these triangles.
 void take_place(const std::vector<int>& triangles, const WornSkin& skin, geometry::FitWarning& warning);
 
-/// A warning of these triangles: area, middle before and after, vertices, nearest line.
+/// A warning of these triangles: its place and the nearest line.
 geometry::FitWarning warning_at(const char* code, const std::vector<int>& triangles, double value,
                                 const WornSkin& skin, const std::vector<WornLine>& lines);
 

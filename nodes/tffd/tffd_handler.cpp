@@ -30,8 +30,7 @@ std::shared_ptr<const BoundBody> bind(const FittedScan& scan, const tffd::Option
   const double volume = geometry::cone_volume(mesh.vertices, mesh.triangles);
   const geometry::BodyMeasures measures = measures_in(*scan.landmarks);
   const geometry::Posture posture = posture_of(*scan.fit);
-  if (posture.twist != 0 || posture.side_lean != 0)
-    binding = binding.posed(geometry::BoneFrames(measures, posture));
+  binding = binding.posed(bones_of(*scan.fit, measures));
   return std::make_shared<const BoundBody>(BoundBody{scan.body, scan.control, std::move(mesh),
                                                      std::move(control), measures, posture,
                                                      std::move(binding), volume});
@@ -78,7 +77,7 @@ TffdHandler::Output TffdHandler::handle(const Input& input) {
   const std::vector<Eigen::Vector3d> outer = points_in(fit->outer);
   const std::vector<Eigen::Vector3d> vertices = bound_->binding.deform(outer, points_in(fit->inner));
   const std::vector<double> distortion =
-      tffd::body_distortion(bound_->binding, tffd::control_distortion(bound_->control_mesh, outer));
+      tffd::body_distortion(bound_->binding, tffd::control_distortion(bound_->binding, outer));
 
   const auto message = boost::make_shared<DeformedMesh>();
   message->header = fit->header;

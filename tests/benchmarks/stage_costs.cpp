@@ -86,7 +86,7 @@ class Rounds {
     measure("garment_change", kQuick, [&] {
       const tensegric::Solution tighter = tensegric::solve(*model, chest_line(0.93), {}, &worn);
       deformed = binding->deform(tighter.outer, tighter.inner);
-      tffd::body_distortion(*binding, tffd::control_distortion(control, tighter.outer));
+      tffd::body_distortion(*binding, tffd::control_distortion(*binding, tighter.outer));
     });
   }
 

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """fit_without_feet.py FIT STANDING BODY.ply... - how far off the ground is that the model's soles give where a mesh has no feet.
 
-Cuts each body's mesh at three heights above its lowest place, measures it with the program FIT, and compares the height of the bust with
-that of the whole body: the surface there is the same, so what differs is the ground. Writes the root mean square as `without_feet` into
-standing.yaml; prints each error, and how many lie within 1.96 of it with the body itself left out."""
+Cuts each body's mesh above its feet, its shanks or its thighs, measures it with the program FIT, and compares the height of the bust with
+that of the whole body: the surface there is the same, so what differs is the ground. Writes the root mean squares as `without_feet`
+(thighs are there) and `without_thighs` into standing.yaml; prints each error, and how many lie within 1.96 of them with the body itself
+left out."""
 import argparse
 import json
 import pathlib
@@ -17,7 +18,7 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import meshes
 
-CUTS = (0.10, 0.30, 0.50)  # m: ankles, calves, above the knees
+CUTS = {'feet': (0.06, 0.11, 0.25, 0.31), 'thighs': (0.42, 0.46)}  # share of the stature
 
 
 def write_ply(path, vertices, triangles):
@@ -37,7 +38,8 @@ def cut(vertices, triangles, height):
 def bust_height(fit, vertices, triangles):
     with tempfile.TemporaryDirectory() as folder:
         write_ply(folder + '/body.ply', vertices, triangles)
-        subprocess.run([fit, '--mesh', folder + '/body.ply', '--out', folder + '/out', '--quiet'], check=True, stdout=subprocess.DEVNULL)
+        if subprocess.run([fit, '--mesh', folder + '/body.ply', '--up', 'z', '--out', folder + '/out', '--quiet'], check=False, stdout=subprocess.DEVNULL).returncode != 0:
+            return np.nan  # refused: nothing is said of its ground
         return json.loads(pathlib.Path(folder, 'out/report.json').read_text(encoding='utf-8'))['heights']['bust']
 
 
@@ -51,15 +53,18 @@ def main():
     for body in arguments.bodies:
         vertices, triangles = meshes.read_ply(body)
         whole = bust_height(arguments.fit, vertices, triangles)
-        errors.append([bust_height(arguments.fit, *cut(vertices, triangles, height)) - whole for height in CUTS])
-        print(body.stem, *('%+.1f mm' % (1e3 * e) for e in errors[-1]), flush=True)
-    errors = np.array(errors)
-    deviation = np.sqrt((errors ** 2).mean())
-    held = [np.abs(errors[i]) <= 1.96 * np.sqrt((np.delete(errors, i, 0) ** 2).mean()) for i in range(len(errors))]
-    print('root mean square %.1f mm, mean %+.1f mm; within 1.96 of it, left out: %.0f %%' % (1e3 * deviation, 1e3 * errors.mean(), 100 * np.mean(held)))
-    text = arguments.standing.read_text(encoding='utf-8')
-    arguments.standing.write_text(re.sub(r'without_feet: .*', 'without_feet: %.4f    # m; fit_without_feet.py, %d bodies cut at %d heights'
-                                         % (deviation, len(errors), len(CUTS)), text), encoding='utf-8')
+        stature = np.ptp(vertices[:, 2])
+        errors.append([[bust_height(arguments.fit, *cut(vertices, triangles, share * stature)) - whole for share in CUTS[what]] for what in CUTS])
+        print(body.stem, *('%+.1f' % (1e3 * e) for cuts in errors[-1] for e in cuts), 'mm', flush=True)
+    text = re.sub(r'^without_.*\n', '', arguments.standing.read_text(encoding='utf-8'), flags=re.MULTILINE)
+    for k, what in enumerate(CUTS):
+        own = np.array([of_body[k] for of_body in errors])  # body, cut
+        held = [np.abs(own[i]) <= 1.96 * np.sqrt(np.nanmean(np.delete(own, i, 0) ** 2)) for i in range(len(own))]
+        print('%s: root mean square %.1f mm, mean %+.1f mm; within 1.96 of it, left out: %.0f %%'
+              % (what, 1e3 * np.sqrt(np.nanmean(own ** 2)), 1e3 * np.nanmean(own), 100 * np.mean(held)))
+        text += 'without_%s: %.4f    # m; fit_without_feet.py, %d bodies cut at %d heights\n' % (
+            what, np.sqrt(np.nanmean(own ** 2)), len(own), len(CUTS[what]))
+    arguments.standing.write_text(text, encoding='utf-8')
 
 
 if __name__ == '__main__':

@@ -28,7 +28,10 @@ Json json_of(const Eigen::Vector3d& p) {
 }
 
 Json json_of(const body_model::Stance& stance) {
-  return {{"up", json_of(stance.up)}, {"forward", json_of(stance.forward)}, {"soles", json_of(stance.soles)}};
+  return {{"up", json_of(stance.up)},
+          {"forward", json_of(stance.forward)},
+          {"legs", json_of(stance.legs)},
+          {"soles", json_of(stance.soles)}};
 }
 
 Json readings_of(const landmarks::Reading& reading, const body_model::RegisteredBody& model) {
@@ -102,10 +105,14 @@ int main(int argc, char** argv) {
                                         body_model::shipped_registrar().standing());
   std::set<std::string> known;
   std::ifstream before(out);
+  std::uintmax_t whole = 0;  // bytes
   for (std::string line; std::getline(before, line);) {
+    if (before.eof()) break;  // it was cut short when a run was ended
+    whole += line.size() + 1;
     const Json read = Json::parse(line);
     if (read.value("cut", 0) == components) known.insert(read.at("name"));
   }
+  if (before.is_open() && std::filesystem::file_size(out) > whole) std::filesystem::resize_file(out, whole);
   const std::string ending = kind == "mesh" ? "_body.ply" : "_scan.ply";
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

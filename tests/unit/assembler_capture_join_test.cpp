@@ -88,6 +88,16 @@ TEST(CaptureJoinTest, ARecordingPlayedAgainIsSaidForEverySensor) {
   EXPECT_FALSE(join.next(100));
 }
 
+TEST(CaptureJoinTest, NoPointsAreKeptOfACaptureThatHasLeft) {
+  CaptureJoin join(1, {0.2, 2.0});
+  auto sent = cloud(0);
+  const std::weak_ptr<const assembler::SensorCloud> points = sent;
+  join.add(0, std::move(sent), 0);
+  EXPECT_TRUE(join.next(0).value().clouds[0] == points.lock());
+  EXPECT_TRUE(points.expired());
+  EXPECT_EQ(join.add(0, cloud(0), 1), Fate::played);
+}
+
 TEST(CaptureJoinTest, ARecordingThatStartsOverIsTakenAgain) {
   CaptureJoin join(2, {0.1, 2.0});
   for (const double at : {0.0, 100.0, 0.0}) {

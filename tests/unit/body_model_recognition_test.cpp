@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 
 #include "body_model/recognition.hpp"
 #include "body_model/registration.hpp"
@@ -168,6 +169,24 @@ TEST(Recognition, LimbsThatAreNotThereAreNamed) {
   ASSERT_EQ(names_of(arm), Names({"upper_arm_R"}));
   for (const char* hangs_on_it : {"forearm_R", "hand_R"})
     EXPECT_NE(arm.front().reason.find(hangs_on_it), std::string::npos) << arm.front().reason;
+}
+
+// The model's arm may then lie on the trunk, where skin is.
+TEST(Recognition, AnArmThatIsNotThereIsNamedWhateverHerShape) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  for (int n = 0; n < 4; ++n) {
+    virtual_body::ModelBodyParameters parameters;
+    parameters.shape = Eigen::VectorXd::Zero(model().components());
+    for (int k = 0; k < 8; ++k) parameters.shape[k] = normal(random);
+    parameters.arms = {25 * kDegree, 25 * kDegree};
+    const TriangleMesh whole{virtual_body::stand(model(), parameters).vertices, model().triangles};
+    const RegisteredBody body = register_mesh(shipped_registrar(), without(whole, [](int v, const Vector3d&) {
+                                                return is_of(v, {"upper_arm_L", "forearm_L", "hand_L"});
+                                              }));
+    EXPECT_EQ(names_of(missing_parts(body)), Names({"upper_arm_L"})) << "seed 7, woman " << n;
+    EXPECT_LT(std::acos(std::min(1.0, body.vertical.z())), 1e-9) << n;
+  }
 }
 
 TEST(Recognition, HalvesOfAWomanAreRegisteredInHerSizeAndNamed) {

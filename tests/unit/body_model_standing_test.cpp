@@ -20,6 +20,8 @@ RegisteredBody tilted(double angle) {
   body.posed = body.skin = posed.vertices();
   for (std::size_t bone = 0; bone < body.model->bones.size(); ++bone)
     body.joints.push_back(posed.joint(static_cast<int>(bone)));
+  body.off.assign(body.skin.size(), 0);
+  body.support = body.off;  // all of her is there
   body.vertical = Eigen::AngleAxisd(angle, Vector3d::UnitY()) * body.vertical;
   return body;
 }
@@ -31,6 +33,61 @@ double off(const Vector3d& a, const Vector3d& b) {
 TEST(Standing, KeepsTheVerticalOfALevelScan) {
   const RegisteredBody body = tilted(0);
   EXPECT_LT(off(upright(body, shipped_registrar().standing()), body.vertical), 1e-9);
+}
+
+/// As if no sample were there.
+void take_away(RegisteredBody& body, const std::vector<std::string>& parts) {
+  for (std::size_t v = 0; v < body.skin.size(); ++v)
+    if (std::count(parts.begin(), parts.end(), body.model->parts[body.model->part[v]]) > 0)
+      body.support[v] = body.off[v] = 1;
+}
+
+// What the model has for legs that were not seen may stand anyhow.
+TEST(Standing, LegsThatAreNotThereShowNothing) {
+  const std::vector<std::vector<std::string>> lacking = {
+      {"thigh_L", "shank_L", "foot_L"},
+      {"shank_R", "foot_R"},
+      {"thigh_L", "shank_L", "foot_L", "thigh_R", "shank_R", "foot_R"}};
+  for (const auto& parts : lacking) {
+    RegisteredBody body = tilted(6 * M_PI / 180);
+    take_away(body, parts);
+    EXPECT_LT(off(upright(body, shipped_registrar().standing()), body.vertical), 1e-9) << parts.front();
+  }
+  RegisteredBody body = tilted(6 * M_PI / 180);
+  take_away(body, {"foot_L"});
+  EXPECT_LT(off(upright(body, shipped_registrar().standing()), Vector3d::UnitZ()) * 180 / M_PI, 1.5);
+}
+
+TEST(Standing, TheGroundIsLessSureWithoutFeetAndLessStillWithoutLegs) {
+  const Standing& standing = shipped_registrar().standing();
+  RegisteredBody body = tilted(0);
+  double before = standing.ground;
+  for (const auto& parts :
+       {std::vector<std::string>{"foot_L", "foot_R"}, {"shank_L", "shank_R", "thigh_L", "thigh_R"}}) {
+    take_away(body, parts);
+    const Ground ground = ground_without_feet(body, standing);
+    EXPECT_GT(ground.deviation, before) << parts.front();
+    before = ground.deviation;
+  }
+}
+
+TEST(Standing, AFootThatIsNotThereDoesNotSayWhereTheGroundIs) {
+  const Standing& standing = shipped_registrar().standing();
+  RegisteredBody body = tilted(0);
+  const double ground = ground_without_feet(body, standing).height;
+  for (std::size_t v = 0; v < body.posed.size(); ++v)
+    if (body.model->parts[body.model->part[v]] == "foot_L") body.posed[v].z() += 0.05;
+  EXPECT_NEAR(ground_without_feet(body, standing).height, ground + 0.025, 0.002);
+  take_away(body, {"foot_L"});
+  EXPECT_NEAR(ground_without_feet(body, standing).height, ground, 0.002);
+}
+
+TEST(Standing, WhereTheLowestOfTheFeetWasNotSeenTheGroundIsUnsure) {
+  const Standing& standing = shipped_registrar().standing();
+  const RegisteredBody body = tilted(0);
+  const double ground = ground_without_feet(body, standing).height;
+  EXPECT_EQ(deviation_of_ground(body, ground + 0.005, 0, standing), 0);
+  EXPECT_NEAR(deviation_of_ground(body, ground + 0.03, 0, standing), 0.015, 1e-9);
 }
 
 TEST(Standing, StraightensATiltedScan) {

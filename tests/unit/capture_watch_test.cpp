@@ -146,6 +146,34 @@ TEST_F(CaptureWatchTest, ARefusalBeforeThereIsAScanCountsOnceAndOnlyWhenItIsNew)
   ASSERT_TRUE(say("landmarks", "refused", "old", 1, "not_a_body"));  // of a scan that was under way
   other.add_refusal(*board_.find("landmarks"));
   EXPECT_EQ(code(other), "under way");
+  ASSERT_TRUE(say("correlation", "refused", "old", 1, "other_pose"));  // of the customer before
+  other.add_refusal(*board_.find("correlation"));
+  EXPECT_EQ(code(other), "under way");
+}
+
+TEST_F(CaptureWatchTest, ARefusalOfWhatCameBeforeItWasAskedForIsNotItsEnd) {
+  CaptureWatch capture({{}, 10, false, 5 * kSecond}, board_, kSlop, 0);
+  ASSERT_TRUE(
+      say("assembler", "refused", "4.900000000", 1, "missing_sensor"));  // of a capture that failed before
+  capture.add_refusal(*board_.find("assembler"));
+  EXPECT_EQ(code(capture), "under way");
+  ASSERT_TRUE(say("assembler", "refused", "6.000000000", 1, "missing_sensor"));
+  capture.add_refusal(*board_.find("assembler"));
+  EXPECT_EQ(code(capture), "missing_sensor");
+}
+
+TEST_F(CaptureWatchTest, AScannerWithAnotherClockIsNamedAndOneWithoutIsTaken) {
+  CaptureWatch capture({{}, 10, false, 5 * kSecond}, board_, kSlop, 0);
+  capture.add_scan("a", 3 * kSecond);
+  say("reconstruction", "waiting", "", 10);
+  say("landmarks", "waiting", "", 10);
+  ASSERT_EQ(code(capture, 10), "timed_out");
+  EXPECT_NE(capture.end(10)->message.find("stamped 2.0 s"), std::string::npos) << capture.end(10)->message;
+  capture.add_scan("b", 0);
+  EXPECT_EQ(capture.scan_id(), "b");
+  CaptureWatch asleep({{}, 10, false, kNever}, board_, kSlop, 0);  // its trigger was not pulled yet
+  asleep.add_scan("c", 0);
+  EXPECT_EQ(asleep.scan_id(), "");
 }
 
 TEST_F(CaptureWatchTest, ANewerScanEndsItAndAnOlderOneIsNotTaken) {

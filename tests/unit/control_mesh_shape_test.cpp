@@ -114,12 +114,26 @@ TEST(ShapeControl, SimplifiedToAboutTheTrianglesAskedFor) {
   EXPECT_EQ(refusal_of([&] { control_mesh::simplified_control(lens(0.2), numbered, 200); }), "bad_template");
 }
 
+TEST(ShapeControl, VerticesWithoutATriangleAreNoneOfTheControlMesh) {
+  const TriangleMesh mesh = lens(0.2);
+  TriangleMesh loose = mesh;
+  loose.vertices.insert(loose.vertices.begin() + 3, Vector3d(0, 0, 1));
+  for (Eigen::Vector3i& t : loose.triangles)
+    for (int& v : t) v += v >= 3 ? 1 : 0;
+  const auto control = control_mesh::simplified_control(mesh, behind(-0.3), 200),
+             same = control_mesh::simplified_control(loose, behind(-0.3), 200);
+  EXPECT_EQ(same.outer, control.outer);
+  EXPECT_EQ(same.triangles, control.triangles);
+}
+
 TEST(ShapeControl, RefusalsHaveNames) {
   TriangleMesh inside_out = lens(0.2);
   for (Eigen::Vector3i& t : inside_out.triangles) std::swap(t[1], t[2]);
   EXPECT_EQ(refusal_of([&] { control_mesh::control_from_shape(inside_out, behind(-0.3)); }), "bad_mesh");
   EXPECT_EQ(refusal_of([&] { control_mesh::simplified_control({}, behind(0), 200); }), "bad_mesh");
   EXPECT_EQ(refusal_of([&] { control_mesh::control_from_shape(lens(0.2), behind(-0.6)); }), "bad_template");
+  const TriangleMesh point{std::vector<Vector3d>(9, Vector3d(1, 2, 3)), {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}};
+  EXPECT_EQ(refusal_of([&] { control_mesh::control_from_shape(point, behind(10)); }), "bad_mesh");
   ShapeFixing numbered;
   numbered.nodes = {100000};
   EXPECT_EQ(refusal_of([&] { control_mesh::control_from_shape(lens(0.2), numbered); }), "bad_template");
@@ -138,8 +152,10 @@ TEST(ShapeControl, FilesAreReadWithCare) {
   ASSERT_EQ(fixing.boxes.size(), 1u);
   EXPECT_EQ(fixing.boxes[0][1], Vector3d(3, 4, 5));
   EXPECT_EQ(fixing.thickness, 0.01);
-  for (const char* text : {"colour: red\n", "thickness: 0\n", "boxes: {min: [0, 0, 0]}\n",
-                           "boxes: [{min: [0, 0], max: [1, 1, 1]}]\n", "boxes: [{min: [0, 0, 0]}]\n"})
+  for (const char* text :
+       {"colour: red\n", "thickness: 0\n", "boxes: {min: [0, 0, 0]}\n",
+        "boxes: [{min: [0, 0], max: [1, 1, 1]}]\n", "boxes: [{min: [0, 0, 0]}]\n",
+        "boxes: [{min: [0, 0, 1], max: [1, 1, 0]}]\n", "boxes: [{min: [0, 0, .nan], max: [1, 1, 1]}]\n"})
     EXPECT_EQ(refusal_of([&] { load(text); }), "bad_template") << text;
   std::filesystem::remove(path);
 }

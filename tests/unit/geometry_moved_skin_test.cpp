@@ -108,6 +108,24 @@ TEST_F(MovedSkinTest, ATiltedTapeIsMeasuredInItsOwnPlane) {
   EXPECT_NEAR(girth(after) - measures_.girths[0].metres, -0.1 * 2 * kPi * kTrunk, 4e-5);
 }
 
+TEST_F(MovedSkinTest, APostureIsNoneOfTheGarmentsDoing) {
+  Spine spine;
+  spine.pelvis = 1.05;
+  spine.chest = 1.3;  // the tape lies where it bends
+  const BoneFrames bones(spine, {0.4, 0.35});
+  std::vector<Vector3d> posed = mesh_.vertices;
+  for (Vector3d& p : posed) p = bones.moved(p);
+  EXPECT_GT(girth(posed), 2 * kPi * kTrunk + 0.01);  // cut obliquely
+  const std::vector<Vector3d> back = in_scan_posture(mesh_, posed, bones);
+  EXPECT_NEAR(girth(back), 2 * kPi * kTrunk, 1e-9);
+  EXPECT_NEAR(heights_after(measures_, {mesh_, back}).at(0).after.value(), 1.2, 1e-9);
+  // A garment that takes a tenth of the radius off, worn in that posture.
+  std::vector<Vector3d> worn =
+      moved([](const Vector3d& p) { return Vector3d(0.9 * p.x(), 0.9 * p.y(), p.z()); });
+  for (std::size_t v = 0; v < worn.size(); ++v) worn[v] = bones.frame_at(mesh_.vertices[v]) * worn[v];
+  EXPECT_NEAR(girth(in_scan_posture(mesh_, worn, bones)), 0.9 * 2 * kPi * kTrunk, 1e-3);
+}
+
 TEST_F(MovedSkinTest, HeightsGoWhereTheirLandmarksGo) {
   const auto after =
       moved([](const Vector3d& p) { return p.x() > 0 ? Vector3d(p + Vector3d(0, 0, 0.02)) : p; });

@@ -124,6 +124,22 @@ TEST_F(MeshFile, GltfNodesPlaceMeshesAndDataLieInTheFile) {
       {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
       {"nodes", {{{"mesh", 0}}}}};
   EXPECT_EQ(read_mesh(write("a.gltf", three.dump())).triangles.size(), 1U);
+  three["nodes"] = {{{"children", {1}}, {"translation", {0, 0, 5}}},
+                    {{"mesh", 0}}};  // and no scene says which is first
+  const TriangleMesh nested = read_mesh(write("b.gltf", three.dump()));
+  EXPECT_EQ(nested.triangles.size(), 1U);
+  EXPECT_EQ(nested.vertices[0].z(), 5);
+}
+
+TEST_F(MeshFile, NumbersMayHaveAPlus) {
+  EXPECT_EQ(read_mesh(write("a.obj", "v +1 0 0\nv 0 +1e0 0\nv 0 0 +.5\nf 1 2 3\n")).triangles.size(), 1U);
+  EXPECT_EQ(read_mesh(write("a.stl",
+                            "solid x\nfacet normal 0 0 1\nouter loop\nvertex +1.0e+00 0 0\nvertex 0 +1 0\n"
+                            "vertex 0 0 +1\nendloop\nendfacet\nendsolid\n"))
+                .triangles.size(),
+            1U);
+  EXPECT_EQ(refusal_of("b.obj", "v +-1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"), "broken_file");
+  EXPECT_EQ(refusal_of("c.obj", "v + 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"), "broken_file");
 }
 
 TEST_F(MeshFile, RefusesOddTextFilesByName) {

@@ -69,6 +69,67 @@ TEST_F(CaptureHandlerTest, SecondsThatAreNoNumberDoNotMakeProgress) {
   }
 }
 
+TEST_F(CaptureHandlerTest, NoLandmarksOfAnotherAreKept) {
+  const auto of = [](const std::string& scan_id) {
+    const auto landmarks = boost::make_shared<Landmarks>();
+    landmarks->scan_id = scan_id;
+    return landmarks;
+  };
+  boost::weak_ptr<const Landmarks> before, late, earlier;
+  handler_.begin({}, 0);
+  before = [&] {
+    auto it = of("before");
+    handler_.add(Landmarks::ConstPtr(it));
+    return it;
+  }();
+  EXPECT_FALSE(before.expired());  // may be of the scan that is to come
+  sensor_msgs::PointCloud2 next = scan();
+  next.header.stamp = ros::Time(101, 0);
+  handler_.add(next);
+  EXPECT_TRUE(before.expired());
+  late = [&] {
+    auto it = of("late");
+    handler_.add(Landmarks::ConstPtr(it));
+    return it;
+  }();
+  EXPECT_TRUE(late.expired());
+  earlier = [&] {
+    auto it = of(tag_of(next).scan_id);
+    handler_.add(Landmarks::ConstPtr(it));
+    return it;
+  }();
+  EXPECT_FALSE(earlier.expired());
+  CaptureGoal refused;
+  refused.timeout = -1;
+  EXPECT_THROW(handler_.begin(refused, 0), geometry::Refusal);
+  EXPECT_TRUE(earlier.expired());
+}
+
+TEST(CaptureTrigger, OneThatDoesNotAnswerIsNamed) {
+  for (const std::vector<std::string>& sensors : {std::vector<std::string>{}, {"left"}})
+    for (const bool pulled : {false, true}) {  // not: an earlier call of it is without its answer
+      CaptureHandler handler(Parameters(YAML::Load("{timeout: 5, trigger: scanner/scan}"), "capture"), "/");
+      CaptureGoal goal;
+      goal.sensors = sensors;
+      handler.begin(goal, 0);
+      if (pulled) handler.pulled(100);
+      handler.set_unanswered(true);
+      EXPECT_FALSE(handler.result(4.9));
+      const auto result = handler.result(5.1);
+      ASSERT_TRUE(result);
+      EXPECT_EQ(result->code, "trigger_failed");
+      EXPECT_EQ(result->message.rfind("scanner/scan has not answered", 0), 0u) << result->message;
+    }
+}
+
+TEST(CaptureTrigger, ANameThatNoServiceCanHaveIsRefused) {
+  for (const char* name : {"my-scanner/scan", "a b", "1st"})
+    EXPECT_THROW(
+        CaptureHandler(Parameters(YAML::Load(std::string("{trigger: ") + name + "}"), "capture"), "/"),
+        geometry::Refusal)
+        << name;
+}
+
 TEST_F(CaptureHandlerTest, ATimeoutOutOfRangeIsRefusedAndZeroIsTheNodesOwn) {
   for (const double timeout : {-1.0, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
     CaptureGoal goal;

@@ -27,6 +27,7 @@ TEST(FitMessages, GarmentComesBackAsItWas) {
   elastic.law.stiffness = 2.5;
   elastic.tension_limit = 7;
   elastic.taut = true;
+  elastic.through = {"bust_point_L", "bust_side_L"};
   table.name = "cradle";
   table.law.kind = tensegric::TensionLaw::Kind::table;
   table.law.table = {{1, 0}, {1.2, 3}};
@@ -84,6 +85,9 @@ TEST(FitMessages, ImpossibleGarmentsAreRefusedByName) {
   EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment");
   bad = good;
   bad.lines[0].law = GarmentLine::STIFFNESS;  // and none given
+  EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment");
+  bad = good;
+  bad.lines[0].stiffness = 20;  // and no law
   EXPECT_EQ(code_of([&] { request_in(bad); }), "bad_garment");
   bad = good;
   bad.lines.push_back(good.lines[0]);  // two of one name
@@ -227,9 +231,9 @@ TEST(Messages, ForcesOfLinesAreThoseOfTheirFitAndOfCalibratedTissue) {
   line.pressure = 1700;
   line.initial = line.final = 0.5;
   solution.lines = {line};
-  FitName name{some_tag(), "B1", tensegric::SolverName::equilibrium};
-  tensegric::Model model;
-  const LineForces forces = forces_message(name, model, solution);
+  const FitName name{some_tag(), "B1", tensegric::SolverName::equilibrium};
+  solution.calibrated = true;
+  const LineForces forces = forces_message(name, solution);
   const FitState fit = to_message(name, solution, 1);
   const auto force = force_of(forces, fit, 0);
   ASSERT_TRUE(force);
@@ -247,11 +251,8 @@ TEST(Messages, ForcesOfLinesAreThoseOfTheirFitAndOfCalibratedTissue) {
   broken.newtons = {std::nan("")};
   EXPECT_FALSE(force_of(broken, fit, 0));
 
-  name.solver = tensegric::SolverName::relaxation;
-  EXPECT_TRUE(forces_message(name, model, solution).lines.empty());
-  name.solver = tensegric::SolverName::equilibrium;
-  model.options.uniform = true;
-  EXPECT_TRUE(forces_message(name, model, solution).lines.empty());
+  solution.calibrated = false;
+  EXPECT_TRUE(forces_message(name, solution).lines.empty());
 }
 
 TEST(Messages, FibresOfABandHaveAsManyPoints) {

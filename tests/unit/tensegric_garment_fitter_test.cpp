@@ -20,7 +20,7 @@ class GarmentFitterTest : public testing::Test {
  protected:
   std::string refusal_of(const Garment& garment) const {
     try {
-      fitter_.check(garment);
+      fitter_.check(garment, "a");
     } catch (const geometry::Refusal& refusal) {
       return refusal.code();
     }
@@ -31,10 +31,19 @@ class GarmentFitterTest : public testing::Test {
   GarmentFitter fitter_{FitterOptions(), fit::bind_body};
 };
 
+TEST_F(GarmentFitterTest, AGarmentIsNotCheckedAgainstAnotherBody) {
+  Garment belt = chest(0.9);
+  belt.lines[0].name = "belt";
+  EXPECT_EQ(refusal_of(belt), "accepted");  // there is no body yet
+  fitter_.take("a", control_, nullptr, nullptr);
+  EXPECT_EQ(refusal_of(belt), "unknown_line");
+  EXPECT_NO_THROW(fitter_.check(belt, "b"));
+}
+
 TEST_F(GarmentFitterTest, AStoppedFitIsNoneAndTheNextIsAsIfItHadNotBeen) {
   GarmentFitter undisturbed{FitterOptions(), fit::bind_body};
   for (GarmentFitter* fitter : {&fitter_, &undisturbed}) {
-    fitter->take(control_, nullptr, nullptr);
+    fitter->take("a", control_, nullptr, nullptr);
     ASSERT_TRUE(fit(*fitter, 0.95));
   }
   int steps = 0;
@@ -52,11 +61,11 @@ TEST_F(GarmentFitterTest, ANewBodyIsFittedAsIfItWereTheFirst) {
   geometry::ControlMesh other = control_;
   for (std::size_t v = 0; v < other.outer.size(); ++v)
     if (!other.outer_fixed[v]) other.outer[v] += 0.1 * (other.outer[v] - other.inner[v]);
-  fitter_.take(control_, nullptr, nullptr);
+  fitter_.take("a", control_, nullptr, nullptr);
   ASSERT_TRUE(fit(fitter_, 0.95));
-  fitter_.take(other, nullptr, nullptr);
+  fitter_.take("a", other, nullptr, nullptr);
   GarmentFitter fresh{FitterOptions(), fit::bind_body};
-  fresh.take(other, nullptr, nullptr);
+  fresh.take("a", other, nullptr, nullptr);
   const auto second = fit(fitter_, 0.94), alone = fit(fresh, 0.94);
   ASSERT_TRUE(second && alone);
   EXPECT_EQ(second->iterations, alone->iterations);
@@ -95,7 +104,7 @@ TEST_F(GarmentFitterTest, GarmentsAreCheckedAgainstTheNewestModel) {
   hat.regions = {"hat"};
   belt.lines[0].name = "belt";
   EXPECT_EQ(refusal_of(hat), "accepted");  // no model yet to say no
-  fitter_.take(control_, nullptr, nullptr);
+  fitter_.take("a", control_, nullptr, nullptr);
   EXPECT_EQ(refusal_of(chest(0.9)), "accepted");
   EXPECT_EQ(refusal_of(hat), "bad_garment");
   EXPECT_EQ(refusal_of(belt), "unknown_line");
@@ -107,8 +116,8 @@ TEST_F(GarmentFitterTest, KeepsTheBodysVolumeWhereItIsAskedTo) {
   FitterOptions options;
   options.solver.volume = KeptVolume::body;
   GarmentFitter fitter(options, fit::bind_body);
-  fitter.take(control, nullptr, [&skin] { return skin; });
-  EXPECT_NO_THROW(fitter.check(chest(0.93)));
+  fitter.take("a", control, nullptr, [&skin] { return skin; });
+  EXPECT_NO_THROW(fitter.check(chest(0.93), "a"));
   const auto solution = fit(fitter, 0.93);
   ASSERT_TRUE(solution);
   EXPECT_EQ(solution->status, Status::converged);
@@ -126,7 +135,7 @@ TEST_F(GarmentFitterTest, APostureTakesTheBoundNodesAlong) {
   geometry::BodyMeasures measures;
   measures.heights = {{"hip", 0.9, 1, ""}, {"underbust", 1.12, 1, ""}};
   measures.landmarks = {{"crotch", {0, 0, 0.8}, 1, ""}};
-  fitter.take(control_, &measures, nullptr);
+  fitter.take("a", control_, &measures, nullptr);
   const auto solution = fit(fitter, 0.97);
   ASSERT_TRUE(solution);
   EXPECT_EQ(solution->status, Status::converged);

@@ -81,7 +81,10 @@ TEST(Garment, RefusesByTheNameOfTheKey) {
   EXPECT_NE(refusal(with_line("law: {table: [[1.2, 3], [1.1, 4]]}")).find("'table'"), std::string::npos);
   EXPECT_NE(refusal(with_line("law: {table: [[1.2, 3, 4]]}")).find("'table'"), std::string::npos);
   EXPECT_NE(refusal(with_line("follow: air")).find("'follow'"), std::string::npos);
-  EXPECT_NE(refusal(with_line("through: [a]")).find("'through'"), std::string::npos);
+  EXPECT_NE(refusal(with_line("follow: taut")).find("'follow'"),
+            std::string::npos);  // of the template's own course
+  for (const char* nodes : {"through: [a]", "through: []"})
+    EXPECT_NE(refusal(with_line(nodes)).find("'through'"), std::string::npos) << nodes;
   EXPECT_NE(refusal(with_line("law: {stiffness: 0}")).find("'stiffness'"), std::string::npos);
   for (const char* limit : {"tension_limit: -3", "tension_limit: 0", "tension_limit: .inf"})
     EXPECT_NE(refusal(with_line(limit)).find("'tension_limit'"), std::string::npos) << limit;

@@ -22,23 +22,25 @@ Points mapped(const Points& points, const Eigen::Matrix3d& map) {
 TEST(Distortion, IsExactlyOneAtRest) {
   const geometry::ControlMesh control = patch();
   const Binding binding(slab(41), control, {});
-  const std::vector<double> at_nodes = control_distortion(control, control.outer);
+  const std::vector<double> at_nodes = control_distortion(binding, control.outer);
   for (const double value : at_nodes) EXPECT_EQ(value, 1);
   for (const double value : body_distortion(binding, at_nodes)) EXPECT_EQ(value, 1);
 }
 
 TEST(Distortion, OfAScaledPatchIsTheSquare) {
   const geometry::ControlMesh control = patch();
+  const Binding binding(slab(21), control, {});
   for (const double scale : {0.5, 0.9, 1.3})
     for (const double value :
-         control_distortion(control, mapped(control.outer, scale * Eigen::Matrix3d::Identity())))
+         control_distortion(binding, mapped(control.outer, scale * Eigen::Matrix3d::Identity())))
       EXPECT_NEAR(value, scale * scale, 1e-13);
 }
 
 TEST(Distortion, OnTheSkinStaysBetweenThatOfTheNodesAndOne) {
   const geometry::TriangleMesh body = slab(61);
   const geometry::ControlMesh control = patch();
-  const std::vector<double> at_nodes = control_distortion(control, squeezed(control, 0.02).outer);
+  const std::vector<double> at_nodes =
+      control_distortion(Binding(body, control, {}), squeezed(control, 0.02).outer);
   const auto [least, most] = std::minmax_element(at_nodes.begin(), at_nodes.end());
   ASSERT_LT(*least, 0.95);
   ASSERT_GT(*most, 1.05);
@@ -59,8 +61,9 @@ TEST(Distortion, OnTheSkinStaysBetweenThatOfTheNodesAndOne) {
 
 TEST(Distortion, RefusesOtherCounts) {
   const geometry::ControlMesh control = patch();
-  EXPECT_THROW(control_distortion(control, {}), geometry::Refusal);
-  EXPECT_THROW(body_distortion(Binding(slab(21), control, {}), {1.0}), geometry::Refusal);
+  const Binding binding(slab(21), control, {});
+  EXPECT_THROW(control_distortion(binding, {}), geometry::Refusal);
+  EXPECT_THROW(body_distortion(binding, {1.0}), geometry::Refusal);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "point_lists.hpp"
 #include "tffd/body_volume.hpp"
+#include "tffd/distortion.hpp"
 #include "tffd_shapes.hpp"
 
 namespace tensegric_fit::tffd {
@@ -38,6 +39,23 @@ TEST(Posed, NodesOnTheBonesCarryTheSkinWithThem) {
   };
   EXPECT_TRUE(
       same_bits(posed.deform(carried(control.outer), carried(control.inner)), carried(body.vertices)));
+}
+
+TEST(Posed, ThePapersSettingKeepsTheSkinOnTheBonesToo) {
+  const geometry::TriangleMesh body = slab(61);
+  Options options;
+  options.setting = Setting::paper;
+  const geometry::BoneFrames frames = bones(0.3, -0.2);
+  const Binding posed = Binding(body, patch(), options).posed(frames);
+  const Points deformed = posed.deform(posed.outer(), posed.inner());
+  for (std::size_t v = 0; v < deformed.size(); ++v)
+    EXPECT_LT((deformed[v] - frames.moved(body.vertices[v])).norm(), 1e-12) << v;  // rounding
+}
+
+TEST(Posed, APostureDistortsNothing) {
+  const Binding posed = Binding(slab(61), patch(), {}).posed(bones(0, 0.4));
+  for (const double value : body_distortion(posed, control_distortion(posed, posed.outer())))
+    EXPECT_EQ(value, 1);
 }
 
 TEST(Posed, AGarmentTurnsWithTheChest) {

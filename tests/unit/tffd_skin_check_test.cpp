@@ -212,6 +212,25 @@ TEST(UnderConstriction, SlackWeakAndLifted) {
   EXPECT_TRUE(found(line_at(0.1, 0.004)[0]).empty());
 }
 
+TEST(GarmentCheck, PlacesAreThoseOfTheScanWhateverThePosture) {
+  const geometry::TriangleMesh mesh = sheet();
+  const Eigen::Isometry3d turn =
+      Eigen::Translation3d(0.1, -0.2, 0.3) * Eigen::AngleAxisd(0.5, Vector3d::UnitZ());
+  std::vector<Vector3d> posed = mesh.vertices, worn = stepped(mesh, 10, 14, 70 * kDegree);
+  const auto expected = with_code(
+      check_garment(mesh.vertices, {mesh.vertices, worn, mesh.triangles}, line_at(0.05), HoldOptions()),
+      geometry::warning::kShelf);
+  for (Vector3d& p : posed) p = turn * p;
+  for (Vector3d& p : worn) p = turn * p;
+  const auto found =
+      with_code(check_garment(mesh.vertices, {posed, worn, mesh.triangles}, line_at(0.05), HoldOptions()),
+                geometry::warning::kShelf);
+  ASSERT_EQ(expected.size(), 1u);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_LT((found[0].at_rest - expected[0].at_rest).norm(), 1e-12);
+  EXPECT_LT((found[0].worn - turn * expected[0].worn).norm(), 1e-12);
+}
+
 TEST(GarmentCheck, NamesSkinThatFoldsAndLinesThatDoNotHold) {
   const geometry::TriangleMesh mesh = sheet();
   WornLine slack = line_at(0.15)[0];
