@@ -41,6 +41,8 @@ struct Posed {
     body.parameters = body_model::Parameters(*body.model);
     body.parameters.rotation = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
     body.posed = body.skin = body_model::PosedModel(*body.model, body.parameters).vertices();
+    body.off.assign(body.skin.size(), 0);
+    body.support = body.off;  // all of her is there
     mesh = {body.skin, body.model->triangles};
     Eigen::Matrix3d axes;  // the model faces -y, the body frame's x
     axes << 0, -1, 0, 1, 0, 0, 0, 0, 1;
