@@ -83,7 +83,10 @@ std::string take_shard(const std::string& text, Request& request) {
 std::vector<Score> measured(const population::Family& family, const Request& request,
                             const std::vector<control_mesh::Template>& patterns) {
   std::vector<Score> known;
-  if (!request.out.empty()) known = population::read_scores(request.out);
+  if (!request.out.empty()) {
+    population::take_off_unfinished(request.out);
+    known = population::read_scores(request.out);
+  }
   for (const std::string& file : request.scores)
     for (Score& score : population::read_scores(file)) known.push_back(std::move(score));
   std::vector<Score> scores;

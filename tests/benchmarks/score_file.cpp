@@ -60,8 +60,16 @@ std::vector<Score> read_scores(const std::string& path) {
     }
     begin = end + 1;
   }
-  if (begin < text.size()) std::filesystem::resize_file(path, begin);
   return scores;
+}
+
+void take_off_unfinished(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return;
+  std::stringstream all;
+  all << file.rdbuf();
+  const std::size_t end = all.str().rfind('\n') + 1;  // npos + 1 is 0
+  if (end < all.str().size()) std::filesystem::resize_file(path, end);
 }
 
 void append_score(const std::string& path, const Score& score) {

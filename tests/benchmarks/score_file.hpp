@@ -15,9 +15,12 @@ struct Score {
   std::vector<Figure> figures;
 };
 
-/// The file's bodies, in its order; none where there is no file. A last line that was not written to its end
-/// is taken off the file. \throw Refusal broken_file: another line that is no score
+/// The file's bodies, in its order, without a last line that is not written to its end; none where there is
+/// no file. \throw Refusal broken_file: another line that is no score
 std::vector<Score> read_scores(const std::string& path);
+
+/// Takes such a last line off a file that is to be added to, and that no other run is writing.
+void take_off_unfinished(const std::string& path);
 
 /// Adds a line. \throw Refusal cannot_write
 void append_score(const std::string& path, const Score& score);

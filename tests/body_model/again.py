@@ -90,7 +90,9 @@ def write(kind, o):
             if kind != 'poses':
                 x, truth['scan'] = make_set.scan_body(points, model.triangles, truth['landmarks'], s)
                 make_set.scan.write_points(base + '_scan.ply', x, None, [name + ' simulated booth scan, metres, z up'])
-            json.dump(make_set.rounded(truth), open(base + '_truth.json', 'w'))
+            with open(base + '_truth.part', 'w') as out:      # its truth says that a body is whole
+                json.dump(make_set.rounded(truth), out)
+            os.rename(base + '_truth.part', base + '_truth.json')
 
 
 def spread(path):

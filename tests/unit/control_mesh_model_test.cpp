@@ -40,7 +40,10 @@ struct Posed {
     body.model = body_model::shipped_registrar().shared_model();
     body.parameters = body_model::Parameters(*body.model);
     body.parameters.rotation = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix();
-    body.posed = body.skin = body_model::PosedModel(*body.model, body.parameters).vertices();
+    const body_model::PosedModel posed(*body.model, body.parameters);
+    body.posed = body.skin = posed.vertices();
+    for (std::size_t bone = 0; bone < body.model->bones.size(); ++bone)
+      body.joints.push_back(posed.joint(static_cast<int>(bone)));
     body.off.assign(body.skin.size(), 0);
     body.support = body.off;  // all of her is there
     mesh = {body.skin, body.model->triangles};
