@@ -12,7 +12,7 @@ namespace tensegric_fit::body_model {
 inline constexpr unsigned char kUnknownPart = 255;
 
 /// One per vertex of the mesh, in the model's frame: the vertex of the model's skin that is nearest and faces
-/// the same way.
+/// the same way, lost_skin left out.
 std::vector<int> nearest_skin(const geometry::TriangleMesh& mesh, const RegisteredBody& body);
 
 /// One per vertex of the mesh, in the model's frame: index into the model's parts, of the nearest skin that

@@ -45,8 +45,8 @@ struct RegisteredBody {
   bool scanned = true;  ///< registered to a scan's points or mesh; false: to a mesh that was given
   Eigen::Vector3d vertical = Eigen::Vector3d::UnitZ();  ///< up, unit vector
   double ground = 0;                                    ///< m along `vertical`, under her soles
-  double ground_deviation = 0;  ///< m, of `ground`: 0 where a floor was seen, and of a given mesh with feet,
-                                ///< whose lowest place it is
+  /// m, of `ground`: 0 where a floor was seen, and of a given mesh whose lowest place is that of its feet
+  double ground_deviation = 0;
 
   /// \throw std::out_of_range: the model has no such point
   Eigen::Vector3d skin_point(const std::string& name) const;

@@ -182,7 +182,7 @@ RegisteredBody register_mesh(const Registrar& registrar, const geometry::Triangl
   body.scanned = std::find(filled.begin(), filled.end(), 1) != filled.end();
   body.vertical = upright(body, registrar.standing());
   if (lacks_feet(body)) {
-    const Ground ground = ground_without_feet(body, registrar.standing());
+    const Ground ground = ground_by_soles(body, registrar.standing());
     body.ground = ground.height;
     body.ground_deviation = ground.deviation;
     return body;
@@ -191,7 +191,11 @@ RegisteredBody register_mesh(const Registrar& registrar, const geometry::Triangl
   for (const Vector3d& v : mesh.vertices) body.ground = std::min(body.ground, body.vertical.dot(v));
   // Reconstruction ends soles on the ground; whether it saw a floor is not known here.
   if (body.scanned) body.ground_deviation = registrar.standing().ground;
-  body.ground_deviation = deviation_of_ground(body, body.ground, body.ground_deviation, registrar.standing());
+  const double deviation =
+      deviation_of_ground(body, body.ground, body.ground_deviation, registrar.standing());
+  if (deviation > body.ground_deviation)  // either may be right: halfway
+    body.ground = (body.ground + ground_by_soles(body, registrar.standing()).height) / 2;
+  body.ground_deviation = deviation;
   return body;
 }
 

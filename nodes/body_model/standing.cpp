@@ -116,7 +116,7 @@ Vector3d upright(const RegisteredBody& body, const Standing& standing) {
   return (body.vertical + leaning * (up - body.vertical)).normalized();
 }
 
-Ground ground_without_feet(const RegisteredBody& body, const Standing& standing) {
+Ground ground_by_soles(const RegisteredBody& body, const Standing& standing) {
   const Legs there(body);
   const double deviation = neither(there.thigh) ? standing.without_thighs : standing.without_feet;
   return {ground_by(body, neither(there.foot) ? soles_of(body) : soles_of(body, there.foot), standing),
@@ -125,7 +125,7 @@ Ground ground_without_feet(const RegisteredBody& body, const Standing& standing)
 
 double deviation_of_ground(const RegisteredBody& body, double by_lowest, double deviation,
                            const Standing& standing) {
-  const double apart = std::abs(by_lowest - ground_without_feet(body, standing).height);
+  const double apart = std::abs(by_lowest - ground_by_soles(body, standing).height);
   // each of the two deviates by sqrt(2) of what their mean does, their difference by twice that
   return apart > kApart * 2 * standing.ground ? std::max(deviation, apart / 2) : deviation;
 }
@@ -138,7 +138,7 @@ double lowest_of_soles(const RegisteredBody& body) {
 
 Ground ground_under(const RegisteredBody& body, const std::vector<Vector3d>& points,
                     const Standing& standing) {
-  const Ground by_soles = ground_without_feet(body, standing);
+  const Ground by_soles = ground_by_soles(body, standing);
   std::vector<double> heights;
   for (const Vector3d& p : points) heights.push_back(body.vertical.dot(p));
   if (heights.size() <= kStray || lacks_feet(body)) return by_soles;

@@ -29,8 +29,8 @@ struct Stance {
 };
 Stance stance_of(const RegisteredBody& body);
 
-/// Up, a unit vector: body.vertical, the booth's own, unless legs and soles clearly stand on another. Legs
-/// that are not there, both of them whole, show nothing; nor do feet.
+/// Up, a unit vector: body.vertical, the booth's own, unless legs and soles clearly stand on another. Only
+/// where both thighs and both shanks are there; where a foot is not, the legs alone say it.
 Eigen::Vector3d upright(const RegisteredBody& body, const Standing& standing);
 
 /// The ground along body.vertical.
@@ -38,15 +38,16 @@ struct Ground {
   double height, deviation;  ///< m
 };
 
-/// By the model's soles alone: where it has feet that are not there. Where one foot is there, by that one's.
-Ground ground_without_feet(const RegisteredBody& body, const Standing& standing);
+/// By the model's soles alone: of both feet, or of the one that is there. The deviation is that of a body
+/// without feet.
+Ground ground_by_soles(const RegisteredBody& body, const Standing& standing);
 
 /// Of the model's soles, along body.vertical, m.
 double lowest_of_soles(const RegisteredBody& body);
 
-/// `deviation`, unless the lowest place that was seen and the model's soles are clearly apart, as where the
-/// lowest part of the feet was not seen: then so much that either may be right. `by_lowest`: m, the ground by
-/// that place.
+/// Of the mean of two places of the ground, that by the lowest place that was seen (`by_lowest`, m) and that
+/// by the soles, where they are clearly apart, as where the lowest part of the feet was not seen: half their
+/// distance. Else `deviation`.
 double deviation_of_ground(const RegisteredBody& body, double by_lowest, double deviation,
                            const Standing& standing);
 

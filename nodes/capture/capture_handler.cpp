@@ -25,7 +25,9 @@ CaptureHandler::Setup CaptureHandler::setup_from(Parameters& parameters) {
   setup.slop = parameters.number("slop", setup.slop, geometry::kSlop);
   setup.trigger = parameters.text("trigger", setup.trigger);
   std::string error;
-  if (!ros::names::validate(setup.trigger, error))
+  if (!setup.trigger.empty() && (setup.trigger.front() == '~' || setup.trigger.back() == '/'))
+    error = "'" + setup.trigger + "' is no name of a service";
+  if (!error.empty() || !ros::names::validate(setup.trigger, error))
     throw geometry::Refusal(geometry::refusal::kBadOption, "parameter 'trigger': " + error);
   parameters.check_all_known();
   return setup;
@@ -42,6 +44,12 @@ void CaptureHandler::begin(const CaptureGoal& goal, double now) {
   begun_ = now;
   armed_ = setup_.trigger.empty();
   watch(armed_ ? 0 : capture::kNever);
+}
+
+void CaptureHandler::stop() {
+  watch_.reset();
+  landmarks_.clear();
+  fit_status_.clear();
 }
 
 void CaptureHandler::pulled(std::uint64_t stamp) {

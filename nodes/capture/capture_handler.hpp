@@ -32,7 +32,7 @@ class CaptureHandler {
   /// Replaces the current goal. Where there is a trigger, no scan counts until it was pulled.
   /// \throw Refusal bad_option: a timeout out of range
   void begin(const CaptureGoal& goal, double now);
-  void stop() { watch_.reset(); }
+  void stop();
   bool is_busy() const { return watch_ != nullptr; }
 
   double begun() const { return begun_; }

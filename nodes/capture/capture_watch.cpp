@@ -23,7 +23,8 @@ constexpr Step kChain[] = {{"reconstruction", 0.25, 3},
                            {"control_mesh", 0.85, 0.5},
                            {"tensegric", 0.9, 0.1},
                            {"tffd", 0.95, 0.2}};
-constexpr int kMeasuring = 2, kAll = 5;                  // stages of the chain
+constexpr int kMeasuring = 2, kAll = 5;  // stages of the chain
+constexpr int kInFlight = 2;  // clouds of a sensor that were on their way when a scan was asked for
 constexpr const char* kBehindAScan[] = {"correlation"};  // other stages that work on one
 
 std::uint64_t gap(std::uint64_t a, std::uint64_t b) {
@@ -42,17 +43,19 @@ bool CaptureWatch::is_early(std::uint64_t stamp) const {
   return stamp < goal_.not_before && (stamp != 0 || goal_.not_before == kNever);
 }
 
-void CaptureWatch::note_early(std::uint64_t stamp) {
-  if (goal_.not_before != kNever) early_ = std::max(early_, stamp);
+void CaptureWatch::note_early(std::uint64_t stamp, int count) {
+  if (goal_.not_before == kNever) return;
+  early_ = std::max(early_, stamp);
+  early_count_ += count;
 }
 
 void CaptureWatch::add_cloud(const std::string& sensor, std::uint64_t stamp) {
-  if (is_early(stamp)) return note_early(stamp);
+  if (is_early(stamp)) return note_early(stamp, 1);
   clouds_[sensor].push_back(stamp);
 }
 
 void CaptureWatch::add_scan(const std::string& scan_id, std::uint64_t stamp) {
-  if (is_early(stamp)) return note_early(stamp);
+  if (is_early(stamp)) return note_early(stamp, kInFlight + 1);
   if (scan_id == scan_id_ || refused_) return;
   if (!scan_id_.empty()) {
     if (!is_complete())
@@ -71,7 +74,8 @@ void CaptureWatch::add_refusal(const StageReport& report) {
       std::find(std::begin(kBehindAScan), std::end(kBehindAScan), report.stage) != std::end(kBehindAScan);
   if (is_behind || !scan_id_.empty() || refused_) return;
   const auto stamp = geometry::stamp_in(report.scan_id);
-  if (!stamp || !is_early(*stamp)) refused_ = CaptureEnd{report.code, report.last_error};
+  if (stamp && is_early(*stamp)) return note_early(*stamp, kInFlight + 1);
+  refused_ = CaptureEnd{report.code, report.last_error};
 }
 
 std::vector<std::string> CaptureWatch::missing() const {
@@ -111,11 +115,10 @@ std::string CaptureWatch::waiting_for(double now) const {
   else
     words = fmt::format("scan {}: waiting for {}{}", scan_id_, stage(),
                         board_.find(stage()) == nullptr ? ", which never reported: is it running?" : "");
-  if (scan_id_.empty() && early_ > 0)
+  if (scan_id_.empty() && clouds_.empty() && early_count_ > kInFlight)
     words += fmt::format(
         ", and what came was stamped {:.1f} s and more before it was asked for: are the clocks of scanner "
-        "and "
-        "capture set alike?",
+        "and capture alike?",
         1e-9 * static_cast<double>(goal_.not_before - early_));
   const std::string trouble = board_.trouble(now);
   return trouble.empty() ? words : words + " (" + trouble + ")";

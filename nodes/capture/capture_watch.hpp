@@ -17,7 +17,7 @@ struct CaptureGoal {
   std::vector<std::string> sensors;  ///< that must take part; empty: any
   double timeout;                    ///< s
   bool with_fit = false;             ///< ends with the garment on, not with the measurements
-  /// ns; a scan with an older stamp is another's. One without a stamp (0) counts, unless nothing does yet.
+  /// ns; a scan with an older stamp is another's. One without a stamp (0) counts once the trigger was pulled.
   std::uint64_t not_before = 0;
 };
 
@@ -48,7 +48,8 @@ class CaptureWatch {
   void add_scan(const std::string& scan_id, std::uint64_t stamp);
   void add_landmarks(const std::string& scan_id) { measured_.insert(scan_id); }
   void add_fit(const std::string& scan_id) { fitted_.insert(scan_id); }
-  /// A stage has just refused something: StageBoard::report. What brings a scan about ends the wait for it.
+  /// A stage has just refused something: StageBoard::report. Only a stage before the scan ends the wait for
+  /// it.
   void add_refusal(const StageReport& report);
 
   const std::string& scan_id() const { return scan_id_; }
@@ -58,7 +59,7 @@ class CaptureWatch {
 
  private:
   bool is_early(std::uint64_t stamp) const;
-  void note_early(std::uint64_t stamp);
+  void note_early(std::uint64_t stamp, int count);
   std::vector<std::string> missing() const;
   std::string stage() const;
   std::string waiting_for(double now) const;
@@ -76,6 +77,7 @@ class CaptureWatch {
   std::set<std::string> measured_, fitted_;  // scans; a message may overtake its scan
   std::optional<CaptureEnd> refused_;
   std::uint64_t early_ = 0;  // the newest stamp that did not count, though a scan was asked for
+  int early_count_ = 0;      // more than those that were on their way then
   double share_ = 0;
 };
 

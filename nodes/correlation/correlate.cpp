@@ -7,7 +7,8 @@
 namespace tensegric_fit::correlation {
 namespace {
 
-constexpr double kLeastCompared = 0.5;  // share of the covered skin; of less, no figure stands for it
+constexpr double kLeastCompared =
+    0.5;  // share of the skin under the garment; of less, no figure stands for it
 
 std::vector<int> still_vertices(const std::vector<SkinPart>& parts) {
   std::vector<int> still;
@@ -41,12 +42,13 @@ Correlation correlate(const SimulatedBody& body, const WornBody& worn, const Opt
             "under the garment the worn surface lies {:.0f} mm outside the simulated one, more than {:.0f}: "
             "there is more on than a garment of {:.1f} mm",
             1e3 * result.covered.median, 1e3 * kThickCloth, 1e3 * options.thickness));
-  if (result.covered.compared < kLeastCompared)
-    throw geometry::Refusal(geometry::refusal::kTooFewData,
-                            fmt::format("of the skin under the garment only {:.0f} % can be compared: the "
-                                        "scan does not show the rest, or "
-                                        "it lies more than {:.0f} mm away",
-                                        100 * result.covered.compared, 1e3 * kFarthest));
+  result.compared = compared_share(result.map, body, result.parts);
+  if (result.compared < kLeastCompared)
+    throw geometry::Refusal(
+        geometry::refusal::kTooFewData,
+        fmt::format("of the skin under the garment only {:.0f} % can be compared: the rest is not in the "
+                    "scan, faces otherwise there or lies more than {:.0f} mm away",
+                    100 * result.compared, 1e3 * kFarthest));
   result.still = summary_of(result.map, body, result.parts, SkinPart::still);
   return result;
 }

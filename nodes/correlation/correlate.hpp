@@ -26,11 +26,14 @@ struct Correlation {
   std::vector<SkinPart> parts;  ///< one per vertex of the simulated body
   DistanceMap map;
   Summary covered, still;
+  double compared = 0;  ///< compared_share
 };
 
 /// Aligns the worn scan on the still skin, makes sure that it is the same person in the same pose, and
 /// measures how far it lies from the simulated body. \throw Refusal as check, parts_of, check_same and
-/// SeenSurface; coat_on: the covered skin lies kThickCloth outside; bad_option: the thickness is out of range
+/// SeenSurface; coat_on: the covered skin lies kThickCloth outside; too_few_data: less than half of the skin
+/// under the garment can be compared, or the still skin does not fix the position; bad_option: the thickness
+/// is out of range
 Correlation correlate(const SimulatedBody& body, const WornBody& worn, const Options& options);
 
 }  // namespace tensegric_fit::correlation

@@ -12,7 +12,7 @@
 namespace tensegric_fit::node {
 namespace {
 
-constexpr double kMostlyCompared = 0.8;  // share of the covered skin; below, it is said
+constexpr double kMostlyCompared = 0.8;  // share of the skin under the garment; below, it is said
 
 geometry::PointCloud cloud_in(const sensor_msgs::PointCloud2& scan) {
   pcl::PCLPointCloud2 cloud;
@@ -118,12 +118,12 @@ CorrelationHandler::Output CorrelationHandler::handle(const Input& input) {
                   {"worn_scan_id", body_->scan_id},
                   {"covered_mean_mm", millimetres(result.covered.mean)},
                   {"covered_mean_size_mm", millimetres(result.covered.mean_size)},
-                  {"covered_compared", fmt::format("{:.2f}", result.covered.compared)},
+                  {"covered_compared", fmt::format("{:.2f}", result.compared)},
                   {"still_mean_size_mm", millimetres(result.still.mean_size)},
                   {"alignment", to_string(result.alignment.status)}};
-  if (result.covered.compared < kMostlyCompared)
+  if (result.compared < kMostlyCompared)
     output.warning = fmt::format("{:.0f} % of the skin under the garment could not be compared",
-                                 100 * (1 - result.covered.compared));
+                                 100 * (1 - result.compared));
   return output;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "geometry/parallel_for.hpp"
@@ -84,6 +85,21 @@ Summary summary_of(const DistanceMap& map, const SimulatedBody& body, const std:
           std::sqrt(squares / area),
           quantile(std::move(sizes), 0.95),
           area / all};
+}
+
+double compared_share(const DistanceMap& map, const SimulatedBody& body, const std::vector<SkinPart>& parts) {
+  const std::vector<double> areas = areas_of(body.deformed, body.rest.triangles);
+  const auto share = [&](bool only_moved) {
+    double all = 0, compared = 0;
+    for (std::size_t v = 0; v < parts.size(); ++v) {
+      if (parts[v] != SkinPart::covered || (only_moved && body.deformed[v] == body.rest.vertices[v]))
+        continue;
+      all += areas[v];
+      if (map.compared[v] != 0) compared += areas[v];
+    }
+    return all > 0 ? std::optional(compared / all) : std::nullopt;
+  };
+  return share(true).value_or(share(false).value_or(0));
 }
 
 }  // namespace tensegric_fit::correlation

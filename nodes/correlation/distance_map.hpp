@@ -34,4 +34,8 @@ struct Summary {
 Summary summary_of(const DistanceMap& map, const SimulatedBody& body, const std::vector<SkinPart>& parts,
                    SkinPart part);
 
+/// Share of the covered skin that the garment moved, by area, that is compared: 0 to 1. Where it moved none,
+/// of all that is covered.
+double compared_share(const DistanceMap& map, const SimulatedBody& body, const std::vector<SkinPart>& parts);
+
 }  // namespace tensegric_fit::correlation

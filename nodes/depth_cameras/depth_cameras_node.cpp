@@ -111,10 +111,10 @@ class Camera {
     taken_ = seen.image->header.stamp.toNSec();
   }
 
-  /// What it handed on last, where that was taken within so many ns of the stamp. True where there was
-  /// something to let go of.
+  /// What it handed on last, unless that was taken more than so many ns after the stamp, and is another's.
+  /// True where there was something to let go of.
   bool forget(std::uint64_t stamp, std::uint64_t within) {
-    if (!taken_ || std::max(*taken_, stamp) - std::min(*taken_, stamp) > within) return false;
+    if (!taken_ || *taken_ > stamp + within) return false;
     image_out_.shutdown();
     info_out_.shutdown();
     advertise();
@@ -219,8 +219,9 @@ class DepthCameras {
     std::deque<Seen>& held = held_[camera];
     if (!held.empty() && seen.image->header.stamp <= held.back().image->header.stamp) return;
     held.push_back(seen);
-    while (held.size() > kMostHeld ||
-           held.back().image->header.stamp - held.front().image->header.stamp > kHeld)
+    const auto stamp = [](const Seen& of) { return of.image->header.stamp.toNSec(); };
+    while (held.size() > kAlwaysHeld && (stamp(held.back()) - stamp(held.front()) > kHeld ||
+                                         held.size() * seen.image->data.size() > kMostBytes))
       held.pop_front();
     const std::vector<int> chosen = of_one_moment();
     if (std::count(chosen.begin(), chosen.end(), depth_cameras::kNone) == 0) take_held(chosen);
@@ -278,16 +279,17 @@ class DepthCameras {
         words += fmt::format(
             "; images from cameras/{} are stamped {:.1f} s and more before they were asked for: are "
             "the clocks set alike?",
-            setup_.cameras[i], (since_ - early_[i].back()).toSec());
+            setup_.cameras[i], 1e-9 * static_cast<double>(since_.toNSec() - early_[i].back().toNSec()));
     if (!apart.empty())
       words += fmt::format("{}no depth image within {} s (parameter 'slop') of those of the others from: {}",
                            words.empty() ? "" : "; ", setup_.slop, fmt::join(apart, ", "));
     return words;
   }
 
-  static constexpr std::size_t kMostHeld = 32;  // images per camera: bounds memory, like the next
-  inline static const ros::Duration kHeld{1};   // s; cameras of one moment may be so much later than others
-  static constexpr std::size_t kInFlight = 2;   // images that were on their way when they were asked for
+  // Cameras of one moment may be so much later than others, within the memory of one camera's images.
+  static constexpr std::size_t kAlwaysHeld = 5, kMostBytes = 64u << 20;
+  static constexpr std::uint64_t kHeld = 1000000000;  // ns
+  static constexpr std::size_t kInFlight = 2;  // images that were on their way when they were asked for
   inline static const ros::WallDuration kNamedAgain{1};  // s until a camera's fault is named again
 
   const Setup setup_;

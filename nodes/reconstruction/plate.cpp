@@ -22,7 +22,7 @@ constexpr std::size_t kFewestOfTop = 100;  // points: its height is known to an 
 
 std::optional<Plate> find_plate(const geometry::PointCloud& cloud, const body_model::RegisteredBody& model,
                                 const body_model::Standing& standing) {
-  const double soles = body_model::ground_without_feet(model, standing).height;
+  const double soles = body_model::ground_by_soles(model, standing).height;
   if (soles < kPlate || body_model::lowest_of_soles(model) < kPlate / 2 || body_model::lacks_feet(model))
     return std::nullopt;
   const geometry::PointTree skin(model.skin);

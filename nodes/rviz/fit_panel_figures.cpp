@@ -120,6 +120,7 @@ void FitPanel::show_girths() {
 // As in the scan's posture: what the garment alone does.
 std::vector<Eigen::Vector3d> FitPanel::without_posture(const std::vector<Eigen::Vector3d>& worn) const {
   if (!fitted_ || fitted_->scan_id != body_.scan_id()) return worn;
+  if (worn == body_.mesh().vertices) return worn;  // nothing is worn yet
   try {
     return geometry::in_scan_posture(body_.mesh(), worn, node::bones_of(*fitted_, measures_));
   } catch (const geometry::Refusal&) {  // it cannot be of these measures

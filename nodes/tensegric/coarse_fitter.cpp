@@ -18,7 +18,7 @@ Iterate state_of(const Solution& solution) {
   state.iteration = solution.iterations;
   state.residual = solution.residual;
   for (const LineResult& line : solution.lines) state.line_ratios.push_back(line.final / line.initial);
-  for (const RegionResult& region : solution.regions) state.volume_errors.push_back(region.volume_error);
+  for (const RegionResult& region : solution.regions) state.volume_errors.push_back(region.kept_error);
   return state;
 }
 

@@ -279,8 +279,8 @@ class LoadPath {
     }
     result.status = !settled_ ? Status::capped : at_limit || folded_ ? Status::infeasible : Status::converged;
     if (!settled_)
-      result.note = why_stopped() + ": this is the last balance on the way" +
-                    (warm_ ? " from what was worn before." : ", at " + per_cent(share) + " of the request.");
+      result.note = why_stopped() + ": this is the last balance " +
+                    (warm_ ? "that was found." : "on the way, at " + per_cent(share) + " of the request.");
     else if (folded_)
       result.note = share < 1 ? "Further on skin would turn over: this is the last smooth shape, at " +
                                     per_cent(share) + " of the request."

@@ -195,11 +195,9 @@ FitState to_message(const FitName& name, const tensegric::Solution& solution, do
     result.name = region.name;
     result.volume_before = region.volume_before;
     result.volume_after = region.volume_after;
-    message.volume_errors.push_back(region.volume_error);
+    message.volume_errors.push_back(region.kept_error);
     message.regions.push_back(std::move(result));
   }
-  if (!solution.history.empty())
-    message.volume_errors = solution.history.back().volume_errors;  // of what is kept
   return message;
 }
 

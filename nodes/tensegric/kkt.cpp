@@ -131,7 +131,7 @@ void Kkt::assemble(const Balance& at, const std::vector<StraightPush>& lines, do
                        -whole * at.pressures[r] / problem_.volumes[r].area, hessian_);
 }
 
-// Factorises and forms the Schur complement (without conditions that nothing can move); true where the
+// Factorises and forms the Schur complement; true where the
 // balance is a minimum under its conditions: by the law of inertia, where the matrix has as many negative
 // pivots as the complement has negative eigenvalues.
 bool Kkt::factorise(const Balance& at, const Load& load, const KktResidual& defect) {
@@ -163,7 +163,8 @@ bool Kkt::factorise(const Balance& at, const Load& load, const KktResidual& defe
   if (negative == 0) return true;
   std::vector<int> kept;
   for (int i = 0; i < count; ++i)
-    if (by_length_[i] > 0 && !(by_multiplier_[i] == 0 && defect.jacobian.col(i).isZero(0))) kept.push_back(i);
+    if (by_length_[i] > 0) kept.push_back(i);
+  if (kept.empty()) return false;
   Eigen::MatrixXd compliance(kept.size(), kept.size());
   for (std::size_t i = 0; i < kept.size(); ++i)
     for (std::size_t j = 0; j < kept.size(); ++j)
@@ -171,7 +172,7 @@ bool Kkt::factorise(const Balance& at, const Load& load, const KktResidual& defe
           product(kept[i], kept[j]) + (i == j ? by_multiplier_[kept[i]] / by_length_[kept[i]] : 0);
   const Eigen::VectorXd values =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(compliance, Eigen::EigenvaluesOnly).eigenvalues();
-  // conditions that repeat each other have eigenvalues of 0, but for rounding
+  // of 0, but for rounding, where conditions repeat each other or nothing can move
   const double zero = kEigenvalueRounding * values.cwiseAbs().maxCoeff();
   return (values.array() < -zero).count() == negative;
 }

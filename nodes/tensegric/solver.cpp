@@ -42,11 +42,12 @@ std::string reach_note(const std::vector<LineResult>& lines, const std::vector<B
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const LineResult& line = lines[i];
     if (bands[i].law.kind != TensionLaw::Kind::rigid) {
-      if (line.tension >= line.tension_limit) add_sentence(note, "Line " + line.name + " pulls its limit.");
+      if (line.tension >= line.tension_limit * (1 - 1e-9))
+        add_sentence(note, "Line " + line.name + " pulls as hard as its tension_limit lets it.");
       continue;
     }
     if (line.final <= line.neutral * (1 + 1e-6)) continue;
-    const int digits = millimetres(line.final) == millimetres(line.neutral) ? 3 : 0;
+    const int digits = millimetres(line.final) == millimetres(line.neutral) ? 4 : 0;
     add_sentence(note, "Line " + line.name + " came down to " + millimetres(line.final, digits) + "; " +
                            millimetres(line.neutral, digits) + " were asked for.");
     if (line.neutral < line.straight)
@@ -102,8 +103,8 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
   }
   for (const RegionVolume& region : problem.volumes) {
     const double after = control_volume(region, x);
-    solution.regions.push_back(
-        {region.name, region.control_rest, after, control_volume_error(region, after)});
+    solution.regions.push_back({region.name, region.control_rest, after, control_volume_error(region, after),
+                                volume_error(region, x)});
   }
   solution.calibrated = !problem.model.options.uniform && problem.options.solver == SolverName::equilibrium;
   solution.status = outcome.status;

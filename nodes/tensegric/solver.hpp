@@ -53,7 +53,8 @@ struct LineResult {
 struct RegionResult {
   std::string name;
   double volume_before = 0, volume_after = 0;  ///< of the control region, m^3
-  double volume_error = 0;                     ///< (V - V0) / V0 of the same, as tensegric::volume_error
+  double volume_error = 0;                     ///< (V - V0) / V0 of the same
+  double kept_error = 0;  ///< the same of the volume that is kept: tensegric::volume_error
 };
 
 /// One row of P2 Fig. 11. `residual` is relative to the mean tensile force at rest.

@@ -30,7 +30,8 @@ std::shared_ptr<const BoundBody> bind(const FittedScan& scan, const tffd::Option
   const double volume = geometry::cone_volume(mesh.vertices, mesh.triangles);
   const geometry::BodyMeasures measures = measures_in(*scan.landmarks);
   const geometry::Posture posture = posture_of(*scan.fit);
-  binding = binding.posed(bones_of(*scan.fit, measures));
+  const geometry::BoneFrames bones = bones_of(*scan.fit, measures);
+  if (!bones.still()) binding = binding.posed(bones);
   return std::make_shared<const BoundBody>(BoundBody{scan.body, scan.control, std::move(mesh),
                                                      std::move(control), measures, posture,
                                                      std::move(binding), volume});

@@ -17,8 +17,8 @@ CLEARLY = 2.5                                        # deviations: in the middle
 
 
 def of_body(r, truth, old):
-    """Lean forwards and to the left (degrees), soles and lowest points above the ground (m), the latter None where they did not count, and
-    the lean of the legs alone."""
+    """Lean forwards and to the left (degrees), soles and lowest points above the ground (m), the latter None where a floor was seen or they
+    were clearly apart from the soles, and the lean of the legs alone."""
     scan_from_body = np.array(truth['scan_from_body'])
     up, origin = scan_from_body[:3, 2], scan_from_body[:3, 3]
     stance = {k: np.array(v) for k, v in r['stance'].items()}
@@ -29,7 +29,7 @@ def of_body(r, truth, old):
     if r['ground_deviation'] == old['error']:            # ground = (soles' ground + lowest - seen) / 2: see ground_under
         lowest = 2 * ground - (vertical @ stance['soles'] - old['soles'] * r['scale']) + old['seen'] - vertical @ origin
     lean = [np.degrees(np.arctan2(stance[k] @ (stance['up'] - up), 1)) if k else np.degrees(left @ (stance['up'] - up)) for k in ('forward', '')]
-    legs = stance.get('legs', up)
+    legs = stance['legs']
     pelvis = np.cross(stance['forward'], stance['up'])      # towards her right
     forward = np.cross(legs, pelvis) / np.linalg.norm(np.cross(legs, pelvis))
     of_legs = [np.degrees(axis @ (legs - up)) for axis in (forward, np.cross(legs, forward))]

@@ -61,7 +61,7 @@ def main():
         own = np.array([of_body[k] for of_body in errors])  # body, cut
         held = [np.abs(own[i]) <= 1.96 * np.sqrt(np.nanmean(np.delete(own, i, 0) ** 2)) for i in range(len(own))]
         print('%s: root mean square %.1f mm, mean %+.1f mm; within 1.96 of it, left out: %.0f %%'
-              % (what, 1e3 * np.sqrt(np.nanmean(own ** 2)), 1e3 * np.nanmean(own), 100 * np.mean(held)))
+              % (what, 1e3 * np.sqrt(np.nanmean(own ** 2)), 1e3 * np.nanmean(own), 100 * np.mean(np.concatenate(held)[~np.isnan(own).ravel()])))
         text += 'without_%s: %.4f    # m; fit_without_feet.py, %d bodies cut at %d heights\n' % (
             what, np.sqrt(np.nanmean(own ** 2)), len(own), len(CUTS[what]))
     arguments.standing.write_text(text, encoding='utf-8')

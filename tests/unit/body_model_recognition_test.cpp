@@ -189,6 +189,17 @@ TEST(Recognition, AnArmThatIsNotThereIsNamedWhateverHerShape) {
   }
 }
 
+// Their heights were off by all of that, and sure.
+TEST(Recognition, WhereTheLowestOfTheFeetIsNotThereTheGroundIsWithinItsInterval) {
+  for (const double cut : {0.02, 0.03}) {
+    const RegisteredBody body = register_mesh(
+        shipped_registrar(), without(woman(), [&](int, const Vector3d& p) { return p.z() < cut; }));
+    EXPECT_EQ(names_of(missing_parts(body)), Names()) << cut;
+    EXPECT_LE(std::abs(body.ground), 1.96 * body.ground_deviation) << cut;
+    EXPECT_LT(body.ground_deviation, cut) << cut;
+  }
+}
+
 TEST(Recognition, HalvesOfAWomanAreRegisteredInHerSizeAndNamed) {
   const TriangleMesh whole = woman();
   struct Half {

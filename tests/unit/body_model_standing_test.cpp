@@ -65,7 +65,7 @@ TEST(Standing, TheGroundIsLessSureWithoutFeetAndLessStillWithoutLegs) {
   for (const auto& parts :
        {std::vector<std::string>{"foot_L", "foot_R"}, {"shank_L", "shank_R", "thigh_L", "thigh_R"}}) {
     take_away(body, parts);
-    const Ground ground = ground_without_feet(body, standing);
+    const Ground ground = ground_by_soles(body, standing);
     EXPECT_GT(ground.deviation, before) << parts.front();
     before = ground.deviation;
   }
@@ -74,18 +74,18 @@ TEST(Standing, TheGroundIsLessSureWithoutFeetAndLessStillWithoutLegs) {
 TEST(Standing, AFootThatIsNotThereDoesNotSayWhereTheGroundIs) {
   const Standing& standing = shipped_registrar().standing();
   RegisteredBody body = tilted(0);
-  const double ground = ground_without_feet(body, standing).height;
+  const double ground = ground_by_soles(body, standing).height;
   for (std::size_t v = 0; v < body.posed.size(); ++v)
     if (body.model->parts[body.model->part[v]] == "foot_L") body.posed[v].z() += 0.05;
-  EXPECT_NEAR(ground_without_feet(body, standing).height, ground + 0.025, 0.002);
+  EXPECT_NEAR(ground_by_soles(body, standing).height, ground + 0.025, 0.002);
   take_away(body, {"foot_L"});
-  EXPECT_NEAR(ground_without_feet(body, standing).height, ground, 0.002);
+  EXPECT_NEAR(ground_by_soles(body, standing).height, ground, 0.002);
 }
 
 TEST(Standing, WhereTheLowestOfTheFeetWasNotSeenTheGroundIsUnsure) {
   const Standing& standing = shipped_registrar().standing();
   const RegisteredBody body = tilted(0);
-  const double ground = ground_without_feet(body, standing).height;
+  const double ground = ground_by_soles(body, standing).height;
   EXPECT_EQ(deviation_of_ground(body, ground + 0.005, 0, standing), 0);
   EXPECT_NEAR(deviation_of_ground(body, ground + 0.03, 0, standing), 0.015, 1e-9);
 }

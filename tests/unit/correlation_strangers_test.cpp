@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "correlation_customer.hpp"
+#include "geometry/point_tree.hpp"
 #include "geometry/posture.hpp"
 #include "geometry/status.hpp"
 
@@ -53,6 +54,29 @@ std::unique_ptr<Dressed> Strangers::dressed_;
 TEST_F(Strangers, SheHerselfIsNot) {
   const Correlation found = correlated(truth_->mesh);
   EXPECT_LT(found.still.mean_size, 0.0006);  // m; one reconstruction of 1 mm noise
+}
+
+// Black cloth, for instance, that depth sensors do not see.
+TEST_F(Strangers, WhereTheGarmentsSkinWasNotSeenNothingIsSaid) {
+  fit::StageTimes times;
+  fit::Body second = fit::measure_mesh(truth_->mesh, {}, times);
+  second.mesh.filled.assign(second.mesh.mesh.vertices.size(), 0);
+  const SimulatedBody body = simulated(*before_, *dressed_);
+  std::vector<Eigen::Vector3d> covered;
+  const std::vector<SkinPart> parts = parts_of(body);
+  for (std::size_t v = 0; v < parts.size(); ++v)
+    if (parts[v] == SkinPart::covered) covered.push_back(body.deformed[v]);
+  const geometry::PointTree tree(covered);
+  for (std::size_t v = 0; v < second.mesh.filled.size(); ++v) {
+    const Eigen::Vector3d& p = second.mesh.mesh.vertices[v];
+    second.mesh.filled[v] = static_cast<char>((covered[tree.nearest(p)] - p).norm() < 0.03);
+  }
+  try {
+    correlate(body, worn(second), {});
+    ADD_FAILURE() << "not refused";
+  } catch (const geometry::Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), geometry::refusal::kTooFewData) << refusal.what();
+  }
 }
 
 TEST_F(Strangers, SomebodyElseIsRefused) {

@@ -107,7 +107,8 @@ TEST_F(CaptureHandlerTest, NoLandmarksOfAnotherAreKept) {
 
 TEST(CaptureTrigger, OneThatDoesNotAnswerIsNamed) {
   for (const std::vector<std::string>& sensors : {std::vector<std::string>{}, {"left"}})
-    for (const bool pulled : {false, true}) {  // not: an earlier call of it is without its answer
+    for (const bool pulled :
+         {false, true}) {  // false: an earlier customer's call is still without its answer
       CaptureHandler handler(Parameters(YAML::Load("{timeout: 5, trigger: scanner/scan}"), "capture"), "/");
       CaptureGoal goal;
       goal.sensors = sensors;
@@ -122,8 +123,20 @@ TEST(CaptureTrigger, OneThatDoesNotAnswerIsNamed) {
     }
 }
 
+TEST(CaptureTrigger, OneThatHasAnsweredIsNotBlamed) {
+  CaptureHandler handler(Parameters(YAML::Load("{timeout: 5, trigger: scanner/scan}"), "capture"), "/");
+  CaptureGoal goal;
+  goal.sensors = {"left"};
+  handler.begin(goal, 0);
+  handler.pulled(100);
+  handler.set_unanswered(false);
+  const auto result = handler.result(5.1);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->code, "missing_sensor");
+}
+
 TEST(CaptureTrigger, ANameThatNoServiceCanHaveIsRefused) {
-  for (const char* name : {"my-scanner/scan", "a b", "1st"})
+  for (const char* name : {"my-scanner/scan", "a b", "1st", "~scan", "/"})
     EXPECT_THROW(
         CaptureHandler(Parameters(YAML::Load(std::string("{trigger: ") + name + "}"), "capture"), "/"),
         geometry::Refusal)
