@@ -10,10 +10,6 @@ constexpr std::size_t kMostOpen = 8;  // captures; beyond, the oldest waits no l
 constexpr std::uint64_t kStartedOver =
     60000000000u;  // ns; so far back lies no late cloud, but a new recording
 
-std::uint64_t gap(std::uint64_t a, std::uint64_t b) {
-  return a > b ? a - b : b - a;
-}
-
 }  // namespace
 
 std::vector<int> Capture::missing() const {
@@ -49,7 +45,7 @@ CaptureJoin::Fate CaptureJoin::add(int sensor, std::shared_ptr<const SensorCloud
     const auto& sent = open.capture.clouds[sensor];
     if (sent && sent->stamp == stamp) return Fate::repeated;
     if (!sent && fits(open.capture, stamp) &&
-        (!nearest || gap(stamp, open.capture.first) < gap(stamp, nearest->capture.first)))
+        (!nearest || geometry::gap(stamp, open.capture.first) < geometry::gap(stamp, nearest->capture.first)))
       nearest = &open;
   }
   if (!nearest) {

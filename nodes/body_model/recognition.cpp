@@ -33,7 +33,9 @@ constexpr double kInside = 0.005,
                  kStraightIn = 0.7;  // m under other skin; cosine with its normal: beside it is not under it
 constexpr double kOneSkin = 0.015;  // m between the skins of two legs that lie on one: at half bodies 70 % of
                                     // a leg is nearer, on 149 training scans nothing is nearer than 30 mm
-constexpr double kOtherSkin = 0.1;  // m apart at rest: no arm's skin at the armpit or the shoulder is
+// m apart at rest: tolerance, a hand's breadth. No arm's skin at the armpit or the shoulder is; two women
+// without an arm are named rightly, arms that touch the flank were not measured.
+constexpr double kOtherSkin = 0.1;
 constexpr double kClearly =
     0.2;  // between the shares of the trunk's halves that were seen: tolerance between
           // 0.04, the most on training scans, and 0.3, the least on half bodies

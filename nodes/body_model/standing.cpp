@@ -24,7 +24,7 @@ constexpr double kSole = 0.006;  // m over the lowest point of the feet at rest:
 constexpr double kUpright = 2, kLeaning = 3;
 constexpr std::size_t kStray = 9;  // points that may lie below the feet
 
-constexpr double kApart = 3;  // deviations: lowest place and soles that are farther apart are not of one foot
+constexpr double kApart = 3;  // deviations: of a normal variable one value in 370 is beyond
 
 /// Which legs and feet are there, left and right.
 struct Legs {

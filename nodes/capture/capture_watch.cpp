@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geometry/scan_stamp.hpp"
+#include "geometry/slop.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::capture {
@@ -26,10 +27,6 @@ constexpr Step kChain[] = {{"reconstruction", 0.25, 3},
 constexpr int kMeasuring = 2, kAll = 5;  // stages of the chain
 constexpr int kInFlight = 2;  // clouds of a sensor that were on their way when a scan was asked for
 constexpr const char* kBehindAScan[] = {"correlation"};  // other stages that work on one
-
-std::uint64_t gap(std::uint64_t a, std::uint64_t b) {
-  return a > b ? a - b : b - a;
-}
 
 }  // namespace
 
@@ -82,10 +79,11 @@ std::vector<std::string> CaptureWatch::missing() const {
   std::vector<std::string> names;
   for (const std::string& sensor : goal_.sensors) {
     const auto clouds = clouds_.find(sensor);
-    const bool came =
-        clouds != clouds_.end() &&
-        (scan_id_.empty() || std::any_of(clouds->second.begin(), clouds->second.end(),
-                                         [&](std::uint64_t stamp) { return gap(stamp, stamp_) <= slop_; }));
+    const bool came = clouds != clouds_.end() &&
+                      (scan_id_.empty() ||
+                       std::any_of(clouds->second.begin(), clouds->second.end(), [&](std::uint64_t stamp) {
+                         return geometry::gap(stamp, stamp_) <= slop_;
+                       }));
     if (!came) names.push_back(sensor);
   }
   return names;
