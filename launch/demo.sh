@@ -14,7 +14,7 @@ echo "pictures: $demo/fit/front.png, side.png, distortion.png"
 if [ -z "${DISPLAY:-}" ] || [ ! -t 1 ]; then
   echo "rviz is not opened: it needs a display, and this output on a terminal"
 else
-  echo "rviz: close its window or press Ctrl-C to end"
+  echo "rviz: Ctrl+C in this terminal ends it"
   set +u
   # shellcheck disable=SC1091
   source "$root/build/devel/setup.bash"

@@ -1,8 +1,11 @@
 #!/usr/bin/env bash
-# Installs the Debian 12 packages that package.xml names after "deb:".
+# Installs the Debian 12 packages that package.xml names after "deb:". TARGET=product: without those for tests and pages alone
+# (test_depend, doc_depend), unless CMake looks for them when it configures ("configure" beside them).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-mapfile -t packages < <(sed -n 's/.*<!-- deb: \(.*\) -->.*/\1/p' "$root/package.xml" | tr ' ' '\n' | sort -u)
+left_out=''
+[ "${TARGET:-all}" != product ] || left_out='/<\(test\|doc\)_depend>/{/configure/!d};'
+mapfile -t packages < <(sed -n "$left_out"'s/.*<!-- deb: \(.*\) -->.*/\1/p' "$root/package.xml" | tr ' ' '\n' | sort -u)
 
 missing=()
 for package in "${packages[@]}"; do

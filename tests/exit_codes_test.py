@@ -5,6 +5,7 @@ Usage: exit_codes_test.py FOLDER_OF_THE_PROGRAMS"""
 import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 
 PROGRAMS = (("fit",), ("fit_batch",), ("fit_batch", "merge"), ("correlate",), ("history",), ("virtual_booth",), ("forget",), ("check_bag",))
@@ -34,6 +35,14 @@ class ExitCodes(unittest.TestCase):
                       ("fit_batch", __file__, "--out", ""), ("fit_batch", "merge", "/tmp", "--out", "")):
             with self.subTest(words=words):
                 self.assertEqual(code_of(*words), 2)
+
+    def test_a_page_in_an_export(self):
+        for document in ("fit.json", "sealed.json"):
+            with self.subTest(document), tempfile.TemporaryDirectory() as export:
+                page = pathlib.Path(export) / "page.html"
+                (pathlib.Path(export) / document).write_text("{}", encoding="utf-8")
+                self.assertEqual(code_of("history", export, "--customer", "4711", "--out", page), 2)
+                self.assertFalse(page.exists())
 
     def test_what_nobody_foresaw(self):
         self.assertEqual(code_of("forget", "scan", "__name:=a/b"), 3)  # no name of a node

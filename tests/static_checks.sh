@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 sources() { find nodes tests .ci launch -type f "$@" | sort; }
-needs() { command -v "$1" >/dev/null || { echo "$1 is not installed: launch/install_dependencies.sh" >&2; exit 2; }; }
+needs() { command -v "$1" >/dev/null || { echo "$1 is not installed: apt-get install ${2:-$1}" >&2; exit 2; }; }  # PROGRAM [PACKAGE]
 
 check_format() {
   needs clang-format
@@ -32,7 +32,7 @@ check_cppcheck() {
 }
 
 check_tidy() {
-  needs run-clang-tidy
+  needs run-clang-tidy clang-tidy
   # Some 40 s for eight sources, which are looked at together as they are compiled: by hand. Asks for a build with
   # cmake -DCMAKE_EXPORT_COMPILE_COMMANDS=ON.
   run-clang-tidy -quiet -p build -j "$(nproc)" -header-filter='/nodes/.*' -checks=-bugprone-suspicious-include \

@@ -33,10 +33,11 @@ class Digest {
   }
 
   void file(const fs::path& path) {
-    std::error_code unreadable;
+    std::error_code unreadable;  // so is all but a regular file: a pipe opens when somebody writes to it
     number(fs::file_size(path, unreadable));
-    std::ifstream stream(path, std::ios::binary);
-    if (unreadable || !stream)
+    std::ifstream stream;
+    if (!unreadable) stream.open(path, std::ios::binary);
+    if (!stream.is_open())
       throw geometry::Refusal(geometry::refusal::kBrokenFile, path.string() + " cannot be read");
     std::vector<char> block(std::size_t{1} << 20);
     while (stream.read(block.data(), static_cast<std::streamsize>(block.size())), stream.gcount() > 0)

@@ -64,6 +64,9 @@ void write(const Table& table, const MergeOptions& options) {
 int merge(const MergeOptions& options) {
   try {
     const Table table = read_table(options.folders);
+    for (const std::string& folder : table.not_begun)
+      fmt::print(stderr, "{} has no batch.json: its shard has not begun, or it is none of fit_batch\n",
+                 folder);
     write(table, options);
     const bool whole = table.missing.empty() && table.conflicts.empty();
     if (!options.quiet)

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -32,13 +33,6 @@ constexpr std::chrono::milliseconds kPatience(200);  // how late an interruption
 constexpr double kTerminal = 1, kLog = 60;           // seconds between words of progress
 
 volatile std::sig_atomic_t interrupted = 0;
-
-bool is_unfinished(const Json& line) {
-  const std::string status = line.at("status");
-  if (status == "refused")  // the surface's process ran out of its time or memory, which were the machine's
-    return line.at("reason").at("code") == geometry::refusal::kSurfaceFailed;
-  return status == "crashed" || status == "timed_out" || status == "out_of_memory" || status == "failed";
-}
 
 class Progress {
  public:
@@ -105,6 +99,8 @@ class Batch {
   }
 
  private:
+  using LastLine = std::tuple<std::string, std::string, std::string>;  // key, manifest, build
+
   /// For the merge: how many rows there will be, and which lines count. Shards of one folder begin at once.
   void write_description() const {
     const Json description{{"rows", jobs_.size()},
@@ -112,7 +108,8 @@ class Batch {
                            {"manifest_identity", manifest_},
                            {"version", TENSEGRIC_FIT_VERSION},
                            {"build", build_identity()}};
-    const files::Descriptor folder(options_.out, O_RDONLY | O_DIRECTORY);
+    const files::Descriptor folder(std::filesystem::canonical(options_.out),  // it may be a link
+                                   O_RDONLY | O_DIRECTORY);
     while (flock(folder.number(), LOCK_EX) != 0)
       if (errno != EINTR) files::fail(options_.out);
     const std::filesystem::path file = std::filesystem::path(options_.out) / "batch.json";
@@ -131,7 +128,7 @@ class Batch {
         done_.erase(key);
         return;
       }
-      rows_[row] = {key, line.value("manifest", "")};
+      rows_[row] = LastLine{key, line.value("manifest", ""), line.value("build", "")};
       if (!key.empty()) done_[key] = {line.at("status"), place};
     });
   }
@@ -147,7 +144,7 @@ class Batch {
       return;
     }
     const auto found = done_.find(identity.key);
-    if (found != done_.end() && rows_[job.row] == LastLine{identity.key, manifest_}) {
+    if (found != done_.end() && rows_[job.row] == last_line(identity.key)) {
       progress.add(found->second.status, false);
       return;
     }
@@ -184,11 +181,14 @@ class Batch {
     for (const Job* job : work.also) begin(*job, progress);
   }
 
-  /// The row's last line, which the merge takes, is of this key and manifest from now on. Whether it was not.
+  /// The row's last line, which the merge takes, is of this key, manifest and build from now on. Whether it
+  /// was not.
   bool note_line(const Job& job, const std::string& key) {
-    const LastLine last{key, manifest_};
+    const LastLine last = last_line(key);
     return std::exchange(rows_[job.row], last) != last;
   }
+
+  LastLine last_line(const std::string& key) const { return {key, manifest_, build_identity()}; }
 
   /// Whose line it is, before what became of it.
   Json with_head(const Job& job, const Identity& identity, const Json& line) const {
@@ -219,8 +219,7 @@ class Batch {
     std::string status;
     std::size_t place;
   };
-  std::unordered_map<std::string, Done> done_;           // by key
-  using LastLine = std::pair<std::string, std::string>;  // key, manifest
+  std::unordered_map<std::string, Done> done_;  // by key
   std::map<std::size_t, LastLine> rows_;
   struct Work {
     const Job* job;

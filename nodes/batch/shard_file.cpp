@@ -41,6 +41,13 @@ void for_each_line(const std::string& file, const std::function<void(Json&&, std
   }
 }
 
+bool is_unfinished(const Json& line) {
+  const std::string status = line.at("status");
+  if (status == "refused")  // the surface's process ran out of its time or memory, which were the machine's
+    return line.at("reason").at("code") == geometry::refusal::kSurfaceFailed;
+  return status == "crashed" || status == "timed_out" || status == "out_of_memory" || status == "failed";
+}
+
 ShardFile::ShardFile(const std::string& folder, const std::string& name) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

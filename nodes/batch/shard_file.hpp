@@ -13,6 +13,9 @@ namespace tensegric_fit::batch {
 void for_each_line(const std::string& file,
                    const std::function<void(nlohmann::ordered_json&& line, std::size_t place)>& use);
 
+/// Whether a line has no result of the scan, but a crash, a failure, or a lack of time or memory.
+bool is_unfinished(const nlohmann::ordered_json& line);
+
 class ShardFile {
  public:
   /// Opens FOLDER/NAME or makes it; an unfinished last line is taken off. Nobody else may have it open.

@@ -1,10 +1,12 @@
 #include "batch/table.hpp"
 
 #include <fmt/format.h>
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <set>
 
 #include "batch/shard_file.hpp"
@@ -55,31 +57,47 @@ void add(const std::string& name, const Json& value, std::vector<Figure>& figure
   }
 }
 
-/// batch.json and the lines of a folder that are of its manifest and build; of several lines of a row the
-/// last counts.
+/// batch.json and the lines of a folder that are of its manifest and build.
 struct Folder {
   Json description;
   std::map<std::size_t, Json> lines;
 };
 
-Folder read_folder(const std::string& path) {
-  std::ifstream stream(fs::path(path) / "batch.json");
+/// Whether it says what the scan itself came to: it could be read, and no run of it broke off.
+bool is_settled(const Json& line) {
+  return line.at("key") != "" && !is_unfinished(line);
+}
+
+/// Nothing where there is no batch.json: the shard never began. Of several lines of a row the last in its
+/// file counts; files of another number of shards may have the row as well, and their names say nothing of
+/// which is the later: one that is settled counts before one that is not.
+std::optional<Folder> read_folder(const std::string& path) {
+  const fs::path description = fs::path(path) / "batch.json";
+  if (!fs::exists(description)) return std::nullopt;
+  std::ifstream stream(description);
   Folder folder{Json::parse(stream, nullptr, false), {}};
   if (!folder.description.is_object() || !folder.description.contains("rows"))
-    throw Refusal(kBroken, path + " has no batch.json: it is not a folder of fit_batch");
+    throw Refusal(kBroken, description.string() + " is not of fit_batch");
   const std::size_t rows = folder.description["rows"];
   const std::string build = folder.description.value("build", ""),
                     manifest = folder.description.value("manifest_identity", "");
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(path))
-    if (entry.path().extension() == ".jsonl") files.push_back(entry.path());
+    if (fnmatch("shard-*-of-*.jsonl", entry.path().filename().c_str(), 0) == 0) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  for (const std::string& file : files)
+  for (const std::string& file : files) {
+    std::map<std::size_t, Json> last;
     for_each_line(file, [&](Json&& line, std::size_t) {
       const std::size_t row = line.at("row");
       if (row <= rows && line.value("build", "") == build && line.value("manifest", "") == manifest)
-        folder.lines[row] = std::move(line);
+        last[row] = std::move(line);
     });
+    for (auto& [row, line] : last) {
+      const auto known = folder.lines.find(row);
+      if (known == folder.lines.end() || is_settled(line) || !is_settled(known->second))
+        folder.lines[row] = std::move(line);
+    }
+  }
   return folder;
 }
 
@@ -115,23 +133,37 @@ Table read_table(std::vector<std::string> folders) {
   std::sort(folders.begin(), folders.end());
   folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
   Table table;
-  std::string manifest;
+  std::string first, manifest, build;
   for (const std::string& path : folders) {
-    Folder folder = read_folder(path);
-    const std::size_t rows = folder.description["rows"];
-    if (table.rows != 0 && rows != table.rows)
+    const std::optional<Folder> folder = read_folder(path);
+    if (!folder) {
+      table.not_begun.push_back(path);
+      continue;
+    }
+    const std::size_t rows = folder->description["rows"];
+    const std::string its_manifest = folder->description.value("manifest_identity", ""),
+                      its_build = folder->description.value("build", "");
+    if (first.empty()) {
+      first = path;
+      manifest = its_manifest;
+      build = its_build;
+      table.rows = rows;
+    }
+    if (rows != table.rows)
       throw Refusal(kBroken,
                     fmt::format("{} is of a manifest of {} rows, others of {}", path, rows, table.rows));
-    const std::string of = folder.description.value("manifest_identity", "");
-    if (table.rows != 0 && of != manifest)
-      throw Refusal(kBroken, fmt::format("{} is of another manifest than {}", path, folders.front()));
-    manifest = of;
-    table.rows = rows;
-    for (auto& [row, line] : folder.lines) {
+    if (its_manifest != manifest)
+      throw Refusal(kBroken, fmt::format("{} is of another manifest than {}", path, first));
+    if (its_build != build)
+      throw Refusal(kBroken,
+                    fmt::format("{} is of another build than {}: run both with the same", path, first));
+    for (const auto& [row, line] : folder->lines) {
       const auto [kept, fresh] = table.lines.try_emplace(row, line);
       if (!fresh && without_cost(kept->second) != without_cost(line)) table.conflicts.push_back(row);
     }
   }
+  if (first.empty())
+    throw Refusal(kBroken, folders.front() + " has no batch.json: it is not a folder of fit_batch");
   std::map<std::string, std::vector<std::size_t>> rows_of;
   for (std::size_t row = 1; row <= table.rows; ++row) {
     const auto found = table.lines.find(row);

@@ -22,14 +22,15 @@ struct Table {
   std::map<std::size_t, nlohmann::ordered_json> lines;      ///< by row
   std::vector<std::size_t> missing;                         ///< rows without a line
   std::map<std::string, std::vector<std::size_t>> doubles;  ///< rows of one key, where they are several
-  /// Rows that two folders have with another result: not the same build, scan or settings, or a result that
-  /// differs from run to run. The first folder's line is taken.
+  /// Rows that two folders have with another result: not the same scan, or a result that differs from run to
+  /// run. The first folder's line is taken.
   std::vector<std::size_t> conflicts;
+  std::vector<std::string> not_begun;  ///< folders without batch.json
 };
 
 /// Of the shards in the folders, whatever their order. Lines of an earlier manifest or build of a folder are
-/// left out. \throw Refusal broken_file: a folder without
-/// batch.json or lines, folders of different manifests
+/// left out. \throw Refusal broken_file: no folder has a batch.json, a file that is not of a batch, folders
+/// of different manifests or builds. \pre one folder or more
 Table read_table(std::vector<std::string> folders);
 
 /// One row each with all figures, without times and memory: the same bytes for the same scans, settings and

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "body_model/parts.hpp"
+#include "body_model/recognition.hpp"
 #include "geometry/status.hpp"
 #include "ros/flat.hpp"
 
@@ -142,6 +143,7 @@ RegisteredBody registered_in(const BodyModel& message,
   body.ground = message.ground;
   check(message.ground_deviation >= 0, "its ground has a deviation below 0");
   body.ground_deviation = message.ground_deviation;
+  body.there = body_model::shares_there(body);
   return body;
 }
 

@@ -81,6 +81,13 @@ std::string limb_of(const std::string& part) {
   return "";
 }
 
+/// Arm or leg that each part belongs to, "" for the others.
+std::vector<std::string> limbs_of(const Model& model) {
+  std::vector<std::string> limbs;
+  for (const std::string& part : model.parts) limbs.push_back(limb_of(part));
+  return limbs;
+}
+
 bool is_hand(const Model& model, int v) {
   return model.parts[model.part[v]].rfind("hand", 0) == 0;
 }
@@ -98,10 +105,12 @@ double more_on_left(const RegisteredBody& body) {
   return there[0] / whole[0] - there[1] / whole[1];
 }
 
-/// Of each vertex: whether it lies inside another limb or the trunk, or on the other leg, or the arm on the
-/// trunk, as a limb does for which there are no samples of its own.
-std::vector<char> run_into_others(const RegisteredBody& body) {
+/// Of each vertex that is asked for: whether it lies inside another limb or the trunk, or on the other leg,
+/// or the arm on the trunk, as a limb does for which there are no samples of its own. The others: 0.
+template <typename IsAsked>
+std::vector<char> run_into_others(const RegisteredBody& body, const IsAsked& is_asked) {
   const Model& model = *body.model;
+  const std::vector<std::string> limb_of_part = limbs_of(model);
   const std::vector<Vector3d> normals = geometry::vertex_normals(body.skin, model.triangles);
   std::vector<char> inside(body.skin.size(), 0);
   // Where both legs lie on one, it is that of the half that was scanned, or else the one on whose side it is.
@@ -115,13 +124,14 @@ std::vector<char> run_into_others(const RegisteredBody& body) {
     std::vector<Vector3d> others;
     std::vector<int> vertex, own;
     for (std::size_t v = 0; v < body.skin.size(); ++v) {
-      if (limb_of(model.parts[model.part[v]]) == limb) {
-        own.push_back(static_cast<int>(v));
+      if (limb_of_part[model.part[v]] == limb) {
+        if (is_asked(static_cast<int>(v))) own.push_back(static_cast<int>(v));
         continue;
       }
       others.push_back(body.skin[v]);
       vertex.push_back(static_cast<int>(v));
     }
+    if (own.empty()) continue;
     const geometry::PointTree tree(others);
     for (const int v : own) {
       const int other = vertex[tree.nearest(body.skin[v])];
@@ -129,7 +139,7 @@ std::vector<char> run_into_others(const RegisteredBody& body) {
       const double depth = -off.dot(normals[other]);
       inside[v] = static_cast<char>(depth > kInside && depth > kStraightIn * off.norm());
       if (off.norm() > kOneSkin || normals[v].dot(normals[other]) < kTurned) continue;
-      const std::string on = limb_of(model.parts[model.part[other]]);
+      const std::string& on = limb_of_part[model.part[other]];
       if (is_leg && on.rfind("leg", 0) == 0 && is_left_leg(body.skin[v]) != (limb == "leg_L")) inside[v] = 1;
       if (!is_leg && on.empty() && !is_hand(model, v) &&
           (model.mean[v] - model.mean[other]).norm() > kOtherSkin)
@@ -139,26 +149,8 @@ std::vector<char> run_into_others(const RegisteredBody& body) {
   return inside;
 }
 
-/// Of each part: which share of its skin has samples. `inside`: run_into_others.
-std::vector<double> shares_there(const RegisteredBody& body, const std::vector<char>& inside) {
-  const Model& model = *body.model;
-  std::vector<double> there(model.parts.size(), 0), whole(model.parts.size(), 0);
-  const auto count = [&](int v, double weight) {
-    whole[model.part[v]] += weight;
-    const bool beside =
-        body.off[v] > kThere && model.parts[model.part[v]].rfind("foot", 0) != 0;  // nobody sees soles
-    if (body.support[v] < kThere && !beside && !inside[v]) there[model.part[v]] += weight;
-  };
-  for (std::size_t i = 0; i < model.fit_points.size(); ++i)
-    if (!is_hand(model, model.fit_points[i])) count(model.fit_points[i], model.fit_weights[i]);
-  for (int v = 0; v < static_cast<int>(body.skin.size()); ++v)
-    if (is_hand(model, v)) count(v, 1);  // a hand has few fit points, and none on its fingers
-  for (std::size_t p = 0; p < there.size(); ++p) there[p] = whole[p] > 0 ? there[p] / whole[p] : 1;
-  return there;
-}
-
-std::vector<double> shares_there(const RegisteredBody& body) {
-  return shares_there(body, run_into_others(body));
+std::vector<double> known_shares(const RegisteredBody& body) {
+  return body.there.empty() ? body_model::shares_there(body) : body.there;
 }
 
 double share_of_crown(const RegisteredBody& body) {
@@ -310,16 +302,19 @@ Unexplained described(const std::vector<int>& thing, const RegisteredBody& body,
 
 }  // namespace
 
-void recognise(RegisteredBody& body, const Samples& samples) {
+std::vector<char> recognise(RegisteredBody& body, const Samples& samples) {
   const Off off = off_skin(body, samples);
   const Eigen::VectorXd& shape = body.parameters.shape;
   body.evidence = {misfit_of(body, samples, off), share_off(off),
                    std::sqrt(shape.squaredNorm() / static_cast<double>(shape.size()))};
   check(body.evidence, body.stature());
   body.unexplained.clear();
-  for (const std::vector<int>& thing : things_off(samples, off))
-    if (static_cast<double>(thing.size()) >= kLeastThing * static_cast<double>(off.distances.size()))
-      body.unexplained.push_back(described(thing, body, samples, off));
+  std::vector<char> is_of_thing(off.distances.size(), 0);
+  for (const std::vector<int>& thing : things_off(samples, off)) {
+    if (static_cast<double>(thing.size()) < kLeastThing * static_cast<double>(off.distances.size())) continue;
+    body.unexplained.push_back(described(thing, body, samples, off));
+    for (const int s : thing) is_of_thing[s] = 1;
+  }
   std::stable_sort(body.unexplained.begin(), body.unexplained.end(),
                    [](const Unexplained& a, const Unexplained& b) { return a.share > b.share; });
   body.note.clear();
@@ -328,10 +323,34 @@ void recognise(RegisteredBody& body, const Samples& samples) {
         "an unusual shape: {:.1f} deviations from the model's mean woman, of the women it was made from none "
         "is beyond {}; a man, padding, clothes?",
         body.evidence.shape, kUnusual);
+  return is_of_thing;
+}
+
+std::vector<double> shares_there(const RegisteredBody& body) {
+  const Model& model = *body.model;
+  std::vector<double> weights(body.skin.size(), 0);  // of the skin that stands for its part
+  for (std::size_t i = 0; i < model.fit_points.size(); ++i)
+    weights[model.fit_points[i]] += model.fit_weights[i];
+  for (int v = 0; v < static_cast<int>(body.skin.size()); ++v)
+    if (is_hand(model, v)) weights[v] = 1;  // a hand has few fit points, and none on its fingers
+  const auto has_samples = [&](int v) {
+    const bool beside =
+        body.off[v] > kThere && model.parts[model.part[v]].rfind("foot", 0) != 0;  // nobody sees soles
+    return body.support[v] < kThere && !beside;
+  };
+  const std::vector<char> inside =
+      run_into_others(body, [&](int v) { return weights[v] > 0 && has_samples(v); });
+  std::vector<double> there(model.parts.size(), 0), whole(model.parts.size(), 0);
+  for (int v = 0; v < static_cast<int>(body.skin.size()); ++v) {
+    whole[model.part[v]] += weights[v];
+    if (has_samples(v) && !inside[v]) there[model.part[v]] += weights[v];
+  }
+  for (std::size_t p = 0; p < there.size(); ++p) there[p] = whole[p] > 0 ? there[p] / whole[p] : 1;
+  return there;
 }
 
 std::vector<geometry::Missing> missing_parts(const RegisteredBody& body) {
-  const std::vector<double> there = shares_there(body);
+  const std::vector<double> there = known_shares(body);
   const auto share = [&](const std::string& part) { return there[body.model->part_named(part)]; };
   const auto gone = [&](const std::string& part) { return !part.empty() && share(part) < kLeastOfPart; };
   const char* where = body.scanned ? "scan" : "mesh";
@@ -362,16 +381,13 @@ std::vector<geometry::Missing> missing_parts(const RegisteredBody& body) {
 
 std::vector<char> parts_there(const RegisteredBody& body) {
   std::vector<char> there;
-  for (const double share : shares_there(body)) there.push_back(static_cast<char>(share >= kLeastOfPart));
+  for (const double share : known_shares(body)) there.push_back(static_cast<char>(share >= kLeastOfPart));
   return there;
 }
 
 std::vector<char> lost_skin(const RegisteredBody& body) {
-  std::vector<char> lost = run_into_others(body);
-  const std::vector<double> there = shares_there(body, lost);
-  for (std::size_t v = 0; v < lost.size(); ++v)
-    if (there[body.model->part[v]] >= kLeastOfPart) lost[v] = 0;
-  return lost;
+  const std::vector<char> part_is_there = parts_there(body);
+  return run_into_others(body, [&](int v) { return !part_is_there[body.model->part[v]]; });
 }
 
 bool lacks_feet(const RegisteredBody& body) {

@@ -9,9 +9,14 @@
 
 namespace tensegric_fit::body_model {
 
-/// Fills `evidence`, `unexplained` and `note`. \pre samples in random order; the body is registered to them
+/// Fills `evidence`, `unexplained` and `note`. Returns of each sample that was looked at, the first ones,
+/// whether it is of a thing that is not hers. \pre samples in random order; the body is registered to them
 /// \throw Refusal not_a_body: no person's shape or size, or more than one person
-void recognise(RegisteredBody& body, const Samples& samples);
+std::vector<char> recognise(RegisteredBody& body, const Samples& samples);
+
+/// Of each part, the share of its skin that has samples: what `there` is filled with. What follows takes it
+/// from there, or counts anew.
+std::vector<double> shares_there(const RegisteredBody& body);
 
 /// Head and limbs (upper_arm_L, forearm_L, hand_L, thigh_L, shank_L, foot_L, ..._R) of which the scan has
 /// less than half, and the trunk, and `crown`, the top of the head; what hangs on a missing part is named in

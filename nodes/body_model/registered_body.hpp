@@ -31,12 +31,14 @@ struct RegisteredBody {
   std::shared_ptr<const Model> model;
   Parameters parameters;
   double residual = 0;  ///< m: mean distance of model and surface from each other before the displacement,
-                        ///< each capped at Matching::kUnmatched, without parts that are not there
+                        ///< each capped at Matching::kUnmatched, without parts that are not there and
+                        ///< `unexplained` things
   std::vector<Eigen::Vector3d> posed;  ///< skin by pose and shape alone
   std::vector<Eigen::Vector3d> skin;   ///< and displaced onto the surface
   std::vector<double> off;      ///< m, of the skin from the surface; Matching::kUnmatched where there is none
   std::vector<double> support;  ///< m, of the skin from the middle of the samples nearest to it: small where
                                 ///< they lie all round
+  std::vector<double> there;    ///< of each part, the share of its skin that has samples; empty: not counted
   std::vector<Eigen::Vector3d> joints;  ///< one per bone
   std::vector<Eigen::Vector3d> bone_points;
   Evidence evidence;

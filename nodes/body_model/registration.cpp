@@ -33,10 +33,9 @@ constexpr int kAround = 12;            // samples: two rings of neighbours
 struct Stand {
   double stature, soles;  ///< m
 };
-constexpr double kShortestWoman = 1.30, kTallestWoman = 2.15;  // m, of women who stand or stoop
-constexpr double kShort = 1.45;  // m; of 100 women one is shorter: it may be a part of a taller one
-constexpr double kUsual = 1.65;  // m, of women and men when a scan shows only a part
-constexpr double kLeast = 0.5;   // m; less of a person is too little to know her by
+constexpr double kShortestWoman = 1.30;  // m, of women who stand or stoop
+constexpr double kShort = 1.45;          // m; of 100 women one is shorter: it may be a part of a taller one
+constexpr double kUsual = 1.65;          // m, of women and men when a scan shows only a part
 constexpr double kKnee = 0.27, kCrotch = 0.46, kChin = 0.87;  // statures above the soles
 
 constexpr int kYaws = 8, kWays = 2;              // that she may face, and that are looked at more closely
@@ -79,18 +78,19 @@ Parameters start_at(const Model& model, const Samples& samples, const Stand& sta
 std::vector<Stand> stands_of(const Samples& samples) {
   const auto box = geometry::bounding_box(samples.points);
   const double low = box[0].z(), high = box[1].z(), height = high - low;
-  if (height < kLeast || height > kTallestWoman)
+  if (height < kLowestPerson || height > kHighestPerson)
     throw geometry::Refusal(
         geometry::refusal::kNotABody,
         fmt::format("what was scanned is {:.2f} m high; a person, or her trunk, is {:.2f} to {:.2f} m",
-                    height, kLeast, kTallestWoman));
+                    height, kLowestPerson, kHighestPerson));
   std::vector<Stand> stands;
   if (height > kShortestWoman) stands.push_back({height, low});
   if (height > kShort) return stands;
   stands.push_back({kUsual, high - kUsual});
   stands.push_back({kUsual, low});
   for (const double bottom : {kKnee, kCrotch})
-    if (const double stature = height / (kChin - bottom); stature > kShortestWoman && stature < kTallestWoman)
+    if (const double stature = height / (kChin - bottom);
+        stature > kShortestWoman && stature < kHighestPerson)
       stands.push_back({stature, low - bottom * stature});
   return stands;
 }
@@ -111,18 +111,23 @@ std::vector<double> support_of(const std::vector<Vector3d>& skin, const std::vec
   return support;
 }
 
-/// m, mean distance of model and samples from each other; skin of parts that are not there has none. \pre all
-/// fit points took part
-double residual_of(const Model& model, const Matching& matching, const std::vector<char>& part_is_there) {
-  double skin = 0, weight = 0, samples = 0;
+/// m, mean distance of model and samples from each other; skin of parts that are not there has none, nor have
+/// samples of things that are not hers. \pre all fit points took part
+double residual_of(const Model& model, const Matching& matching, const std::vector<char>& part_is_there,
+                   const std::vector<char>& is_of_thing) {
+  double skin = 0, weight = 0, samples = 0, count = 0;
   for (std::size_t i = 0; i < model.fit_points.size(); ++i) {
     if (!part_is_there[model.part[model.fit_points[i]]]) continue;
     skin += model.fit_weights[i] * matching.distances[i];
     weight += model.fit_weights[i];
   }
-  for (const double d : matching.unexplained) samples += d;
+  for (std::size_t s = 0; s < matching.unexplained.size(); ++s) {
+    if (s < is_of_thing.size() && is_of_thing[s]) continue;
+    samples += matching.unexplained[s];
+    ++count;
+  }
   return ((weight > 0 ? skin / weight : Matching::kUnmatched) +
-          samples / static_cast<double>(matching.unexplained.size())) /
+          (count > 0 ? samples / count : Matching::kUnmatched)) /
          2;
 }
 
@@ -171,8 +176,8 @@ RegisteredBody Registrar::operator()(const Samples& samples) const {
     body.joints.push_back(posed.joint(static_cast<int>(b)));
   for (std::size_t i = 0; i < model.bone_points.size(); ++i)
     body.bone_points.push_back(posed.bone_point(static_cast<int>(i)));
-  body.residual = residual_of(model, fitted.matching, parts_there(body));
-  recognise(body, samples);
+  body.there = shares_there(body);
+  body.residual = residual_of(model, fitted.matching, parts_there(body), recognise(body, samples));
   return body;
 }
 

@@ -8,6 +8,9 @@
 
 namespace tensegric_fit::body_model {
 
+/// m, height of what can be registered: less of a person is too little to know her by; nobody is taller.
+inline constexpr double kLowestPerson = 0.5, kHighestPerson = 2.15;
+
 /// A model made ready for any number of registrations.
 class Registrar {
  public:

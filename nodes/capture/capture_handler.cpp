@@ -52,6 +52,12 @@ void CaptureHandler::stop() {
   fit_status_.clear();
 }
 
+bool CaptureHandler::forget(const std::string& scan_id) {
+  landmarks_.erase(scan_id);
+  fit_status_.erase(scan_id);
+  return is_busy() && watch_->scan_id() == scan_id;
+}
+
 void CaptureHandler::pulled(std::uint64_t stamp) {
   armed_ = true;
   watch(stamp);

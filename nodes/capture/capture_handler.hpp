@@ -42,6 +42,9 @@ class CaptureHandler {
   /// A scan with an older stamp (ns) is another customer's.
   void pulled(std::uint64_t stamp);
 
+  /// What it holds of that scan; whether the goal is of it, and to be ended.
+  bool forget(const std::string& scan_id);
+
   void add(const std::string& sensor, const sensor_msgs::PointCloud2& cloud);
   void add(const sensor_msgs::PointCloud2& scan);
   void add(const Landmarks::ConstPtr& landmarks);

@@ -11,7 +11,6 @@
 
 #include "capture/capture_handler.hpp"
 #include "geometry/status.hpp"
-#include "ros/held_scan.hpp"
 #include "ros/log_words.hpp"
 #include "ros/run_node.hpp"
 
@@ -82,10 +81,16 @@ class CaptureNode {
     opening_ = node.createWallTimer(ros::WallDuration(kLatched), open, true);
   }
 
+  /// Nothing is kept after a goal: if it restarted, it would miss the next customer's.
+  void forget(const ForgetOrder& order, ForgetAnswer& done) {
+    if (!handler_.forget(order.scan_id)) return;
+    finish(handler_.refused(geometry::refusal::kSuperseded, "the scan was to be forgotten"));
+    done.removed = {"its goal"};
+  }
+
  private:
   void on_goal() {
     goal_ = server_.acceptNewGoal();
-    HeldScan::of_process().clear();  // with the customer before
     try {
       handler_.begin(*goal_, now());
       for (const std::string& sensor : goal_->sensors) listen_to(sensor);
@@ -123,10 +128,7 @@ class CaptureNode {
     }
   }
 
-  void on_scan(const PointCloud2::ConstPtr& scan) {
-    handler_.add(*scan);
-    if (handler_.is_busy()) HeldScan::of_process().begin(handler_.scan_id());
-  }
+  void on_scan(const PointCloud2::ConstPtr& scan) { handler_.add(*scan); }
   void on_landmarks(const Landmarks::ConstPtr& landmarks) { handler_.add(landmarks); }
   void on_deformed(const DeformedMesh::ConstPtr& deformed) { handler_.add(*deformed); }
   void on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
@@ -156,9 +158,8 @@ class CaptureNode {
 
   void finish(const CaptureResult& result) {
     deformed_.shutdown();
-    HeldScan::of_process().publish(result.scan_id);
     ROS_INFO("capture: scan %s: %s %s", result.scan_id.c_str(),
-             result.measured ? "measured" : result.code.c_str(), without_figures(result.message).c_str());
+             result.measured ? "measured" : result.code.c_str(), log_words(result.message).c_str());
     if (result.measured)
       server_.setSucceeded(result);
     else

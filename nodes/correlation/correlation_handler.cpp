@@ -57,6 +57,7 @@ CorrelationHandler::CorrelationHandler(Parameters parameters, MeasureScan measur
 std::optional<CorrelationHandler::Input> CorrelationHandler::add(const TriangleMesh::ConstPtr& body) {
   if (body->scan_id != scan_id_) {
     scan_id_ = body->scan_id;
+    stamp_ = body->header.stamp;
     worn_.reset();
     fit_.reset();
   }
@@ -73,6 +74,13 @@ std::optional<CorrelationHandler::Input> CorrelationHandler::add(
     throw geometry::Refusal(
         geometry::refusal::kNothingYet,
         "a scan in the garment came before one without it: there is no body to compare it with");
+  if (const ros::Time stamp = tag.header.stamp; !stamp.isZero() && stamp < stamp_)
+    throw geometry::Refusal(
+        geometry::refusal::kNothingYet,
+        fmt::format(
+            "the scan in the garment was made {:.1f} s before the newest one without it: is it of the "
+            "customer before, or are the clocks of two scanners not set alike?",
+            (stamp_ - stamp).toSec()));
   worn_ = {worn, tag, scan_id_};
   return input();
 }

@@ -61,7 +61,8 @@ class CorrelationHandler {
   std::optional<Input> add(const ControlMesh::ConstPtr& control) { return completed(join_.add(control)); }
   /// Shapes on the way of a fit do not count.
   std::optional<Input> add(const DeformedMesh::ConstPtr& deformed);
-  /// \throw Refusal nothing_yet: there is no body that it could be a second scan of
+  /// \throw Refusal nothing_yet: there is no body that it could be a second scan of, or its stamp is earlier
+  /// than the body's: what a publisher latched of the customer before
   std::optional<Input> add(const sensor_msgs::PointCloud2::ConstPtr& worn, const ScanTag& tag);
 
   /// scan_id of the newest body; empty before the first.
@@ -86,6 +87,7 @@ class CorrelationHandler {
   correlation::Options options_;
   Join join_;
   std::string scan_id_;
+  ros::Time stamp_;                  // of that scan
   std::optional<Join::Joined> fit_;  // newest
   std::optional<Worn> worn_;         // newest
 

@@ -140,7 +140,9 @@ void delete_whole_folder(const std::string& folder) {
   try {
     const LockedParent parent(parent_of(folder));
     const fs::path place = parent_of(folder) / fs::path(folder).filename();
-    if (fs::symlink_status(place).type() != fs::file_type::directory) {
+    const fs::file_type there = fs::symlink_status(place).type();
+    if (there == fs::file_type::not_found) return;  // an unfinished one, which went with the lock
+    if (there != fs::file_type::directory) {
       errno = ENOTDIR;
       fail(folder);
     }

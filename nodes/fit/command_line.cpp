@@ -75,9 +75,10 @@ std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, s
                    ->allow_extra_args(false);
   auto* mesh = app.add_option("--mesh", line.mesh,
                               "Body mesh .ply, .obj, .stl, .glb, .gltf, taken as it is instead of a scan");
-  app.add_option("--unit", line.asked.unit, "Unit of the scan or mesh; default: inferred from the body")
+  app.add_option("--unit", line.asked.unit,
+                 "Unit of the scan, or of mesh and control mesh; default: inferred from the body")
       ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
-  app.add_option("--up", line.asked.up, "Its axis that points up; default: inferred from the body")
+  app.add_option("--up", line.asked.up, "Their axis that points up; default: inferred from the body")
       ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
   app.add_option(
          "--export", line.exports,
@@ -98,12 +99,13 @@ std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, s
   app.add_option("--tissue", line.tissue, "What the tissue is like: a file as `calibrate` writes it")
       ->needs(garment)
       ->check(CLI::ExistingFile);
-  app.add_option("--solver", solver, "Solver")
-      ->capture_default_str()
-      ->check(CLI::IsMember(tensegric::kSolverWords.all()));
-  app.add_option("--volume", volume, "Whose volume is kept: the control mesh's or the body's")
-      ->capture_default_str()
-      ->check(CLI::IsMember(tensegric::kVolumeWords.all()));
+  auto* solver_word = app.add_option("--solver", solver, "Solver")
+                          ->capture_default_str()
+                          ->check(CLI::IsMember(tensegric::kSolverWords.all()));
+  auto* volume_word =
+      app.add_option("--volume", volume, "Whose volume is kept: the control mesh's or the body's")
+          ->capture_default_str()
+          ->check(CLI::IsMember(tensegric::kVolumeWords.all()));
   auto* control_triangles =
       app.add_option("--control-triangles", line.settings.control_mesh.control_triangles,
                      fmt::format("Control triangles, at least; of a shape that is simplified about as many, "
@@ -126,9 +128,12 @@ std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, s
                                  "Control mesh CONTROL.ply for any shape; none: the shape simplified")
                       ->needs(mesh)
                       ->excludes(control_triangles);
-  auto* fixed = app.add_option("--fixed", line.fixed, "Fixed nodes of the shape's control mesh, NODES.yaml")
-                    ->needs(mesh);
-  app.add_option(
+  auto* fixed =
+      app.add_option("--fixed", line.fixed,
+                     "Fixed nodes of the shape's control mesh, NODES.yaml: by number, or by boxes in "
+                     "metres, z up")
+          ->needs(mesh);
+  auto* force = app.add_option(
       "--gravity", gravity,
       "A force x,y,z, the same on every outer node; of length 1 it would move the node that goes "
       "farthest by a tenth of the shape's size (its box's diagonal), if the shape gave way all along "
@@ -152,8 +157,9 @@ std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, s
     if (line.scans.empty() && line.mesh.empty()) throw CLI::RequiredError("--scan or --mesh");
     for (const std::string& text : ratios) line.ratios.push_back(ratio_from(text));
     if (!band.empty()) line.band = band_from(band);
-    if (!gravity.empty() && line.garment.empty() && !line.is_shape())
-      throw CLI::ValidationError("--gravity", "needs --garment or --fixed");
+    for (const CLI::Option* option : {solver_word, volume_word, control_triangles, force})
+      if (option->count() > 0 && line.garment.empty() && !line.is_shape())
+        throw CLI::ValidationError(option->get_name(), "needs --garment or --fixed");
     if (!gravity.empty()) line.gravity = vector_from(gravity, "--gravity");
   });
   if (exit_code) return exit_code;

@@ -7,6 +7,7 @@
 #include "fit/tissue_file.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/shipped_files.hpp"
+#include "geometry/status.hpp"
 #include "scan_files/scan_file.hpp"
 #include "tensegric/load_unit.hpp"
 
@@ -22,14 +23,19 @@ class Computation {
   void operator()() {
     out_.settings = line_.settings;
     out_.source.customer = line_.customer;
-    load_body();
-    if (line_.garment.empty() && !line_.is_shape()) return;  // measured only
+    out_.source.file = line_.mesh.empty() ? line_.scans.front() : line_.mesh;
+    if (line_.mesh.empty()) out_.source.more.assign(line_.scans.begin() + 1, line_.scans.end());
+    if (line_.garment.empty() && !line_.is_shape()) return load_body();  // measured only
+    // Small files first: what is wrong with them is said at once.
     const tensegric::Garment garment = load_garment();
     out_.source.garment = garment.name;
+    check_fineness(garment);
     if (const std::string tissue = tissue_file(); !tissue.empty()) take_tissue(tissue, out_.settings);
+    if (!line_.is_shape()) load_templates(garment);
+    load_body();
     if (line_.posture.twist != 0 || line_.posture.side_lean != 0)
       out_.settings.solver.bones = geometry::BoneFrames(out_.body.measures, line_.posture);
-    const Fitting& fitting = out_.fitting.emplace(prepare_fitting(garment));
+    const Fitting& fitting = out_.fitting.emplace(prepare_fitting());
     tensegric::SolverOptions& solver = out_.settings.solver;
     solver.gravity = tensegric::force_of_share(fitting.model, line_.gravity, solver, fitting.body_volumes);
     solver.track = tracked_nodes(fitting.control);
@@ -43,7 +49,6 @@ class Computation {
     std::future<void> loading;  // of the body model, while files are read; a broken one is refused at its use
     if (!line_.is_shape()) loading = std::async(std::launch::async, [] { body_model::shipped_registrar(); });
     if (!line_.mesh.empty()) {
-      out_.source.file = line_.mesh;
       say_("reading the mesh");
       geometry::TriangleMesh mesh =
           scan_files::read_body_mesh(line_.mesh, line_.asked, line_.is_shape(), out_.source.reading);
@@ -52,8 +57,6 @@ class Computation {
                                    : measure_mesh(std::move(mesh), out_.settings, out_.times);
       return;
     }
-    out_.source.file = line_.scans.front();
-    out_.source.more.assign(line_.scans.begin() + 1, line_.scans.end());
     say_("reading the scan");
     const geometry::PointCloud scan = read_scans();
     out_.source.points = scan.points.size();
@@ -86,7 +89,32 @@ class Computation {
     return adjusted(tensegric::take_garment(line_.garment, geometry::shipped_folder("garments")), line_);
   }
 
-  Fitting prepare_fitting(const tensegric::Garment& garment) {
+  void check_fineness(const tensegric::Garment& garment) const {
+    if (!line_.settings.reconstruction.bust_only) return;
+    for (const std::string& region : garment.regions)
+      if (region != "bust")
+        throw geometry::Refusal(geometry::refusal::kBadOption,
+                                "--bust-only leaves all but the bust coarse, and garment " + garment.name +
+                                    " is worn on the " + region);
+  }
+
+  void load_templates(const tensegric::Garment& garment) {
+    const std::string folder =
+        line_.templates.empty() ? geometry::shipped_folder("templates") : line_.templates;
+    for (const std::string& region : garment.regions)
+      templates_.push_back(
+          control_mesh::load_template(geometry::yaml_file(folder, region, geometry::refusal::kBadGarment)));
+  }
+
+  // In the unit and axes of the mesh.
+  geometry::TriangleMesh load_control() const {
+    geometry::TriangleMesh control = geometry::read_ply_mesh(line_.control);
+    if (!out_.source.reading.is_identity())
+      for (Eigen::Vector3d& p : control.vertices) p = out_.source.reading(p);
+    return control;
+  }
+
+  Fitting prepare_fitting() {
     say_("control mesh");
     if (line_.is_shape()) {
       const auto fixing = control_mesh::load_shape_fixing(line_.fixed);
@@ -94,20 +122,15 @@ class Computation {
                      line_.control.empty()
                          ? control_mesh::simplified_control(out_.body.mesh.mesh, fixing,
                                                             out_.settings.control_mesh.control_triangles)
-                         : control_mesh::control_from_shape(geometry::read_ply_mesh(line_.control), fixing),
+                         : control_mesh::control_from_shape(load_control(), fixing),
                      out_.settings, out_.times);
     }
-    std::vector<control_mesh::Template> patterns;
-    const std::string folder =
-        line_.templates.empty() ? geometry::shipped_folder("templates") : line_.templates;
-    for (const std::string& region : garment.regions)
-      patterns.push_back(
-          control_mesh::load_template(geometry::yaml_file(folder, region, geometry::refusal::kBadGarment)));
-    return prepare(out_.body, patterns, out_.settings, out_.times);
+    return prepare(out_.body, templates_, out_.settings, out_.times);
   }
 
   const CommandLine& line_;
   Computed& out_;
+  std::vector<control_mesh::Template> templates_;  // of the garment's regions
   const std::function<void(const std::string&)>& say_;
 };
 

@@ -11,9 +11,17 @@ std::optional<int> parse(int argc, char** argv, CorrelateLine& line) {
       "2 usage, 3 input refused, 1 the results cannot be written.");
   app.add_option("--fit", line.fit, "Folder that `fit --garment` wrote, or an export of the pipeline")
       ->required();
-  auto* worn = app.add_option("--worn", line.worn,
-                              "Second scan, with the garment on: FILE.ply, .pcd or .bag, metres, any frame");
-  auto* mesh = app.add_option("--mesh", line.mesh, "Body mesh WORN.ply, taken as it is instead of a scan");
+  auto* worn =
+      app.add_option("--worn", line.worn,
+                     "Second scan, with the garment on, in any frame: FILE.ply, .pcd, .xyz, .bag, or a "
+                     "mesh .obj, .stl, .glb, .gltf");
+  auto* mesh = app.add_option("--mesh", line.mesh,
+                              "Body mesh .ply, .obj, .stl, .glb, .gltf, taken as it is instead of a scan");
+  app.add_option("--unit", line.asked.unit,
+                 "Unit of the second scan or mesh; default: inferred from the body")
+      ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
+  app.add_option("--up", line.asked.up, "Its axis that points up; default: inferred from the body")
+      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
   app.add_option("--thickness", line.options.thickness,
                  "Of the garment, metres: what its outside stands off the skin that it covers")
       ->capture_default_str();

@@ -6,12 +6,14 @@
 
 #include "correlation/correlate.hpp"
 #include "fit/chain.hpp"
+#include "mesh_files/reading.hpp"
 
 namespace tensegric_fit::fit {
 
 struct CorrelateLine {
-  std::string fit;         ///< folder that `fit --garment` wrote
-  std::string worn, mesh;  ///< the second scan, or a body mesh in its place
+  std::string fit;          ///< folder that `fit --garment` wrote
+  std::string worn, mesh;   ///< the second scan, or a body mesh in its place
+  mesh_files::Asked asked;  ///< unit and axes of it
   std::string out = "correlate_out";
   correlation::Options options;
   bool quiet = false;

@@ -4,6 +4,7 @@
 #include "files/owner_only.hpp"
 #include "fit/correlate_line.hpp"
 #include "fit/correlation_report.hpp"
+#include "fit/result_documents.hpp"
 #include "fit/result_folder.hpp"
 #include "geometry/ply.hpp"
 #include "inspect/composition.hpp"
@@ -16,8 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const ResultNames kCorrelateResults = {"correlate.json", "correlate.html", "distance.png",
-                                       "distance.ply",   "distance.csv",   "silhouettes.png"};
+const ResultNames kCorrelateResults(std::begin(kCorrelateFiles), std::end(kCorrelateFiles));
 const ResultNames kFitted = {kFitReport, kExportDocument, "body.ply", "deformed.ply", "control.ply"};
 
 class Run {
@@ -53,12 +53,13 @@ class Run {
   Body worn_body() {
     source_.file = line_.mesh.empty() ? line_.worn : line_.mesh;
     if (!line_.mesh.empty()) {
-      geometry::TriangleMesh mesh = scan_files::read_body_mesh(line_.mesh, {}, false, source_.reading);
+      geometry::TriangleMesh mesh =
+          scan_files::read_body_mesh(line_.mesh, line_.asked, false, source_.reading);
       source_.points = mesh.vertices.size();
       return measure_mesh(std::move(mesh), line_.settings, times_);
     }
     scan_files::ScanFile file = scan_files::read_scan_file(line_.worn);
-    source_.reading = scan_files::reading_of({file}, {});
+    source_.reading = scan_files::reading_of({file}, line_.asked);
     scan_files::apply(source_.reading, file.cloud);
     const geometry::PointCloud scan = geometry::points_of(file.cloud);
     source_.points = scan.points.size();

@@ -13,6 +13,7 @@
 #include "fit/effects.hpp"
 #include "fit/maker_export.hpp"
 #include "fit/picture_files.hpp"
+#include "fit/result_documents.hpp"
 #include "fit/result_folder.hpp"
 #include "geometry/ply.hpp"
 
@@ -22,10 +23,11 @@ namespace {
 namespace fs = std::filesystem;
 
 const ResultNames kResults = [] {
-  ResultNames names = {"report.json",  "body.ply",      "control.ply", "control_deformed.ply",
+  ResultNames names = {kFitReport,     "body.ply",      "control.ply", "control_deformed.ply",
                        "deformed.ply", "history.csv",   "front.png",   "side.png",
                        "back.png",     "distortion.png"};
   names.insert(names.end(), std::begin(kMakerFiles), std::end(kMakerFiles));
+  names.insert(names.end(), std::begin(kCorrelateFiles), std::end(kCorrelateFiles));
   return names;
 }();
 
@@ -52,7 +54,7 @@ class Run {
                  "scan with "
                  "--body-triangles {}\n",
                  triangles, kMostMakerTriangles, kMostMakerTriangles);
-    write_json(path("report.json"), done_.report());
+    write_json(path(kFitReport), done_.report());
   }
 
   const Source& source() const { return done_.source; }
@@ -102,8 +104,7 @@ int run(const CommandLine& line) {
     fmt::print(stderr, "results: {}\n", fs::absolute(line.out).lexically_normal().string());
   };
   return run_into_folder({"fit", line.out, kResults, inputs, work, [&](const geometry::Refusal& refusal) {
-                            write_json(fs::path(line.out) / "report.json",
-                                       report_of(chain.source(), refusal));
+                            write_json(fs::path(line.out) / kFitReport, report_of(chain.source(), refusal));
                           }});
 }
 

@@ -1,9 +1,9 @@
 #include "fit/fitted_folder.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "fit/result_documents.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/status.hpp"
 
@@ -15,10 +15,9 @@ namespace refusal = geometry::refusal;
 using geometry::Refusal;
 using nlohmann::json;
 
-json read_json(const fs::path& path) {
-  std::ifstream file(path);
-  const json document = json::parse(file, nullptr, false);
-  if (document.is_discarded()) throw Refusal(refusal::kBrokenFile, path.string() + ": not JSON");
+json known_document(const fs::path& path) {
+  const json document = read_document(path);
+  if (document.is_discarded()) throw Refusal(refusal::kBrokenFile, path.string() + ": no file of JSON");
   return document;
 }
 
@@ -62,9 +61,9 @@ FittedFolder read_fitted_folder(const std::string& folder) {
                                             kExportDocument + ", as an export has it");
   try {
     if (by_fit)
-      read_report(read_json(report), folder, fitted);
+      read_report(known_document(report), folder, fitted);
     else
-      read_export(read_json(document), fitted);
+      read_export(known_document(document), fitted);
   } catch (const json::exception&) {
     throw Refusal(refusal::kBrokenFile, (by_fit ? report : document).string() + ": not as " +
                                             (by_fit ? "fit writes it" : "an export has it"));

@@ -8,8 +8,6 @@
 
 namespace tensegric_fit::fit {
 
-inline constexpr char kFitReport[] = "report.json", kExportDocument[] = "fit.json";
-
 /// Metres, the scan's frame.
 struct FittedFolder {
   std::string scan;                       ///< file that the body comes from; of an export: its scan_id

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -20,11 +19,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr double kClocksAreSet = 946684800;  // s, 2000-01-01: earlier stamps are of clocks that start at zero
-
-json read_json(const fs::path& file) {
-  std::ifstream in(file);
-  return in ? json::parse(in, nullptr, false) : json();
-}
 
 double time_of_change(const fs::path& file) {
   struct stat status {};
@@ -114,7 +108,7 @@ std::optional<Visit> read_visit(const fs::path& folder) {
   visit.folder = folder;
   try {
     for (const char* name : kVisitDocuments) {
-      const json document = read_json(folder / name);
+      const json document = read_document(folder / name);
       if (!document.is_object()) continue;
       visit.time = time_of_change(folder / name);
       if (document.contains("format"))

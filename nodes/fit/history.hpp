@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "fit/result_documents.hpp"
+
 namespace tensegric_fit::fit {
 
 /// Metres.
@@ -30,7 +32,7 @@ struct Visit {
 };
 
 /// What a folder is known by: an export's document, or else a report.
-inline constexpr std::array<const char*, 2> kVisitDocuments{"fit.json", "report.json"};
+inline constexpr std::array<const char*, 2> kVisitDocuments{kExportDocument, kFitReport};
 
 /// Nothing where a folder holds neither fit.json nor a report.json that went through.
 std::optional<Visit> read_visit(const std::filesystem::path& folder);

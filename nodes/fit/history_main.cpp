@@ -6,6 +6,7 @@
 #include "files/whole_folder.hpp"
 #include "fit/history.hpp"
 #include "fit/parsed_line.hpp"
+#include "fit/result_documents.hpp"
 #include "geometry/status.hpp"
 
 namespace {
@@ -58,6 +59,10 @@ int run(int argc, char** argv) {
       ->needs(whose);
   app.add_option("--out", out, "Page.html with tables, outlines and links")->needs(whose);
   if (const auto code = fit::parsed(app, argc, argv, std::cerr, [] {})) return *code;
+  if (!out.empty() && fit::is_export(std::filesystem::path(out).parent_path())) {
+    std::cerr << "history: --out: " << out << " would lie in an export, which takes no other files\n";
+    return 2;
+  }
   return compare(folders, customer, pair, out);
 }
 

@@ -31,12 +31,15 @@ img { max-width: 100% } .from { color: #c86e3c } .to { color: #145a96 } b { colo
 geometry::TriangleMesh body_of(const Visit& visit) {
   geometry::TriangleMesh body = geometry::read_ply_mesh((visit.folder / "body.ply").string());
   for (Eigen::Vector3d& vertex : body.vertices) vertex = visit.body_from_scan * vertex;
-  double top = 0;
-  for (const Eigen::Vector3d& vertex : body.vertices) top = std::max(top, vertex.z());
+  double stature = 0;
+  if (const auto known = visit.heights.find("stature"); known != visit.heights.end())
+    stature = known->second.before;  // exports have no head
+  else
+    for (const Eigen::Vector3d& vertex : body.vertices) stature = std::max(stature, vertex.z());
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int trunk = 0;
   for (const Eigen::Vector3d& vertex : body.vertices) {
-    if (vertex.z() < kTrunkFrom * top || vertex.z() > kTrunkTo * top) continue;
+    if (vertex.z() < kTrunkFrom * stature || vertex.z() > kTrunkTo * stature) continue;
     sum += vertex;
     ++trunk;
   }

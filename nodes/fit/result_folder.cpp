@@ -1,22 +1,23 @@
 #include "fit/result_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
+#include <cerrno>
 #include <cstdio>
 #include <stdexcept>
 
+#include "files/descriptor.hpp"
 #include "files/whole_folder.hpp"
+#include "fit/result_documents.hpp"
 
 namespace tensegric_fit::fit {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::array<const char*, 2> kExportDocuments{"fit.json", "sealed.json"};
 
 /// An old result is never taken for a new one. \throw std::filesystem::filesystem_error: one cannot be
 /// removed
@@ -30,15 +31,6 @@ void remove_results(const fs::path& folder, const ResultNames& names) {
   for (const char* name : names) fs::remove(folder / name, not_there);
 }
 
-/// What is read from it is its document's, and a folder with other files is not deleted as an export.
-bool is_export(const ProgramRun& run) {
-  std::error_code not_there;
-  return std::any_of(kExportDocuments.begin(), kExportDocuments.end(), [&](const char* name) {
-    return std::find(run.names.begin(), run.names.end(), std::string(name)) == run.names.end() &&
-           fs::exists(fs::path(run.out) / name, not_there);
-  });
-}
-
 /// The first of the inputs that the results would take the place of, or null.
 const std::string* endangered_input(const ProgramRun& run) {
   std::error_code not_there;
@@ -48,19 +40,9 @@ const std::string* endangered_input(const ProgramRun& run) {
   return nullptr;
 }
 
-}  // namespace
-
-int run_into_folder(const ProgramRun& run) {
-  if (const std::string* input = endangered_input(run)) {
-    fmt::print(stderr, "--out: the results would overwrite the input {}\n", *input);
-    return 2;
-  }
-  if (is_export(run)) {
-    fmt::print(stderr, "--out: {} is an export, which takes no other files\n", run.out);
-    return 2;
-  }
+/// In a folder that nobody else writes into.
+int run_alone(const ProgramRun& run) {
   try {
-    fs::create_directories(run.out);
     remove_old_results(run.out, run.names);
     run.work();
     return 0;
@@ -78,6 +60,29 @@ int run_into_folder(const ProgramRun& run) {
     remove_results(run.out, run.names);
     return 1;
   }
+}
+
+}  // namespace
+
+int run_into_folder(const ProgramRun& run) {
+  if (const std::string* input = endangered_input(run)) {
+    fmt::print(stderr, "--out: the results would overwrite the input {}\n", *input);
+    return 2;
+  }
+  if (is_export(run.out)) {
+    fmt::print(stderr, "--out: {} is an export, which takes no other files\n", run.out);
+    return 2;
+  }
+  try {
+    fs::create_directories(run.out);
+    const files::Descriptor folder(fs::canonical(run.out), O_RDONLY | O_DIRECTORY);
+    // Where a file system has no locks it goes on without.
+    if (flock(folder.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return run_alone(run);
+    fmt::print(stderr, "--out: another program writes into this folder: {}\n", run.out);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}: {}\n", run.program, error.what());
+  }
+  return 1;
 }
 
 void say_progress(bool quiet, const std::string& what) {

@@ -17,9 +17,14 @@ namespace tensegric_fit::fit {
 /// Names of the files that a program writes.
 using ResultNames = std::vector<const char*>;
 
+/// Of `correlate`. They are of the body that was there then: a new `fit` into the same folder removes them.
+inline constexpr const char* kCorrelateFiles[] = {"correlate.json", "correlate.html", "distance.png",
+                                                  "distance.ply",   "distance.csv",   "silhouettes.png"};
+
 /// What a program that writes its results into a folder does, and its exit code: 0 done; 1 something cannot
-/// be written, and nothing is left; 2 an input (a path, or empty) or an export would be overwritten; 3 the
-/// input is refused, and what `refused` writes is left alone. What is wrong goes to stderr.
+/// be written, and nothing is left, or another program writes into the folder, which is left alone; 2 an
+/// input (a path, or empty) or an export would be overwritten; 3 the input is refused, and what `refused`
+/// writes is left alone. What is wrong goes to stderr.
 struct ProgramRun {
   const char* program;
   std::string out;

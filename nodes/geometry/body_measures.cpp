@@ -1,6 +1,7 @@
 #include "geometry/body_measures.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "geometry/status.hpp"
 
@@ -36,6 +37,19 @@ double BodyMeasures::height(const std::string& name) const {
     throw Refusal(std::string(refusal::kMissingPart) + ":" + name,
                   "the " + name + " level was not found on the body" + why_missing(missing, name));
   return found->metres;
+}
+
+const std::vector<std::string>& landmarks_of_height(const std::string& height) {
+  static const std::vector<std::string> none;
+  static const std::map<std::string, std::vector<std::string>> landmarks = {
+      {"bust", {"bust_point_L", "bust_point_R"}},
+      {"underbust", {"underbust_L", "underbust_R"}},
+      {"waist", {"waist_side_L", "waist_side_R"}},
+      {"hip", {"buttock_L", "buttock_R"}},
+      {"crotch", {"crotch"}},
+      {"neck", {"neck_front", "neck_back"}}};
+  const auto found = landmarks.find(height);
+  return found == landmarks.end() ? none : found->second;
 }
 
 }  // namespace tensegric_fit::geometry

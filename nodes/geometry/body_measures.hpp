@@ -35,7 +35,8 @@ struct GirthLoop {
   std::vector<Eigen::Vector3d> points;
 };
 
-/// A landmark, height or girth that was not found, and why.
+/// What was not found, and why: a landmark, height or girth by its name (a height and the girth on its level
+/// have one), or a part of the body.
 struct Missing {
   std::string name, reason;
 };
@@ -58,5 +59,8 @@ struct BodyMeasures {
   /// Height above the soles. \throw Refusal missing_part:NAME
   double height(const std::string& name) const;
 };
+
+/// The landmarks that define a height; none of the stature.
+const std::vector<std::string>& landmarks_of_height(const std::string& height);
 
 }  // namespace tensegric_fit::geometry

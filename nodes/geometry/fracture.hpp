@@ -17,8 +17,9 @@ struct Fracture {
   double offset;           ///< m, largest distance between the two layers along their normal
 };
 
-/// Lowers the confidence of landmarks in a fracture and of girths whose tape runs through one, and adds the
-/// reason.
+/// Lowers the confidence of landmarks in a fracture, of girths whose tape runs through one and of heights
+/// that are read from either, widens their intervals by its offset, and adds the reason. Not of the stature:
+/// fractures are looked for below the head.
 void doubt_fractured(const std::vector<Fracture>& fractures, BodyMeasures& measures);
 
 }  // namespace tensegric_fit::geometry

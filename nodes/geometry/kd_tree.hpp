@@ -20,8 +20,7 @@ struct KdTree {
   Index index;
 
   explicit KdTree(std::vector<Point> unordered) : points(std::move(unordered)), index(kAxes, *this) {
-    index.buildIndex();
-    order = index.vAcc;
+    order = index.vAcc;  // nanoflann's constructor has built the tree
     std::vector<Point> ordered;
     ordered.reserve(points.size());
     for (std::size_t i = 0; i < order.size(); ++i) {

@@ -168,20 +168,11 @@ std::optional<ChangedMeasure> bust_points_apart(const BodyMeasures& measures, co
 }
 
 std::vector<ChangedMeasure> heights_after(const BodyMeasures& measures, const MovedSkin& skin) {
-  static const std::map<std::string, std::vector<std::string>> kLandmarks = {
-      {"bust", {"bust_point_L", "bust_point_R"}},
-      {"underbust", {"underbust_L", "underbust_R"}},
-      {"waist", {"waist_side_L", "waist_side_R"}},
-      {"hip", {"buttock_L", "buttock_R"}},
-      {"crotch", {"crotch"}},
-      {"neck", {"neck_front", "neck_back"}}};
   const std::map<std::string, double> risen = rises(measures, skin);
   std::vector<ChangedMeasure> changed;
   for (const Measure& height : measures.heights) {
     changed.push_back({height, std::nullopt});
-    const auto landmarks = kLandmarks.find(height.name);
-    std::optional<double> change;
-    if (landmarks != kLandmarks.end()) change = mean_of(risen, landmarks->second);
+    std::optional<double> change = mean_of(risen, landmarks_of_height(height.name));
     if (height.name == "stature")
       change = top(skin.after, measures.body_from_scan) - top(skin.before.vertices, measures.body_from_scan);
     if (change) changed.back().after = height.metres + *change;

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <new>
 
 #include "geometry/ply_header.hpp"
 #include "geometry/point_cloud.hpp"
@@ -21,6 +22,8 @@ void read_ply(const std::string& path, pcl::PolygonMesh& mesh) {
   int result = -1;
   try {
     result = pcl::PLYReader().read(path, mesh);
+  } catch (const std::bad_alloc&) {
+    throw;  // the file may be sound
   } catch (const std::exception&) {
   }
   if (result < 0) throw Refusal(refusal::kBrokenFile, path + ": is truncated or is not a PLY file");

@@ -47,19 +47,23 @@ std::vector<BraSize> bra_sizes(const geometry::Measure& bust, const geometry::Me
   const std::optional<BraSize> measured = bra_size(bust.metres, underbust.metres);
   if (!measured) return {};
   static const std::vector<Likely> values = likely_values();
+  double own = 0;                                            // how likely the measured size is
   std::map<std::string, std::pair<BraSize, double>> others;  // label -> size and how likely it is
   for (const Likely& a : values)
     for (const Likely& b : values) {
       const auto size = bra_size(bust.metres + a.value * bust.half_width / kDeviations,
                                  underbust.metres + b.value * underbust.half_width / kDeviations);
-      if (size && size->label() != measured->label())
-        others.try_emplace(size->label(), *size, 0).first->second.second += a.share * b.share;
+      if (!size) continue;
+      double& share = size->label() == measured->label()
+                          ? own
+                          : others.try_emplace(size->label(), *size, 0).first->second.second;
+      share += a.share * b.share;
     }
   std::vector<BraSize> sizes{*measured};
   const auto likeliest = std::max_element(
       others.begin(), others.end(),
       [](const auto& one, const auto& other) { return one.second.second < other.second.second; });
-  if (likeliest != others.end() && likeliest->second.second >= kOnABorder)
+  if (likeliest != others.end() && (likeliest->second.second >= kOnABorder || own < kInDoubt))
     sizes.push_back(likeliest->second.first);
   return sizes;
 }

@@ -22,12 +22,13 @@ struct BraSize {
 /// 10 cm or less, or of more than the letter Z stands for (64 cm).
 std::optional<BraSize> bra_size(double bust, double underbust);
 
-/// A size is worth naming beside the measured one where girths as uncertain as hers have it this often.
-inline constexpr double kOnABorder = 0.25;
+/// A size is worth naming beside the measured one where girths as uncertain as hers have it this often, or
+/// the measured one less often than `kInDoubt`: many sizes may share what is left, each of them seldom.
+inline constexpr double kOnABorder = 0.25, kInDoubt = 0.5;
 
-/// The size by the measured girths and, where she lies on a border, the one that she may have as well. The
-/// girths' errors are taken as independent and normal; half-widths are those of their 95 % intervals, 0:
-/// exact. Metres. Empty where the measured girths have no size.
+/// The size by the measured girths and, where she lies on a border or the girths leave several open, the
+/// likeliest other. The girths' errors are taken as independent and normal; half-widths are those of their 95
+/// % intervals, 0: exact. Metres. Empty where the measured girths have no size.
 std::vector<BraSize> bra_sizes(const geometry::Measure& bust, const geometry::Measure& underbust);
 
 }  // namespace tensegric_fit::inspect

@@ -140,6 +140,12 @@ bool FitSession::redo() {
   return go_to_last(after_, before_);
 }
 
+void FitSession::forget_steps() {
+  before_.clear();
+  after_.clear();
+  dragged_.clear();
+}
+
 void FitSession::place(const std::map<std::string, std::string>& region_of_line) {
   for (AskedLine& line : now_.lines)
     if (const auto found = region_of_line.find(line.name); found != region_of_line.end())

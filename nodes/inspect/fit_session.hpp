@@ -55,6 +55,8 @@ class FitSession {
   /// What was undone, until something else is changed.
   bool can_redo() const { return !after_.empty(); }
   bool redo();
+  /// They were the last customer's; what is worn stays.
+  void forget_steps();
 
   /// Which region each line is in, once that is known. No step.
   void place(const std::map<std::string, std::string>& region_of_line);

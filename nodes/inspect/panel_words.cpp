@@ -66,6 +66,15 @@ std::string not_exported(const std::string& message) {
   return sentence("Nothing was exported: " + message);
 }
 
+std::string unknown_frame(const std::string& frame) {
+  return fmt::format("The view is not turned: from rviz's fixed frame tf knows no way to the frame '{}'.",
+                     frame);
+}
+
+std::string default_taken(const std::string& why, double seconds) {
+  return sentence(fmt::format("{}; {:.0f} s are taken", why, seconds));
+}
+
 std::string fit_ended(const std::string& garment, const std::string& status, const std::string& note,
                       double milliseconds) {
   static const std::map<std::string, std::string> said{

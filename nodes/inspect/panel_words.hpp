@@ -37,7 +37,9 @@ inline constexpr char kGarmentHelp[] = "A garment's name, several joined by + (B
 inline constexpr char kPipelineNotRunning[] =
     "The fitting pipeline is not running. Start it: roslaunch tensegric_fit pipeline.launch. If it runs in a "
     "namespace: ROS_NAMESPACE=NAME roslaunch tensegric_fit inspect.launch",
-                      kReady[] = "Ready.", kWaitsForScan[] = "Waiting for a scan.";
+                      kReady[] = "Ready.", kWaitsForScan[] = "Waiting for a scan.",
+                      kReadyToMeasure[] =
+                          "Ready. It measures only: none of the stages that fit garments was started.";
 std::string silent(const std::string& stage);
 std::string stage_refused(const std::string& stage, const std::string& message);
 std::string working(const std::string& stage);
@@ -45,13 +47,24 @@ std::string working(const std::string& stage);
 // What became of a request.
 inline constexpr char kNoAnswer[] = "The fitting pipeline does not answer; what is shown is the last fit.",
                       kEmptyFolder[] = "Name a folder for the export.",
-                      kNothingToExport[] = "Nothing was exported: no body under a garment is shown so far.";
+                      kNothingToExport[] = "Nothing was exported: no body under a garment is shown so far.",
+                      kOldNotExported[] =
+                          "Nothing was exported: another scan has come since the body that is shown.",
+                      kOldNotNamed[] =
+                          "The customer was not noted: another scan has come since the body that is shown.";
 std::string solving(int iteration);
 std::string not_accepted(const std::string& message);
 std::string exported(int files, const std::string& folder);
 /// `source`: file that the scan came from, or empty.
 std::string customer_help(const std::string& source);
 std::string not_exported(const std::string& message);
+
+/// What rviz's view cannot be turned for.
+inline constexpr char kNoOrbit[] = "The view is not turned: rviz shows another than its Orbit view.";
+std::string unknown_frame(const std::string& frame);
+
+/// Of a parameter of rviz's node that is no good: why, and the seconds in its place.
+std::string default_taken(const std::string& why, double seconds);
 
 /// A fit that has ended: "B1: fits (12 ms)", or what is wrong with it.
 std::string fit_ended(const std::string& garment, const std::string& status, const std::string& note,

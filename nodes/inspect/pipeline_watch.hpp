@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 
 #include "geometry/stage_report.hpp"
@@ -23,7 +24,7 @@ class PipelineWatch {
     std::string words;
     bool trouble;  ///< something was refused, failed, or is silent
     bool working;
-    int done, all;  ///< stages that are through with the newest scan
+    int done, all;  ///< stages that are through with the newest scan; of a chain that only measures two
     std::string
         newest_scan;  ///< id of the scan that came last, whatever became of it and of the stages since
   };
@@ -35,13 +36,17 @@ class PipelineWatch {
     double at;       // heard last
     double said_at;  // since when state and message are these
   };
+  bool is_lone(const StageReport& report) const;
+  bool fits_garments() const;
   void look_at_booth(double now, State& state) const;
   void add_warnings(State& state) const;
 
   std::map<std::string, Heard> stages_;
   StageReport dropped_;  // the last that a stage named without a change of state
   double dropped_at_ = -kNews;
-  std::string newest_, refused_;  // the last that reconstruction took; what the booth refused since
+  std::string newest_, refused_;  // the last that came to the chain; what the booth refused since
+  bool lone_ = false;             // newest_ is of a body that reconstruction did not make
+  std::set<std::string> ahead_;   // what reconstruction took since the landmarks last had the newest
   double scan_at_ = 0;  // when the newest scan came: what the booth refused before is no news any more
 };
 

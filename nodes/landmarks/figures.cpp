@@ -160,7 +160,7 @@ double confidence_of(const Figure& figure, const Settled& settled) {
 
 std::string reason_of(const Figure& figure, const Settled& settled) {
   if (kNormal * figure.ground > kSure * limit_of(figure))
-    return "no foot is there: where the ground is, is the body model's guess";
+    return "where the ground is, is uncertain: no foot is there, or soles and lowest place do not agree";
   if (!settled.rests_on_model) return "surface and body model leave it open by more than ISO 20685 allows";
   if (!figure.on_mesh) return "the surface does not show it; it is where the body model has it";
   return "the surface shows something else there; it is where the body model has it";

@@ -93,7 +93,7 @@ class Reader {
     }
     neck();
     stature();
-    return {frame_, std::move(figures_)};
+    return {frame_, std::move(figures_), std::move(missing_)};
   }
 
  private:
@@ -111,16 +111,20 @@ class Reader {
     return tape.empty() ? kWorst : sum / static_cast<double>(tape.size());
   }
 
+  /// `what`: what the figure is of, in words, where neither surface may have it.
   void add(Kind kind, const std::string& name, std::optional<Vector3d> on_mesh,
-           std::optional<Vector3d> on_model, double support, bool seen, double shift = 0) {
-    if (!on_mesh && !on_model) return;
+           std::optional<Vector3d> on_model, double support, bool seen, double shift = 0,
+           const std::string& what = "place of it") {
+    if (!on_mesh && !on_model) return lacks(name, "no " + what + " was found");
     figures_.push_back({kind, name, std::move(on_mesh), std::move(on_model), support, body_.residual, Tape(),
                         seen, kind == Kind::height ? body_.ground_deviation : 0, shift});
   }
   void add_point(const std::string& name, const std::optional<Vector3d>& on_mesh,
-                 const std::optional<Vector3d>& on_model, double support, double shift = 0) {
-    add(Kind::point, name, on_mesh, on_model, support, is_seen(on_mesh), shift);
+                 const std::optional<Vector3d>& on_model, double support,
+                 const std::string& what = "place of it") {
+    add(Kind::point, name, on_mesh, on_model, support, is_seen(on_mesh), 0, what);
   }
+  void lacks(const std::string& name, const std::string& reason) { missing_.push_back({name, reason}); }
   bool is_seen(const std::optional<Vector3d>& on_mesh) const {
     return on_mesh && unseen_share(mesh_.surface, *on_mesh, kSeen) < 0.5;
   }
@@ -128,6 +132,12 @@ class Reader {
     const auto found = std::find_if(figures_.begin(), figures_.end(),
                                     [&](const Figure& f) { return f.kind == kind && f.name == name; });
     return found == figures_.end() ? nullptr : &*found;
+  }
+  /// The figure that `name` is measured from. Null: there is none, and so `name` is missing, too.
+  const Figure* base_of(const std::string& name, Kind kind, const std::string& base) {
+    const Figure* figure = find(kind, base);
+    if (figure == nullptr) lacks(name, "it is measured from " + base + ", which was not found");
+    return figure;
   }
   Vector3d point(const std::string& name) const {
     return settle(*find(Kind::point, name), precision_, body_.scanned).value;
@@ -150,10 +160,8 @@ class Reader {
         outward += normals_[v];
     const double deviation = kNippleSpreads * spread_of_model(name, support_at(there));
     const auto nipple = find_nipple(mesh_.surface, there, deviation, outward.normalized());
-    if (nipple)
-      add_point(name, nipple->place, there, support_at(there), nipple->shift);
-    else
-      add_point(name, std::nullopt, there, support_at(there));
+    const auto on_mesh = nipple ? std::optional<Vector3d>(nipple->place) : std::nullopt;
+    add(Kind::point, name, on_mesh, there, support_at(there), is_seen(on_mesh), nipple ? nipple->shift : 0);
   }
 
   void fold(Side side) {
@@ -164,11 +172,10 @@ class Reader {
     const Fold on_mesh = find_fold(mesh_.trunk, tip, side, on_model.places, reach);
     lowest_[0][side] = on_mesh.places.empty() ? std::nullopt : std::optional<Vector3d>(on_mesh.lowest);
     lowest_[1][side] = on_model.places.empty() ? std::nullopt : std::optional<Vector3d>(on_model.lowest);
-    const auto first = [](const Fold& f) {
-      return f.places.empty() ? std::nullopt : std::optional<Vector3d>(f.places.front());
-    };
-    if (!on_model.places.empty())
-      add_point(name, first(on_mesh), first(on_model), support_at(on_model.places.front()));
+    if (on_model.places.empty()) return lacks(name, "no fold under the breast was found");
+    const Vector3d first = on_model.places.front();
+    add_point(name, on_mesh.places.empty() ? std::nullopt : std::optional<Vector3d>(on_mesh.places.front()),
+              first, support_at(first));
   }
 
   /// The mean height of points.
@@ -177,7 +184,7 @@ class Reader {
     double support = 0, shift = 0;
     bool seen = true;
     for (const std::string& p : points) {
-      const Figure* figure = find(Kind::point, p);
+      const Figure* figure = base_of(name, Kind::point, p);
       if (figure == nullptr) return;
       const auto take = [&](std::optional<double>& sum, const std::optional<Vector3d>& value) {
         if (sum && value)
@@ -191,7 +198,8 @@ class Reader {
       shift += figure->shift / static_cast<double>(points.size());
       seen = seen && figure->seen;
     }
-    add(Kind::height, name, as_figure(on_mesh), as_figure(on_model), support, seen, shift);
+    add(Kind::height, name, as_figure(on_mesh), as_figure(on_model), support, seen, shift,
+        "surface that has both sides of it");
   }
 
   void level_of_folds() {
@@ -199,8 +207,10 @@ class Reader {
     double support = 0;
     for (int s = 0; s < 2; ++s)
       if (lowest_[s][0] && lowest_[s][1]) lowest[s] = std::min(lowest_[s][0]->z(), lowest_[s][1]->z());
-    for (const Side side : kSides)
-      if (lowest_[1][side]) support = std::max(support, support_at(*lowest_[1][side]));
+    for (const Side side : kSides) {
+      if (base_of("underbust", Kind::point, std::string("underbust") + kSuffix[side]) == nullptr) return;
+      support = std::max(support, support_at(*lowest_[1][side]));
+    }
     add(Kind::height, "underbust", as_figure(lowest[0]), as_figure(lowest[1]), support,
         is_seen(lowest_[0][kLeft]) && is_seen(lowest_[0][kRight]));
   }
@@ -215,6 +225,7 @@ class Reader {
   }
 
   void buttock(Side side) {
+    const std::string name = std::string("buttock") + kSuffix[side];
     const double lowest = expected("crotch").z() - kSeat, highest = expected("navel").z() - kBelowWaist;
     const Vector3d* rearmost = nullptr;
     for (std::size_t v = 0; v < normals_.size(); ++v) {
@@ -224,14 +235,15 @@ class Reader {
         continue;
       if (rearmost == nullptr || p.x() < rearmost->x()) rearmost = &p;
     }
-    if (rearmost == nullptr) return;
-    add_point(std::string("buttock") + kSuffix[side], find_buttock(mesh_.trunk, *rearmost),
-              find_buttock(skin_.trunk, *rearmost), support_at(*rearmost));
+    if (rearmost == nullptr) return lacks(name, "no skin between crotch and navel was found");
+    add_point(name, find_buttock(mesh_.trunk, *rearmost), find_buttock(skin_.trunk, *rearmost),
+              support_at(*rearmost), "apex of the buttock");
   }
   double expected_crotch_y() const { return expected("crotch").y(); }
 
   void waist() {
-    if (find(Kind::height, "hip") == nullptr || find(Kind::height, "underbust") == nullptr) return;
+    for (const char* end : {"hip", "underbust"})
+      if (base_of("waist", Kind::height, end) == nullptr) return;
     const double low = height("hip") + kWaistAboveHip, high = height("underbust") - kWaistBelowUnderbust;
     const auto on_mesh = find_waist(mesh_.trunk, low, high), on_model = find_waist(skin_.trunk, low, high);
     if (on_mesh && on_model) {
@@ -245,7 +257,7 @@ class Reader {
   /// Under each surface's own fold, where that is lower: a breast that joins the trunk below the level is
   /// none of the tape.
   void girth_under_breasts() {
-    if (find(Kind::height, "underbust") == nullptr) return;
+    if (find(Kind::height, "underbust") == nullptr) return;  // missing by that name
     Tape tapes[2];
     for (int s = 0; s < 2; ++s) {
       double level = height("underbust");
@@ -258,7 +270,7 @@ class Reader {
 
   template <typename TapeOf>
   void girth(const std::string& name, const TapeOf& tape_of) {
-    if (find(Kind::height, name) == nullptr) return;
+    if (find(Kind::height, name) == nullptr) return;  // missing by that name
     girth_of(name, tape_of(mesh_.trunk), tape_of(skin_.trunk), support_of_level(name));
   }
   /// What is read on a level that nobody knows is as unsure as that.
@@ -268,7 +280,8 @@ class Reader {
   /// Never taken for seen: what is taken for arms may be missing from a tape.
   void girth_of(const std::string& name, const Tape& on_mesh, const Tape& on_model,
                 double least_support = 0) {
-    if (on_mesh.size() < 3 && on_model.size() < 3) return;
+    if (on_mesh.size() < 3 && on_model.size() < 3)
+      return lacks(name, "no skin to lay its tape round was found");
     const auto value = [](const Tape& t) {
       return t.size() < 3 ? std::nullopt : std::optional<double>(length(t));
     };
@@ -281,7 +294,7 @@ class Reader {
   void shoulder(Side side) {
     const Vector3d bone = frame_ * body_.bone_point(std::string("acromion") + kSuffix[side]);
     add_point(std::string("shoulder") + kSuffix[side], skin_above(mesh_.surface, bone),
-              skin_above(skin_.surface, bone), support_at(bone));
+              skin_above(skin_.surface, bone), support_at(bone), "skin above the acromion");
   }
 
   void axilla(Side side) {
@@ -298,20 +311,17 @@ class Reader {
     const auto on_model =
         find_axilla(skin_.surface, side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
     add_point(std::string("axilla") + kSuffix[side], on_mesh, on_model,
-              support_at(on_model ? *on_model : bone));
+              support_at(on_model ? *on_model : bone), "gap between arm and trunk");
   }
 
   void upper_arm(Side side) {
-    const std::string arm = kSuffix[side] + 1;
+    const std::string arm = kSuffix[side] + 1, from = std::string("axilla") + kSuffix[side];
+    if (base_of(std::string("upper_arm") + kSuffix[side], Kind::point, from) == nullptr) return;
     const Vector3d shoulder = frame_ * body_.joint("upperarm01." + arm);
     const Vector3d along = (frame_ * body_.joint("lowerarm01." + arm) - shoulder).normalized();
-    if (find(Kind::point, "axilla" + std::string(kSuffix[side])) == nullptr) return;
-    const double down = along.dot(point(std::string("axilla") + kSuffix[side]) - shoulder) +
-                        kArmBelowAxilla * body_.stature();
+    const double down = along.dot(point(from) - shoulder) + kArmBelowAxilla * body_.stature();
     limb("upper_arm", side, shoulder + down * along, along, kArmReach,
-         [](const Surface& s, const Eigen::Vector3i& t) {
-           return s.arm[t[0]] + s.arm[t[1]] + s.arm[t[2]] > 3 * 0.5;
-         });
+         [](const Surface& s, const Eigen::Vector3i& t) { return s.is_arm(t); });
   }
 
   /// Of thighs that touch, what lies on this side of the plane between the hip joints.
@@ -328,7 +338,7 @@ class Reader {
          [&](const Surface& s, const Eigen::Vector3i& t) {
            const Vector3d middle =
                (s.mesh.vertices[t[0]] + s.mesh.vertices[t[1]] + s.mesh.vertices[t[2]]) / 3;
-           return outwards.dot(middle) > between && s.arm[t[0]] + s.arm[t[1]] + s.arm[t[2]] <= 3 * 0.5;
+           return outwards.dot(middle) > between && !s.is_arm(t);
          });
   }
 
@@ -343,22 +353,24 @@ class Reader {
   }
 
   void gluteal_fold(Side side) {
-    if (find(Kind::point, std::string("buttock") + kSuffix[side]) == nullptr) return;
-    const Vector3d seat = point(std::string("buttock") + kSuffix[side]);
+    const std::string name = std::string("gluteal_fold") + kSuffix[side],
+                      buttock = std::string("buttock") + kSuffix[side];
+    if (base_of(name, Kind::point, buttock) == nullptr) return;
+    const Vector3d seat = point(buttock);
     const double far = kUnderButtock * body_.stature();
     std::optional<Vector3d> on_model = find_gluteal_fold(skin_.trunk, seat, far, 0);
     if (!on_model) on_model = skin_under(skin_.trunk, seat, kFoldUnderButtock * body_.stature());
-    if (!on_model) return;
-    add_point(std::string("gluteal_fold") + kSuffix[side],
-              find_gluteal_fold(mesh_.trunk, seat, far, kFoldDepth), on_model, support_at(*on_model));
+    if (!on_model) return lacks(name, "no skin of the thigh under the buttock was found");
+    add_point(name, find_gluteal_fold(mesh_.trunk, seat, far, kFoldDepth), on_model, support_at(*on_model));
   }
 
   void farthest(const std::string& level, Side side) {
-    if (find(Kind::height, level) == nullptr) return;
+    const std::string name = level + "_side" + kSuffix[side];
+    if (base_of(name, Kind::height, level) == nullptr) return;
     const auto on_model = find_side(skin_.trunk, side, height(level));
-    if (on_model)
-      add_point(level + "_side" + kSuffix[side], find_side(mesh_.trunk, side, height(level)), on_model,
-                std::max(support_at(*on_model), support_of_level(level)));
+    if (!on_model) return lacks(name, "no skin on its level was found");
+    add_point(name, find_side(mesh_.trunk, side, height(level)), on_model,
+              std::max(support_at(*on_model), support_of_level(level)));
   }
 
   void neck() {
@@ -374,7 +386,7 @@ class Reader {
 
   void stature() {
     const std::optional<Vector3d> on_mesh = crown(mesh_.surface), on_model = crown(skin_.surface);
-    if (!on_model) return;
+    if (!on_model) return lacks("stature", "no skin but of arms was found");
     const auto height = [](const Vector3d& p) { return Vector3d(p.z(), 0, 0); };
     add(Kind::height, "stature", on_mesh ? std::optional<Vector3d>(height(*on_mesh)) : std::nullopt,
         height(*on_model), support_at(*on_model), false);
@@ -399,6 +411,7 @@ class Reader {
   std::vector<Vector3d> normals_;
   geometry::PointTree tree_;
   std::vector<Figure> figures_;
+  std::vector<geometry::Missing> missing_;
   std::array<std::array<std::optional<Vector3d>, 2>, 2>
       lowest_;  ///< of the folds: on mesh and model, left and right
 };
@@ -421,6 +434,7 @@ geometry::BodyMeasures find_landmarks(const geometry::TriangleMesh& mesh, const 
   const Reading reading = read_figures(mesh, filled, model, precision);
   geometry::BodyMeasures measures;
   measures.body_from_scan = reading.body_from_scan;
+  measures.missing = reading.missing;
   const Eigen::Isometry3d scan_from_body = reading.body_from_scan.inverse();
   for (const Figure& figure : reading.figures) {
     const Settled settled = settle(figure, precision, model.scanned);

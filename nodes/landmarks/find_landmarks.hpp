@@ -16,6 +16,7 @@ namespace tensegric_fit::landmarks {
 struct Reading {
   Eigen::Isometry3d body_from_scan;
   std::vector<Figure> figures;
+  std::vector<geometry::Missing> missing;  ///< figures that were not found
 };
 
 /// `filled` is empty or has one flag per vertex: 1 where the scan saw nothing. `model`: registered to the

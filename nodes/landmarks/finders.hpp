@@ -25,7 +25,6 @@ std::optional<Nipple> find_nipple(const Surface& surface, const Vector3d& expect
 /// 2.5 mm apart.
 struct Fold {
   std::vector<Vector3d> places;  ///< the first below the bust point; empty where nothing is concave
-  double curvature = 0;          ///< 1/m, of the first
   Vector3d lowest = Vector3d::Zero();
 };
 /// `expected`: places of the fold on another surface of the body, in the same order, or the first alone:

@@ -82,6 +82,7 @@ Vector3d lowest_of_arc(const std::vector<Vector3d>& places, Side side) {
 Fold find_fold(const Trunk& trunk, const Vector3d& bust_point, Side side,
                const std::vector<Vector3d>& expected, double reach) {
   Fold fold;
+  double first = 0;  // 1/m, the curvature below the bust point
   for (double medial = 0; medial < kMedial + kSectionSpacing / 2; medial += kSectionSpacing) {
     const std::size_t i = fold.places.size();
     if (i >= expected.size() && expected.size() != 1) break;
@@ -90,8 +91,8 @@ Fold find_fold(const Trunk& trunk, const Vector3d& bust_point, Side side,
     const auto found = most_hollow(profile, i < expected.size() ? expected[i] : fold.places.back(), reach);
     if (!found) break;
     if (fold.places.empty()) {
-      fold.curvature = found->curvature;
-    } else if (found->curvature < kContinued * fold.curvature ||
+      first = found->curvature;
+    } else if (found->curvature < kContinued * first ||
                std::abs(found->place.z() - fold.places.back().z()) > kStep) {
       break;
     }

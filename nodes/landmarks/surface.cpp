@@ -62,7 +62,7 @@ Trunk::Trunk(const Surface& surface) : surface_(surface) {
 }
 
 bool Trunk::operator()(const Eigen::Vector3i& t) const {
-  return surface_.arm[t[0]] + surface_.arm[t[1]] + surface_.arm[t[2]] <= 3 * 0.5;
+  return !surface_.is_arm(t);
 }
 
 std::vector<SectionLoop> Trunk::level(double height) const {
@@ -135,13 +135,19 @@ Profile profile_down(const Trunk& trunk, const Vector3d& start, double length) {
 
 double unseen_share(const Surface& surface, const Vector3d& point, double radius) {
   if (surface.unseen.empty()) return 0;
-  double all = 0, unseen = 0;
+  double all = 0, unseen = 0, least = 1e9;
+  std::size_t nearest = 0;
   for (std::size_t v = 0; v < surface.mesh.vertices.size(); ++v) {
-    if ((surface.mesh.vertices[v] - point).squaredNorm() > radius * radius) continue;
+    const double squared = (surface.mesh.vertices[v] - point).squaredNorm();
+    if (squared < least) {
+      least = squared;
+      nearest = v;
+    }
+    if (squared > radius * radius) continue;
     ++all;
     unseen += surface.unseen[v];
   }
-  return all > 0 ? unseen / all : 1;
+  return all > 0 ? unseen / all : static_cast<double>(surface.unseen[nearest]);
 }
 
 std::vector<int> vertices_near(const Surface& surface, const Vector3d& point, double radius,

@@ -24,6 +24,9 @@ struct Surface {
   geometry::TriangleMesh mesh;
   std::vector<double> arm;   ///< per vertex: how much of it an arm carries, 0 to 1
   std::vector<char> unseen;  ///< per vertex: 1 where no scan point backs it; empty: all is seen
+
+  /// Whether a triangle belongs to an arm by more than half.
+  bool is_arm(const Eigen::Vector3i& t) const { return arm[t[0]] + arm[t[1]] + arm[t[2]] > 3 * 0.5; }
 };
 
 using Selected = std::function<bool(const Eigen::Vector3i& triangle)>;
@@ -32,7 +35,7 @@ using Selected = std::function<bool(const Eigen::Vector3i& triangle)>;
 std::vector<geometry::SectionLoop> cut(const Surface& surface, const Eigen::Vector3d& origin,
                                        const Eigen::Vector3d& normal, const Selected& selected);
 
-/// The trunk, legs and head: all but the triangles that belong to an arm by more than half.
+/// The trunk, legs and head: all but the triangles of arms.
 class Trunk {
  public:
   explicit Trunk(const Surface& surface);
@@ -64,7 +67,8 @@ struct Profile {
 /// there is none. Noise is smoothed away over some 4 mm.
 Profile profile_down(const Trunk& trunk, const Eigen::Vector3d& start, double length);
 
-/// Share of the vertices within `radius` of a point that no scan point backs; 1 where there are none.
+/// Share of the vertices within `radius` of a point that no scan point backs; where there are none (a coarse
+/// mesh), that of the nearest vertex, 0 or 1.
 double unseen_share(const Surface& surface, const Eigen::Vector3d& point, double radius);
 
 /// Vertices within `radius` of a point for which `wanted` holds.

@@ -31,7 +31,7 @@ constexpr Standard kStandards[] = {
     {"girth", "thigh_R", "thigh girth", "5.3.20", "leg_thigh_upper_circ"},
     {"girth", "thigh_L", "thigh girth", "5.3.20", ""},
     {"height", "stature", "stature", "", "height"},
-    {"height", "neck", "", "", "height_neck_back"},
+    {"height", "neck", "", "", "height_neck_back"},  // MeasureEntry::back
     {"height", "bust", "", "", "height_bustpoint"},
     {"height", "waist", "waist height", "", "height_waist_side"},
     {"height", "hip", "hip height", "", "height_hip"},
@@ -100,6 +100,11 @@ Json json_of(const std::optional<double>& value, const std::optional<Loop>& loop
   return entry;
 }
 
+std::optional<double> vit_value(const MeasureEntry& entry, bool worn) {
+  if (!entry.is_girth && entry.before.name == "neck") return worn ? entry.back_worn : entry.back;
+  return worn ? entry.worn : entry.before.metres;
+}
+
 Json text_or_null(const char* text) {
   return *text == '\0' ? Json() : Json(text);
 }
@@ -119,7 +124,13 @@ std::vector<MeasureEntry> measure_entries(const geometry::TriangleMesh& body,
       entries.push_back({girth.before, true, girth.after, {}, {}});
   }
   const Eigen::Isometry3d& place = measures.body_from_scan;
+  const geometry::Landmark* back = measures.find_landmark("neck_back");
   for (MeasureEntry& entry : entries) {
+    if (!entry.is_girth && entry.before.name == "neck" && back != nullptr) {
+      entry.back = (place * back->position).z();
+      if (worn != nullptr)
+        entry.back_worn = (place * geometry::carried({back->position}, {body, worn->skin}).front()).z();
+    }
     if (!entry.is_girth) continue;
     for (const geometry::GirthLoop& loop : measures.loops) {
       if (loop.name != entry.before.name) continue;
@@ -167,7 +178,7 @@ std::string measures_vit(const std::vector<MeasureEntry>& measures, bool worn) {
       "  <body-measurements>\n";
   for (const MeasureEntry& entry : measures) {
     const Standard* standard = standard_of(entry);
-    const std::optional<double> value = worn ? entry.worn : entry.before.metres;
+    const std::optional<double> value = vit_value(entry, worn);
     if (standard == nullptr || *standard->vit == '\0' || !value) continue;
     text += fmt::format("    <m name=\"{}\" value=\"{:.1f}\" description=\"\" full_name=\"\"/>\n",
                         standard->vit, 100 * *value);

@@ -25,6 +25,8 @@ struct MeasureEntry {
   bool is_girth = false;
   std::optional<double> worn;
   std::optional<Loop> loop, loop_worn;
+  /// Of the neck's height: that of the landmark neck_back, which lies lower and is what pattern tools mean.
+  std::optional<double> back{}, back_worn{};
 };
 
 /// A body under a garment. Holds references only. Metres, scan frame.

@@ -78,7 +78,7 @@ std::string unit_of(const Spread& spread) {
                   fmt::format("the scan is {:.4g} across: a body in none of m, cm, mm, inch", longest));
   throw Refusal(
       refusal::kWrongUnit,
-      fmt::format("the scan is {:.4g} across: {:.2f} m if it is in {}, {:.2f} m if in {}; --unit says which",
+      fmt::format("the scan is {:.4g} across: {:.2f} m if it is in {}, {:.2f} m if in {}; nothing says which",
                   longest, longest * fit[0]->metres, fit[0]->name, longest * fit[1]->metres, fit[1]->name));
 }
 
@@ -109,7 +109,7 @@ double widening(const Points& points, const Spread& spread, int axis, bool from_
 
 Refusal two_axes(const std::string& a, const std::string& b) {
   return {refusal::kWrongAxes,
-          fmt::format("the body could stand with {} or with {} up; --up says which", a, b)};
+          fmt::format("the body could stand with {} or with {} up, and its shape does not say which", a, b)};
 }
 
 std::string up_of(const Points& points, const Spread& spread, const Kind& kind, double metres) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "geometry/point_tree.hpp"
 #include "geometry/triangle_mesh.hpp"
@@ -23,16 +25,25 @@ constexpr double kSmall = 0.005,
 constexpr double kTall = 0.5;       // of her stature: as large as a person, if it is kLarge, too
 constexpr std::size_t kNamed = 10;  // things that are named at most
 
+/// m from p to the box, a lower bound of how far it is from what the box holds.
+double off_box(const std::array<Vector3d, 2>& box, const Vector3d& p) {
+  return (p - p.cwiseMax(box[0]).cwiseMin(box[1])).norm();
+}
+
 }  // namespace
 
 std::vector<int> points_of_limbs(const Points& left_out, const body_model::RegisteredBody& body) {
   if (left_out.empty()) return {};
-  const geometry::PointTree skin(body.skin), others(left_out);
+  const geometry::PointTree skin(body.skin);
+  const auto box = geometry::bounding_box(body.skin);
+  std::optional<geometry::PointTree> others;
   std::vector<int> near, result;
   for (std::size_t i = 0; i < left_out.size(); ++i) {
+    if (off_box(box, left_out[i]) > kLimb) continue;  // the booth's, most of them
     const int v = skin.nearest(left_out[i]);
     if (body.support[v] < kBare || (body.skin[v] - left_out[i]).norm() > kLimb) continue;
-    others.nearest(left_out[i], kCompany, near);
+    if (!others) others.emplace(left_out);
+    others->nearest(left_out[i], kCompany, near);
     if (near.size() == kCompany && (left_out[near.back()] - left_out[i]).norm() < kLimb / 2)
       result.push_back(static_cast<int>(i));
   }
@@ -45,6 +56,7 @@ std::vector<body_model::Unexplained> things_beside(const Points& left_out,
   std::vector<body_model::Unexplained> things;
   if (left_out.empty()) return things;
   const geometry::PointTree skin(body.skin);
+  const auto her_box = geometry::bounding_box(body.skin);
   for (const std::vector<int>& thing : things_in(left_out)) {
     const double share = static_cast<double>(thing.size()) / static_cast<double>(body_points);
     if (share < kSmall || things.size() == kNamed) break;
@@ -55,6 +67,7 @@ std::vector<body_model::Unexplained> things_beside(const Points& left_out,
     const char* part = "";
     for (const Vector3d& p : points) {
       centre += p / static_cast<double>(points.size());
+      if (off_box(her_box, p) >= nearest) continue;
       const int v = skin.nearest(p);
       if ((body.skin[v] - p).norm() >= nearest) continue;
       nearest = (body.skin[v] - p).norm();

@@ -101,16 +101,17 @@ double sum_of_products(const std::vector<Eigen::Vector3d>& a, const std::vector<
   return sum;
 }
 
-/// Directions out of the body, whatever was given.
+/// Directions out of the body, whatever was given: some clouds of a scan may have normals, and others none.
 std::vector<Eigen::Vector3d> outward_hints(const std::vector<Eigen::Vector3d>& points,
                                            const std::vector<Eigen::Vector3d>& hints) {
   std::vector<Eigen::Vector3d> seen = seen_from(points);
   for (Eigen::Vector3d& direction : seen) direction /= std::max(1.0, direction.norm());
   const double agreement = sum_of_products(hints, seen);
   if (agreement == 0) return seen;
-  std::vector<Eigen::Vector3d> outwards = hints;
-  if (agreement < 0)  // made for a viewpoint within the body, say
-    for (Eigen::Vector3d& direction : outwards) direction = -direction;
+  const double sign = agreement < 0 ? -1 : 1;  // made for a viewpoint within the body, say
+  std::vector<Eigen::Vector3d> outwards = std::move(seen);
+  for (std::size_t i = 0; i < hints.size(); ++i)
+    if (!hints[i].isZero(0)) outwards[i] = sign * hints[i];
   return outwards;
 }
 

@@ -51,6 +51,7 @@ constexpr double kLowestBust = 0.53, kHighestBust = 0.88;  // of the height: fro
 // nipples are smaller than the others' edges are long.
 constexpr double kBeltShare = 0.15, kBeltLow = 0.66, kBeltHigh = 0.78;
 constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher stands on something else
+constexpr double kSameGround = 3;  // deviations of the soles: of a normal variable one value in 370 is beyond
 constexpr double kSampleCube = 0.007;  // m: 30,000 samples of a person
 
 PointCloud pick(const PointCloud& cloud, const std::vector<int>& indices) {
@@ -113,9 +114,9 @@ double cell_width(const std::vector<Eigen::Vector3d>& points, int depth) {
 }
 
 /// The body's points, upright, the ground under the soles at z = 0; `from_scan` takes the scan to them.
-/// `left_out`: points above the ground that are not taken for hers.
+/// `floor_at`: m, where a floor was seen. `left_out`: points above the ground that are not taken for hers.
 PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometry3d& from_scan,
-                         bool& on_floor, PointCloud& left_out) {
+                         std::optional<double>& floor_at, PointCloud& left_out) {
   const std::optional<Floor> floor = find_floor(pick(scan, without_stray(scan.points)).points);
   const Eigen::Vector3d middle = geometry::bounding_box(scan.points)[0];
   from_scan = floor ? level(floor->normal, floor->offset, middle)
@@ -136,22 +137,24 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
     body = pick(body, still_hers);
   }
   check_shape(body.points, options);
-  on_floor = floor && lowest_of(body.points) <= kOffTheFloor;
-  if (!on_floor) {
-    const Eigen::Isometry3d down(Eigen::Translation3d(0, 0, -lowest_of(body.points)));
+  const double lowest = lowest_of(body.points);
+  if (floor) floor_at = 0;
+  if (!floor || lowest > kOffTheFloor) {
+    const Eigen::Isometry3d down(Eigen::Translation3d(0, 0, -lowest));
     geometry::move(body, down);
     geometry::move(left_out, down);
     from_scan = down * from_scan;
+    if (floor) floor_at = -lowest;
   }
   return body;
 }
 
 /// What a scan shows of a person.
 struct Person {
-  PointCloud cloud;             ///< with outward normals, upright, the ground under the soles at z = 0
-  PointCloud left_out;          ///< points beside her, in the cloud's frame
-  Eigen::Isometry3d from_scan;  ///< takes the scan to the cloud's frame
-  bool on_floor;                ///< the floor was seen: z = 0 is it
+  PointCloud cloud;                ///< with outward normals, upright, the ground under the soles at z = 0
+  PointCloud left_out;             ///< points beside her, in the cloud's frame
+  Eigen::Isometry3d from_scan;     ///< takes the scan to the cloud's frame
+  std::optional<double> floor_at;  ///< m, where a floor was seen: 0 where her lowest points are on it
   /// Finds fractures, scan frame; in the cloud they are mended where it is known who saw what.
   std::function<std::vector<geometry::Fracture>()> fractures;
 };
@@ -163,7 +166,7 @@ Person find_person(const PointCloud& scan, const Options& options) {
   Person person;
   PointCloud& body = person.cloud;
   body = standing_body(without_surplus(usable_points(scan, options), options), options, person.from_scan,
-                       person.on_floor, person.left_out);
+                       person.floor_at, person.left_out);
   const std::vector<int> sensor_of = std::move(body.sensor);
   body.sensor.clear();
   register_sensors(body.points, sensor_of);
@@ -237,11 +240,16 @@ void leave_plate(Person& person, RegisteredBody& model, const body_model::Standi
 
 /// Up and the ground, now that it is known where her feet are.
 void stand(Person& person, RegisteredBody& model, const body_model::Standing& standing) {
-  if (person.on_floor) return leave_plate(person, model, standing);
-  model.vertical = body_model::upright(model, standing);
-  const body_model::Ground ground = body_model::ground_under(model, person.cloud.points, standing);
-  model.ground = ground.height;
-  model.ground_deviation = ground.deviation;
+  if (person.floor_at == 0.0) return leave_plate(person, model, standing);
+  const body_model::Ground soles = body_model::ground_by_soles(model, standing);
+  if (person.floor_at && std::abs(soles.height - *person.floor_at) < kSameGround * soles.deviation) {
+    model.ground = *person.floor_at;  // black shoes: her feet were not seen, the floor was
+  } else {
+    model.vertical = body_model::upright(model, standing);
+    const body_model::Ground ground = body_model::ground_under(model, person.cloud.points, standing);
+    model.ground = ground.height;
+    model.ground_deviation = ground.deviation;
+  }
   const Eigen::Isometry3d to_ground = level(model.vertical, model.ground, person.cloud.points.front());
   geometry::move(person.cloud, to_ground);
   model = moved(model, to_ground);

@@ -38,29 +38,31 @@ void add_means(const PointCloud& cloud, double cube, PointCloud& means) {
   }
 }
 
-/// The sensor that saw all points of a cell; -1 where several did.
-int one_sensor(const PointCloud& cloud, const VoxelGrid& grid, int cell) {
-  const int first = cloud.sensor[grid.order()[grid.begin(cell)]];
-  for (int i = grid.begin(cell) + 1; i < grid.end(cell); ++i)
-    if (cloud.sensor[grid.order()[i]] != first) return -1;
-  return first;
-}
-
 }  // namespace
 
 PointCloud merged(const PointCloud& cloud, double cube) {
-  const bool oriented = !cloud.normals.empty();
+  const bool oriented = !cloud.normals.empty(), sensed = !cloud.sensor.empty();
   const VoxelGrid grid(cloud.points, cube);
+  std::vector<int> order = grid.order();
+  const auto sensor_of = [&](int i) { return sensed ? cloud.sensor[i] : 0; };
   PointCloud means;
   for (int c = 0; c < grid.cell_count(); ++c) {
-    Eigen::Vector3d point = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
-    for (int i = grid.begin(c); i < grid.end(c); ++i) {
-      point += cloud.points[grid.order()[i]];
-      if (oriented) normal += cloud.normals[grid.order()[i]];
+    const auto first = order.begin() + grid.begin(c), last = order.begin() + grid.end(c);
+    if (sensed)
+      std::stable_sort(first, last, [&](int a, int b) { return cloud.sensor[a] < cloud.sensor[b]; });
+    for (auto from = first; from != last;) {
+      const auto to =
+          std::find_if(from, last, [&, sensor = sensor_of(*from)](int i) { return sensor_of(i) != sensor; });
+      Eigen::Vector3d point = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
+      for (auto i = from; i != to; ++i) {
+        point += cloud.points[*i];
+        if (oriented) normal += cloud.normals[*i];
+      }
+      means.points.push_back(point / static_cast<double>(to - from));
+      if (oriented) means.normals.push_back(normal.squaredNorm() > 0 ? normal.normalized() : normal);
+      if (sensed) means.sensor.push_back(cloud.sensor[*from]);
+      from = to;
     }
-    means.points.push_back(point / (grid.end(c) - grid.begin(c)));
-    if (oriented) means.normals.push_back(normal.squaredNorm() > 0 ? normal.normalized() : normal);
-    if (!cloud.sensor.empty()) means.sensor.push_back(one_sensor(cloud, grid, c));
   }
   return means;
 }

@@ -7,8 +7,8 @@
 
 namespace tensegric_fit::reconstruction {
 
-/// One point for all that lie in one cube, their mean; the mean of their normals where there are any (zero
-/// stays unknown). \pre finite points within a few metres
+/// One point for all of one sensor that lie in one cube, their mean; the mean of their normals where there
+/// are any (zero stays unknown). \pre finite points within a few metres
 geometry::PointCloud merged(const geometry::PointCloud& cloud, double cube);
 
 /// Means of the points in cubes of 2.5 mm where the skin bends strongly (fingers, ears, nose), 5 mm where it

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 
+#include "body_model/recognition.hpp"
 #include "body_model/samples.hpp"
 #include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
@@ -26,11 +27,12 @@ constexpr int kAround = 100;              // samples within that
 
 geometry::PointCloud unseen_skin(const body_model::RegisteredBody& body, const geometry::PointCloud& seen) {
   const body_model::Model& model = *body.model;
+  const std::vector<char> lost = body_model::lost_skin(body);
   geometry::TriangleMesh skin{body.skin, {}};
   double area = 0;
   for (const Eigen::Vector3i& t : model.triangles) {
     const std::string& part = model.parts[model.part[t[0]]];
-    if (part.rfind("hand", 0) == 0) continue;
+    if (part.rfind("hand", 0) == 0 || lost[t[0]] || lost[t[1]] || lost[t[2]]) continue;
     skin.triangles.push_back(t);
     area += geometry::area_vector(body.skin[t[0]], body.skin[t[1]], body.skin[t[2]]).norm() / 2;
   }

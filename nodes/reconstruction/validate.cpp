@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "body_model/registration.hpp"
 #include "geometry/percentile.hpp"
 #include "geometry/status.hpp"
 
@@ -117,9 +118,10 @@ void check_shape(const std::vector<Eigen::Vector3d>& body, const Options& option
                               options.min_points));
   const auto [low, middle, high] = spread(body);
   const double height = high.z() - low.z();
-  if (height < 0.5 || height > 2.3)
+  if (height < body_model::kLowestPerson || height > body_model::kHighestPerson)
     throw Refusal(refusal::kNotABody,
-                  fmt::format("what was scanned is {:.2f} m high; a body is 0.5 to 2.3 m", height));
+                  fmt::format("what was scanned is {:.2f} m high; a body is {} to {} m", height,
+                              body_model::kLowestPerson, body_model::kHighestPerson));
 
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
   for (const Eigen::Vector3d& p : body) {

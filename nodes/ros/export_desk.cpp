@@ -22,7 +22,7 @@ bool answered(Response& response, const Work& work) {
     response.code = "internal_error";
     response.message = error.what();
   }
-  ROS_ERROR("export: %s: %s", response.code.c_str(), without_figures(response.message).c_str());
+  ROS_ERROR("export: %s: %s", response.code.c_str(), log_words(response.message).c_str());
   return false;
 }
 

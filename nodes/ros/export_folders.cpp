@@ -60,20 +60,37 @@ void delete_export(const fs::path& folder) {
   files::delete_whole_folder(folder);
 }
 
-std::vector<fs::path> exports_of(const fs::path& directory, const std::string& scan_id,
-                                 std::vector<Refusal>& left) {
-  const auto is_of_scan = [&](const fs::path& folder) {
-    const std::optional<Mark> mark = mark_in(folder);
-    return mark && mark->scan_id == scan_id;
-  };
-  if (is_of_scan(directory)) return {directory};
-  std::vector<fs::path> folders;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) try {
-      if (is_of_scan(entry.path())) folders.push_back(entry.path());
+/// Calls `take(folder, mark)` for each export in the folder, at any depth; links are not followed. `left`:
+/// what cannot be looked at.
+template <typename Take>
+void for_each_export(const fs::path& directory, std::vector<Refusal>& left, const Take& take) {
+  std::vector<fs::path> entries;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) entries.push_back(entry.path());
+  std::sort(entries.begin(), entries.end());
+  for (const fs::path& entry : entries) {
+    try {
+      if (fs::symlink_status(entry).type() != fs::file_type::directory) continue;
+      if (const std::optional<Mark> mark = mark_in(entry))
+        take(entry, *mark);
+      else
+        for_each_export(entry, left, take);
     } catch (const Refusal& refusal) {
       left.push_back(refusal);
+    } catch (const fs::filesystem_error& error) {
+      left.emplace_back(geometry::refusal::kCannotWrite,
+                        fmt::format("'{}' cannot be looked at: {}", entry.string(), error.code().message()));
     }
-  std::sort(folders.begin(), folders.end());
+  }
+}
+
+std::vector<fs::path> exports_of(const fs::path& directory, const std::string& scan_id,
+                                 std::vector<Refusal>& left) {
+  if (const std::optional<Mark> mark = mark_in(directory); mark && mark->scan_id == scan_id)
+    return {directory};
+  std::vector<fs::path> folders;
+  for_each_export(directory, left, [&](const fs::path& folder, const Mark& mark) {
+    if (mark.scan_id == scan_id) folders.push_back(folder);
+  });
   return folders;
 }
 
@@ -110,18 +127,17 @@ std::vector<std::string> delete_old_exports(const std::string& directory, double
                                             std::vector<std::string>& left) {
   using Days = std::chrono::duration<double, std::ratio<86400>>;
   std::vector<std::string> gone;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory, error)) {
-    try {
-      const std::optional<Mark> mark = mark_in(entry.path());
-      if (!mark || Days(fs::file_time_type::clock::now() - mark->written).count() <= days) continue;
-      delete_export(entry.path());
-      gone.push_back(entry.path());
-    } catch (const std::exception& failure) {
-      left.emplace_back(failure.what());
-    }
+  std::vector<Refusal> not_deleted;
+  try {
+    for_each_export(directory, not_deleted, [&](const fs::path& folder, const Mark& mark) {
+      if (Days(fs::file_time_type::clock::now() - mark.written).count() <= days) return;
+      delete_export(folder);
+      gone.push_back(folder);
+    });
+  } catch (const fs::filesystem_error& error) {
+    left.push_back(fmt::format("'{}' cannot be looked at: {}", directory, error.code().message()));
   }
-  if (error) left.push_back(fmt::format("'{}' cannot be looked at: {}", directory, error.message()));
+  for (const Refusal& refusal : not_deleted) left.emplace_back(refusal.what());
   return gone;
 }
 

@@ -110,7 +110,7 @@ std::string summary_of(const FitFigures& figures) {
   if (!figures.sizes.empty()) {
     text = "<p>Your bra size (EN 13402): <b>" + figures.sizes[0].label() + "</b>";
     if (figures.sizes.size() > 1)
-      text += "; " + figures.sizes[1].label() + " may fit as well: you are between the two";
+      text += "; " + figures.sizes[1].label() + " may fit as well: your girths leave it open";
     text += ".</p>\n";
   }
   const FitState& fit = *figures.scan.fit;
@@ -138,7 +138,7 @@ std::string day_of(const std_msgs::Header& header) {
   if (header.stamp.sec < kClocksAreSet) return "";
   const std::time_t seconds = header.stamp.sec;
   std::tm day{};
-  gmtime_r(&seconds, &day);
+  localtime_r(&seconds, &day);
   return fmt::format(", {:04}-{:02}-{:02}", day.tm_year + 1900, day.tm_mon + 1, day.tm_mday);
 }
 

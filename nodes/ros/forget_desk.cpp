@@ -174,13 +174,22 @@ bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response)
                                  response.complete ? "" : ", but not everywhere");
   Graph now = graph();
   for (const std::string& topic : body_topics(before, asked, node_)) {
-    Names listeners = before.subscribers[topic];
-    listeners.insert(now.subscribers[topic].begin(), now.subscribers[topic].end());
-    for (const std::string& node : listeners)
+    Names others;  // who hears it, and who publishes, and may latch, it
+    for (Graph* at : {&before, &now})
+      for (NodesByTopic* side : {&at->subscribers, &at->publishers})
+        others.insert((*side)[topic].begin(), (*side)[topic].end());
+    for (const std::string& node : others)
       if (asked.count(node) == 0)
-        response.not_reached.push_back(node + ": what it keeps or shows of " + topic);
+        response.not_reached.push_back(node + ": what it keeps, latches or shows of " + topic);
   }
-  if (!request.scan_file) response.not_reached.emplace_back("the file that it was played from, where it was");
+  const auto is_of_file = [](const std::string& line) {
+    return line.find(": the file ") != std::string::npos;
+  };
+  if (std::none_of(response.removed.begin(), response.removed.end(), is_of_file) &&
+      std::none_of(response.not_reached.begin(), response.not_reached.end(), is_of_file))
+    response.not_reached.emplace_back(request.scan_file
+                                          ? "the file that it was played from, if it was: no node knows of it"
+                                          : "the file that it was played from, where it was");
   response.not_reached.emplace_back(
       "bags, copies of exports, results of fit, other machines, backups, swap, blocks of the disk that are "
       "free");

@@ -21,6 +21,7 @@ void HeldScan::work(const std::string& scan_id) {
   const std::lock_guard<std::mutex> lock(mutex_);
   waiting_.clear();
   working_ = scan_id;
+  tried_.insert(scan_id);
 }
 
 void HeldScan::rest() {
@@ -31,6 +32,7 @@ void HeldScan::rest() {
 void HeldScan::publish(const std::string& scan_id) {
   const std::lock_guard<std::mutex> lock(mutex_);
   published_ = scan_id;
+  tried_.clear();
 }
 
 void HeldScan::begin_beside(const std::string& scan_id) {
@@ -41,6 +43,7 @@ void HeldScan::begin_beside(const std::string& scan_id) {
 void HeldScan::clear() {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (std::string* scan_id : {&begun_, &waiting_, &working_, &published_}) scan_id->clear();
+  tried_.clear();
   beside_.clear();
 }
 
@@ -57,7 +60,7 @@ bool HeldScan::is_forgotten(const std::string& scan_id) const {
 bool HeldScan::holds(const std::string& scan_id) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return begun_ == scan_id || waiting_ == scan_id || working_ == scan_id || published_ == scan_id ||
-         beside_.count(scan_id) != 0;
+         tried_.count(scan_id) != 0 || beside_.count(scan_id) != 0;
 }
 
 bool HeldScan::works_on_other(const std::string& scan_id) const {

@@ -34,6 +34,7 @@ class HeldScan {
  private:
   mutable std::mutex mutex_;
   std::string begun_, waiting_, working_, published_;  // empty: none
+  std::set<std::string> tried_;  // worked on since something was published: work that failed leaves its data
   std::set<std::string> beside_, forgotten_;
 };
 

@@ -5,8 +5,9 @@
 
 namespace tensegric_fit::node {
 
-/// The sentence with # in place of each number: logs outlive the customer's visit, and hold no measure of
-/// her. Digits within a name (B1) stay.
-std::string without_figures(const std::string& sentence);
+/// The sentence with # in place of each number and (file) in place of each file and folder: logs outlive the
+/// customer's visit, and hold neither a measure of her nor her name. Digits within a name (B1) and topics
+/// stay.
+std::string log_words(const std::string& sentence);
 
 }  // namespace tensegric_fit::node

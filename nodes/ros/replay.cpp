@@ -149,8 +149,8 @@ void Replay::send(const ScanLabel& label, const ros::Time& time, rosbag::Bag& ou
 }
 
 bool Replay::send(const Garment& garment, const ros::Time& time, rosbag::Bag& out) {
-  if (options_.measure_only) return false;
-  ros::spinOnce();  // what was said of the garment before
+  if (options_.measure_only) return true;  // nothing is asked for, and nothing is lost
+  ros::spinOnce();                         // what was said of the garment before
   got_.fit = nullptr;
   got_.deformed = nullptr;
   refused_ = false;
@@ -158,7 +158,7 @@ bool Replay::send(const Garment& garment, const ros::Time& time, rosbag::Bag& ou
   call.request.garment = garment;
   if (!set_garment_.call(call) || !call.response.accepted) {
     ROS_ERROR("replay: garment '%s': %s: %s", garment.name.c_str(), call.response.code.c_str(),
-              without_figures(call.response.message).c_str());
+              log_words(call.response.message).c_str());
     return false;
   }
   if (!went_through_) return true;

@@ -105,8 +105,7 @@ void Stage::drop(const std::string& scan_id, const geometry::Refusal& refusal) {
   state_.last_error_message = refusal.what();
   state_.last_error_scan_id = scan_id;
   report();
-  ROS_WARN("%s: dropped: %s: %s", name_.c_str(), refusal.code().c_str(),
-           without_figures(refusal.what()).c_str());
+  ROS_WARN("%s: dropped: %s: %s", name_.c_str(), refusal.code().c_str(), log_words(refusal.what()).c_str());
 }
 
 void Stage::serve() {
@@ -172,7 +171,7 @@ void Stage::finish(const Job& job, const Result& result, double milliseconds) {
   if (!dropped && !result.warning.empty()) {
     state_.level = DiagnosticStatus::WARN;
     state_.message = result.warning;
-    ROS_WARN("%s: scan %s: %s", name_.c_str(), job.scan_id.c_str(), without_figures(result.warning).c_str());
+    ROS_WARN("%s: scan %s: %s", name_.c_str(), job.scan_id.c_str(), log_words(result.warning).c_str());
   }
   state_.working_since.reset();
   state_.milliseconds = milliseconds;
@@ -201,7 +200,7 @@ void Stage::fail(const std::string& scan_id, const std::string& word, const std:
   state_.last_error_scan_id = scan_id;
   report();
   ROS_ERROR("%s: scan %s %s: %s: %s", name_.c_str(), scan_id.c_str(), word.c_str(), code.c_str(),
-            without_figures(message).c_str());
+            log_words(message).c_str());
 }
 
 void Stage::report() {

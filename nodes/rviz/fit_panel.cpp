@@ -2,6 +2,7 @@
 
 #include <QTimer>
 #include <algorithm>
+#include <iterator>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "geometry/status.hpp"
@@ -9,6 +10,7 @@
 #include "ros/body_messages.hpp"
 #include "ros/flat.hpp"
 #include "ros/log_words.hpp"
+#include "ros/parameters.hpp"
 #include "ros/stage_report_message.hpp"
 #include "rviz/qt_text.hpp"
 
@@ -20,6 +22,7 @@ constexpr std::chrono::milliseconds kOwnEcho{
     400};  // after an answer: what was asked for is still coming back
 constexpr std::chrono::seconds kPatience{3};
 constexpr double kKeepOld = 120;  // s that it stays
+constexpr geometry::Range kKeepOldRange{0, 1e9};
 
 double seconds(std::chrono::steady_clock::time_point time) {
   return std::chrono::duration<double>(time.time_since_epoch()).count();
@@ -31,13 +34,24 @@ std::vector<AskedLine> lines_in(const Garment& garment) {
   return lines;
 }
 
+// By points: on this body's skin and no other's.
+bool lies_on_skin(const Garment& garment) {
+  return std::any_of(garment.lines.begin(), garment.lines.end(),
+                     [](const GarmentLine& line) { return !line.points.empty(); });
+}
+
 }  // namespace
 
 FitPanel::~FitPanel() = default;
 
 void FitPanel::onInitialize() {
   view_->set_manager(vis_manager_);
-  ros::NodeHandle("~").param("keep_previous_body", keep_old_, kKeepOld);
+  try {
+    keep_old_ = node::Parameters(ros::NodeHandle("~")).number("keep_previous_body", kKeepOld, kKeepOldRange);
+  } catch (const geometry::Refusal& refusal) {
+    keep_old_ = kKeepOld;
+    answer(words::default_taken(refusal.what(), kKeepOld));
+  }
   client_ = std::make_unique<FitClient>();
   client_->on_garment = [this](const Garment& garment) { take_garment(garment); };
   client_->on_fit = [this](const FitState& fit) { take_fit(fit); };
@@ -54,7 +68,8 @@ void FitPanel::onInitialize() {
   client_->on_diagnostics = [this](const auto& status) { take_diagnostics(status); };
   client_->on_worn = [this](bool done, const std::string& words) { take_answer(done, words); };
   client_->on_exported = [this](bool done, const std::string& words) {
-    export_->setEnabled(true);
+    exporting_ = false;
+    allow_name_and_export();
     answer(done ? words : words::not_exported(words), done);
   };
   auto* timer = new QTimer(this);
@@ -131,7 +146,7 @@ void FitPanel::take_answer(bool done, const std::string& words) {
   asked_at_ = Clock::now();
   if (done) return answer("");
   answer(words::not_accepted(words));
-  if (worn_) session_.adopt(worn_->name, lines_in(*worn_));
+  if (worn_) adopt_worn();
   build_lines();
   build_regions();
 }
@@ -164,13 +179,28 @@ void FitPanel::remember(const Garment& garment) {
   known->second.solver = garment.solver;
 }
 
+// What she wore is nobody's step back, and what lay on her skin fits no other.
+void FitPanel::forget_customer() {
+  session_.forget_steps();
+  for (auto known = known_.begin(); known != known_.end();)
+    known = lies_on_skin(known->second) ? known_.erase(known) : std::next(known);
+}
+
+// True where something changed.
+bool FitPanel::adopt_worn() {
+  const bool is_known = known_.count(session_.now().garment) != 0;
+  if (!session_.adopt(worn_->name, lines_in(*worn_))) return false;
+  if (!is_known) session_.forget_steps();  // the pipeline took off what lay on the last customer's skin
+  return true;
+}
+
 void FitPanel::follow_pipeline() {
   const bool held =
       std::any_of(rows_.begin(), rows_.end(), [](const LineRow* row) { return row->is_held(); });
   const bool coming_back = changed_here_ && Clock::now() - asked_at_ < kOwnEcho;
   if (!worn_ || held || coming_back || client_->is_asking()) return;
   const std::string garment = session_.now().garment;
-  if (!session_.adopt(worn_->name, lines_in(*worn_))) return;
+  if (!adopt_worn()) return;
   const std::vector<AskedLine>& lines = session_.now().lines;
   const bool same_lines =
       std::equal(rows_.begin(), rows_.end(), lines.begin(), lines.end(),
@@ -223,7 +253,7 @@ void FitPanel::take_label(const ScanLabel& label) {
 
 void FitPanel::show_whose() {
   const ScanLabel label = labels_.of(body_.scan_id());
-  customer_->setEnabled(!body_.empty());
+  allow_name_and_export();
   customer_->setPlaceholderText(text(label.source));
   customer_->setToolTip(text(words::customer_help(label.source)));
   if (!customer_->isModified()) customer_->setText(text(label.customer));
@@ -231,13 +261,14 @@ void FitPanel::show_whose() {
 
 void FitPanel::take_body(const TriangleMesh& body) {
   try {
-    const bool another = body.scan_id != body_.scan_id();
+    const bool another = body.scan_id != body_.scan_id(), had_one = !body_.empty();
     body_.take_body(body.scan_id, node::mesh_in(body));
     new_girths_ = true;
     if (another) {
       customer_->setModified(false);  // what is typed is of the body that was shown
       customer_->clearFocus();
       table_->setRowCount(0);
+      if (had_one) forget_customer();
       forget_outcome();
     }
     show_whose();
@@ -293,13 +324,13 @@ void FitPanel::answer(const std::string& words, bool done) {
   if (answer_->toolTip() == text(words)) return;
   show_words(answer_, words);
   answer_->setStyleSheet(done ? "" : "color: #8a4b00");
-  if (!words.empty()) ROS_INFO("fit panel: %s", node::without_figures(words).c_str());
+  if (!words.empty()) ROS_INFO("fit panel: %s", node::log_words(words).c_str());
 }
 
 // While the next scan is worked on, and after one was refused, the body before is not taken for hers: it is
 // pale, and goes after a while.
-void FitPanel::show_age(const PipelineWatch::State& state) {
-  const bool old = !body_.empty() && !state.newest_scan.empty() && state.newest_scan != body_.scan_id();
+void FitPanel::show_age() {
+  const bool old = shows_earlier_scan();
   if (old != old_since_.has_value()) {
     set_display("Earlier scan", old);
     table_->setEnabled(!old);
@@ -307,6 +338,11 @@ void FitPanel::show_age(const PipelineWatch::State& state) {
       old_since_ = Clock::now();
     else
       old_since_.reset();
+    if (old) {
+      customer_->clearFocus();  // before it is disabled: else the folder's field gets what is typed on
+      say_whose();              // not: what is half typed may be the next one's
+    }
+    allow_name_and_export();
   }
   const bool gone =
       old && keep_old_ > 0 && Clock::now() - *old_since_ > std::chrono::duration<double>(keep_old_);
@@ -316,11 +352,21 @@ void FitPanel::show_age(const PipelineWatch::State& state) {
   enable_display(!gone);
 }
 
+bool FitPanel::shows_earlier_scan() const {
+  const std::string newest = watch_.state(seconds(Clock::now())).newest_scan;
+  return !body_.empty() && !newest.empty() && newest != body_.scan_id();
+}
+
+// A body that is shown pale is not of her who stands before the clerk.
+void FitPanel::allow_name_and_export() {
+  customer_->setEnabled(!body_.empty() && !old_since_);
+  export_->setEnabled(!exporting_ && !old_since_);
+}
+
 void FitPanel::show_state() {
   const PipelineWatch::State state = watch_.state(seconds(Clock::now()));
-  show_age(state);
-  if (state.trouble && said_ != state.words)
-    ROS_WARN("fit panel: %s", node::without_figures(state.words).c_str());
+  show_age();
+  if (state.trouble && said_ != state.words) ROS_WARN("fit panel: %s", node::log_words(state.words).c_str());
   said_ = state.words;
   show_words(pipeline_, state.words + (!old_since_ ? "" : old_gone_ ? words::kOldBodyGone : words::kOldBody));
   pipeline_->setStyleSheet(state.trouble ? "color: #b2182b" : "");

@@ -85,7 +85,9 @@ class FitPanel : public rviz::Panel {
   void take_answer(bool done, const std::string& words);
 
   void follow_pipeline();  // unless a request is on its way
+  bool adopt_worn();
   void remember(const Garment& garment);
+  void forget_customer();
   void show_outcome();
   void forget_outcome();
   void show_warnings(std::vector<std::string> messages);  // those of lines, and of the skin
@@ -95,7 +97,9 @@ class FitPanel : public rviz::Panel {
   void show_whose();
   void follow_view();
   void show_state();
-  void show_age(const PipelineWatch::State& state);
+  void show_age();
+  bool shows_earlier_scan() const;  // than the newest that came, whatever became of it
+  void allow_name_and_export();
   std::vector<Eigen::Vector3d> without_posture(const std::vector<Eigen::Vector3d>& worn) const;
   std::string extreme_skin(bool tightest) const;             // a sentence, "" where it bears it
   void answer(const std::string& words, bool done = false);  // to the clerk, and to the log
@@ -119,6 +123,7 @@ class FitPanel : public rviz::Panel {
   Clock::time_point asked_at_{};
   bool changed_here_ = false;                   // what was asked for last is on the panel already
   bool typing_ = false;                         // a garment's name
+  bool exporting_ = false;                      // an export is on its way
   std::optional<Clock::time_point> old_since_;  // what is shown is of an earlier scan since then
   bool old_gone_ = false;
   std::string said_;     // of the pipeline, last

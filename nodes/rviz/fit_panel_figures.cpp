@@ -47,9 +47,13 @@ void FitPanel::show_outcome() {
   fit_->setToolTip(text(ended));
   std::map<std::string, std::string> regions;
   std::vector<std::string> messages;
-  for (std::size_t i = 0; i < fit.lines.size(); ++i) {
+  const std::string& asked = session_.now().garment;
+  const bool is_of_asked = asked.empty() || fit.garment == asked;  // else that one's fit is on its way
+  if (!is_of_asked)
+    for (LineRow* row : rows_) row->forget_outcome();
+  for (std::size_t i = 0; is_of_asked && i < fit.lines.size(); ++i) {
     const LineResult& line = fit.lines[i];
-    if (fit.garment == session_.now().garment) session_.set_length(line.name, line.initial);
+    session_.set_length(line.name, line.initial);
     if (fit.scan_id == control_.scan_id) regions[line.name] = region_of(line, control_);
     const words::LineOutcome outcome{line.request, line.ratio, line.tension, line.reachable,
                                      fit.status == FitState::INFEASIBLE};
@@ -71,7 +75,10 @@ void FitPanel::show_outcome() {
       }
   }
   session_.place(regions);
-  show_warnings(messages);
+  if (is_of_asked)
+    show_warnings(messages);
+  else
+    show_words(folds_, "");
   QStringList volumes;
   for (const RegionResult& region : fit.regions)
     volumes << text(words::volume(region.name, region.volume_before, region.volume_after));
@@ -82,7 +89,8 @@ void FitPanel::show_outcome() {
 
 void FitPanel::show_warnings(std::vector<std::string> messages) {
   const FitWarnings none;
-  const FitWarnings& known = warnings_.scan_id == fitted_->scan_id ? warnings_ : none;
+  const bool are_of_it = warnings_.scan_id == fitted_->scan_id && warnings_.garment == fitted_->garment;
+  const FitWarnings& known = are_of_it ? warnings_ : none;
   for (const FitWarning& warning : known.warnings) messages.push_back(warning.message);
   const auto is_said = [messages](const std::string& line) {  // of the line, by its figures
     return std::any_of(messages.begin(), messages.end(),
@@ -95,7 +103,7 @@ void FitPanel::show_warnings(std::vector<std::string> messages) {
       messages.push_back(notice.message);
   const std::string words = words::warnings(messages);
   if (!words.empty() && folds_->toolTip() != text(words))
-    ROS_WARN("fit panel: %s", node::without_figures(words).c_str());
+    ROS_WARN("fit panel: %s", node::log_words(words).c_str());
   show_words(folds_, words);
 }
 

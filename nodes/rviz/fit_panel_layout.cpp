@@ -170,6 +170,7 @@ void FitPanel::build_buttons(QVBoxLayout* layout) {
   marks_->setToolTip(words::kMarksHelp);
   layout->addLayout(blending);
   layout->addWidget(view_ = new ViewRow);
+  connect(view_, &ViewRow::not_turned, this, [this](const QString& why) { answer(why.toStdString()); });
   connect(undo_, &QPushButton::clicked, this, &FitPanel::undo);
   connect(redo_, &QPushButton::clicked, this, &FitPanel::redo);
   connect(linked_, &QCheckBox::toggled, this, [this](bool on) { session_.link_sides(on); });
@@ -330,10 +331,15 @@ void FitPanel::start_export() {
     answer(words::kNothingToExport);
     return;
   }
+  if (shows_earlier_scan()) {
+    answer(words::kOldNotExported);
+    return;
+  }
   QString name = text(body_.scan_id() + "_" + body_.garment()).replace('/', '-');
   name += QDateTime::currentDateTime().toString("_yyyyMMdd-hhmmss");
   QDir().mkpath(folder);  // where that cannot be, the export says why
-  export_->setEnabled(false);
+  exporting_ = true;
+  allow_name_and_export();
   answer("");
   client_->export_to(QDir(folder).filePath(name).toStdString(), body_.scan_id());
 }
@@ -341,6 +347,11 @@ void FitPanel::start_export() {
 void FitPanel::say_whose() {
   if (!customer_->isModified() || customer_->text().trimmed().isEmpty() || body_.empty()) return;
   customer_->setModified(false);
+  if (shows_earlier_scan()) {
+    show_whose();  // as it is known, in place of what was typed
+    answer(words::kOldNotNamed);
+    return;
+  }
   ScanLabel label;
   label.scan_id = body_.scan_id();
   label.customer = customer_->text().trimmed().toStdString();

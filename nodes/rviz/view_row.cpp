@@ -11,6 +11,7 @@
 #include <QShortcut>
 
 #include "inspect/panel_words.hpp"
+#include "rviz/qt_text.hpp"
 
 namespace tensegric_fit::inspect {
 namespace {
@@ -34,11 +35,11 @@ ViewRow::ViewRow() {
     const auto* shortcut = new QShortcut(QKeySequence(key), this, nullptr, nullptr, Qt::ApplicationShortcut);
     connect(shortcut, &QShortcut::activated, this, act);
   };
-  button(words::kViewFront, "F5", [this] { look(From::front, whole_); });
-  button(words::kViewLeft, "F6", [this] { look(From::her_left, whole_); });
-  button(words::kViewBack, "F7", [this] { look(From::back, whole_); });
-  button(words::kViewRight, "F8", [this] { look(From::her_right, whole_); });
-  button(words::kViewAll, "F9", [this] { look(from_, !whole_); });
+  button(words::kViewFront, "F5", [this] { turn(From::front, whole_); });
+  button(words::kViewLeft, "F6", [this] { turn(From::her_left, whole_); });
+  button(words::kViewBack, "F7", [this] { turn(From::back, whole_); });
+  button(words::kViewRight, "F8", [this] { turn(From::her_right, whole_); });
+  button(words::kViewAll, "F9", [this] { turn(from_, !whole_); });
   follow_ = new QCheckBox(words::kViewFollows);
   follow_->setToolTip(words::kViewFollowsHelp);
   follow_->setChecked(true);
@@ -70,27 +71,33 @@ void ViewRow::look_at_garment() {
   look(lie_behind(lines_, skin_, *body_from_scan_) ? From::back : From::front, false);
 }
 
-void ViewRow::look(From from, bool whole) {
+void ViewRow::turn(From from, bool whole) {
+  const std::string why = look(from, whole);
+  if (!why.empty()) Q_EMIT not_turned(text(why));
+}
+
+std::string ViewRow::look(From from, bool whole) {
   from_ = from;
   whole_ = whole;
-  if (!manager_ || !body_from_scan_ || skin_.empty()) return;
+  if (!manager_ || !body_from_scan_ || skin_.empty()) return "";  // nobody is there to look at
   const bool all = whole || lines_.empty();
   const OrbitView view = framed(all ? skin_ : lines_, *body_from_scan_, from, all ? 0 : kAround, kAngle);
   rviz::ViewController* controller = manager_->getViewManager()->getCurrent();
   Ogre::Vector3 place;
-  Ogre::Quaternion turn;
-  if (!controller || controller->getClassId() != "rviz/Orbit" ||
-      !manager_->getFrameManager()->getTransform(frame_, ros::Time(), place, turn))
-    return;
+  Ogre::Quaternion rotation;
+  if (!controller || controller->getClassId() != "rviz/Orbit") return words::kNoOrbit;
+  if (!manager_->getFrameManager()->getTransform(frame_, ros::Time(), place, rotation))
+    return words::unknown_frame(frame_);
   const Ogre::Vector3 focus =
-      place + turn * Ogre::Vector3(static_cast<float>(view.focus.x()), static_cast<float>(view.focus.y()),
-                                   static_cast<float>(view.focus.z()));
-  const Ogre::Vector3 forward = turn * Ogre::Vector3::UNIT_X;
+      place + rotation * Ogre::Vector3(static_cast<float>(view.focus.x()), static_cast<float>(view.focus.y()),
+                                       static_cast<float>(view.focus.z()));
+  const Ogre::Vector3 forward = rotation * Ogre::Vector3::UNIT_X;
   if (auto* point = dynamic_cast<rviz::VectorProperty*>(controller->subProp("Focal Point")))
     point->setVector(focus);
   controller->subProp("Distance")->setValue(view.distance);
   controller->subProp("Yaw")->setValue(view.yaw + std::atan2(forward.y, forward.x));
   controller->subProp("Pitch")->setValue(view.pitch);
+  return "";
 }
 
 }  // namespace tensegric_fit::inspect

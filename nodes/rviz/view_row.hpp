@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QCheckBox>
+#include <QString>
 #include <QWidget>
 #include <optional>
 #include <string>
@@ -33,8 +34,13 @@ class ViewRow : public QWidget {
   /// The controls in the order of the Tab key.
   std::vector<QWidget*> controls() const { return controls_; }
 
+ Q_SIGNALS:
+  /// By a button; a sentence.
+  void not_turned(const QString& why);
+
  private:
-  void look(From from, bool whole);
+  void turn(From from, bool whole);
+  std::string look(From from, bool whole);  // why it could not, else ""
   void look_at_garment();
 
   rviz::VisualizationManager* manager_ = nullptr;

@@ -151,6 +151,7 @@ TriangleMesh read_body_mesh(const std::string& path, const mesh_files::Asked& as
   const std::string ending = mesh_files::ending_of(path);
   const bool is_ply = !mesh_files::is_mesh_name(path);
   TriangleMesh mesh = is_ply ? geometry::read_ply_mesh(path) : mesh_files::read_mesh(path);
+  if (is_ply && !any_shape) mesh = mesh_files::tidy(mesh);  // faces that share no corners, corners of no face
   mesh_files::Asked wanted = asked;
   if (any_shape && wanted.unit.empty()) wanted.unit = "m";
   if (any_shape && wanted.up.empty()) wanted.up = "z";

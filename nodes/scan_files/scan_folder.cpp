@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include "geometry/status.hpp"
 
@@ -55,10 +54,10 @@ std::string ScanFolder::text_of(const std::string& name, const Version& version)
   return std::to_string(version.changed) + " " + std::to_string(version.size) + " " + name;
 }
 
-std::vector<std::string> ScanFolder::played() const {
+std::vector<std::string> ScanFolder::played(const std::set<std::string>& but) const {
   std::vector<std::string> texts;
   for (const auto& [name, file] : files_)
-    if (file.played) texts.push_back(text_of(name, file.version));
+    if (file.played && but.count(name) == 0) texts.push_back(text_of(name, file.version));
   return texts;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,9 @@ class ScanFolder {
   /// Leaves out what lies there now. \throw Refusal as poll()
   void skip_all();
 
-  /// Texts that stand for the files returned so far and still there; and, for one that goes on where another
-  /// ended, to leave those out.
-  std::vector<std::string> played() const;
+  /// Texts that stand for the files returned so far and still there, but for those named; and, for one that
+  /// goes on where another ended, to leave those out.
+  std::vector<std::string> played(const std::set<std::string>& but = {}) const;
   void skip(const std::vector<std::string>& played);
 
  private:

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "files/checked_message.hpp"
@@ -20,6 +21,7 @@
 #include "ros/run_node.hpp"
 #include "ros/scan_labels.hpp"
 #include "ros/scan_tag.hpp"
+#include "ros/set_parameter.hpp"
 #include "ros/stage.hpp"
 #include "scan_files/bag_messages.hpp"
 #include "scan_files/customer_name.hpp"
@@ -136,28 +138,48 @@ class ScanPlayer {
   /// If it restarted, it would play its files again.
   void forget(const ForgetOrder& order, ForgetAnswer& done) {
     const auto source = sources_.find(source_key(order.scan_id));
-    if (source == sources_.end()) return;
-    if (order.scan_id == published_ || (setup_.rate > 0 && source->second == playing_)) {
+    if (source == sources_.end()) {
+      if (order.scan_file && !setup_.played_files.empty())
+        done.failed.push_back(
+            "the file that it was played from, if it was: this node has been started again");
+      return;
+    }
+    if (order.scan_id == published_ || (setup_.rate > 0 && source->second.path == playing_.path)) {
       publisher_.shutdown();
       publisher_ = advertised();
       labels_.shutdown();
       labels_ = advertised_labels();
       published_.clear();
-      if (!busy_) drop_published();  // else they were dropped before the next file is read
+      if (!busy_ && setup_.rate > 0) {  // nor is it played over again
+        scans_.clear();
+        at_ = 0;
+      }
       done.removed.push_back("the latched scan/points and scan/label");
     }
-    if (order.scan_file) {
-      std::error_code error;
-      if (fs::symlink_status(source->second, error).type() == fs::file_type::regular &&
-          fs::remove(source->second, error))
-        done.removed.push_back("the file " + source->second);
-      else
-        done.failed.push_back("the file " + source->second + " was not deleted");
+    if (!order.scan_file) return;
+    std::error_code error;
+    const Played& file = source->second;
+    if (file.scans > 1)
+      done.failed.push_back("the file " + file.path + " was not deleted: it holds other scans, too");
+    else if (fs::symlink_status(file.path, error).type() != fs::file_type::regular)
+      done.failed.push_back("the file " + file.path + " was not deleted: it is not there, or a link");
+    else if (fs::last_write_time(file.path, error) != file.written)
+      done.failed.push_back("the file " + file.path + " was not deleted: it was written again since");
+    else if (!fs::remove(file.path, error))
+      done.failed.push_back("the file " + file.path + " was not deleted");
+    else {
+      done.removed.push_back("the file " + file.path);
+      sources_.erase(source);
     }
-    sources_.erase(source);
   }
 
  private:
+  struct Played {
+    std::string path;
+    fs::file_time_type written;
+    std::size_t scans;  // in it
+  };
+
   /// A file that is played over and over has a stamp each time, and the same points.
   std::string source_key(const std::string& scan_id) const {
     return setup_.rate > 0 ? scan_id.substr(scan_id.rfind('-') + 1) : scan_id;
@@ -166,23 +188,16 @@ class ScanPlayer {
   ros::Publisher advertised() { return node_.advertise<PointCloud2>("scan/points", 1, true); }
   ros::Publisher advertised_labels() { return node_.advertise<ScanLabel>("scan/label", 4, true); }
 
-  void drop_published() {
-    if (setup_.rate > 0) {
-      scans_.clear();  // nor is it played over again
-      at_ = 0;
-    } else if (at_ > 0) {
-      scans_[at_ - 1] = {};
-    }
-  }
-
   void go_on() {
     if (folder_) look();
     if (busy_ || ros::SteadyTime::now().toSec() < next_) return;
     if (setup_.rate > 0 && at_ == scans_.size()) at_ = 0;
-    if (at_ < scans_.size())
+    if (at_ < scans_.size()) {
       publish(scans_[at_++]);
-    else if (!files_.empty())
+      if (setup_.rate == 0) scans_[at_ - 1] = {};  // played once
+    } else if (!files_.empty()) {
       read_next();
+    }
   }
 
   void look() {
@@ -193,33 +208,45 @@ class ScanPlayer {
         if (scan_files::is_scan_name(path))
           files_.push_back(path);
         else if (!scan_files::is_companion_name(path))
-          stage_.drop(path, geometry::Refusal(geometry::refusal::kBrokenFile,
-                                              path + ": scans are not read from files of this type"));
+          stage_.drop("", geometry::Refusal(geometry::refusal::kBrokenFile,
+                                            path + ": scans are not read from files of this type"));
       remember();
     } catch (const geometry::Refusal& refusal) {
       stage_.drop("", refusal);
     }
   }
 
-  void remember() { private_node_.setParam("played_files", folder_->played()); }
+  /// Files that wait are played by its next life.
+  void remember() {
+    std::set<std::string> waiting;
+    for (const std::string& path : files_) waiting.insert(fs::path(path).filename());
+    XmlRpc::XmlRpcValue texts;
+    texts.setSize(0);
+    for (const std::string& text : folder_->played(waiting)) texts[texts.size()] = text;
+    set_parameter(private_node_, "played_files", texts);
+  }
 
   void read_next() {
     const std::string path = std::move(files_.front());
     files_.pop_front();
+    if (folder_) remember();
     scans_.clear();  // played by now, and not to be kept where the next file is refused
     at_ = 0;
     busy_ = true;
-    playing_ = path;
-    stage_.begin(path);
-    stage_.post(path, [this, path]() -> Stage::Result {
+    std::error_code gone;  // meanwhile
+    playing_ = {path, fs::last_write_time(path, gone), 0};
+    const std::string work = fmt::format("file {}", ++read_);  // names of files may be customers'
+    stage_.begin(work);
+    stage_.post(work, [this, path]() -> Stage::Result {
       try {
         const std::vector<FileScan> scans = scans_in(path, setup_.customer);
         return {[this, scans] {
                   scans_ = scans;
+                  playing_.scans = scans.size();
                   at_ = 0;
                   busy_ = false;
                 },
-                {{"scans", std::to_string(scans.size())}}};
+                {{"file", path}, {"scans", std::to_string(scans.size())}}};
       } catch (...) {
         busy_ = false;
         throw;
@@ -247,12 +274,14 @@ class ScanPlayer {
   ros::NodeHandle node_, private_node_;
   ros::Publisher publisher_, labels_;
   std::optional<scan_files::ScanFolder> folder_;
-  std::deque<std::string> files_;               // complete, to be read
-  std::vector<FileScan> scans_;                 // of the file read last; the worker's while busy
-  std::string playing_, published_;             // a path; a scan_id
-  std::map<std::string, std::string> sources_;  // source_key -> path
-  std::size_t at_ = 0;                          // of the next one
-  double next_ = 0;                             // when it may go, seconds of the steady clock
+  std::size_t read_ = 0;           // files
+  std::deque<std::string> files_;  // complete, to be read
+  std::vector<FileScan> scans_;    // of the file read last; the worker's while busy
+  Played playing_;
+  std::string published_;                  // scan_id
+  std::map<std::string, Played> sources_;  // by source_key
+  std::size_t at_ = 0;                     // of the next one
+  double next_ = 0;                        // when it may go, seconds of the steady clock
   std::atomic<bool> busy_{false};
   ros::WallTimer clock_;
   Stage stage_;  // last: its worker uses all of the above

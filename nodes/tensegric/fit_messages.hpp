@@ -9,6 +9,7 @@
 #include <tensegric_fit/MemberForces.h>
 #include <tensegric_fit/SetGarment.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ namespace tensegric_fit::node {
 struct GarmentRequest {
   tensegric::Garment garment;
   std::string solver;
+  /// scan_id of the body that its lines by points lie on, empty for the next body; nothing: of no certain
+  /// one, or without such lines.
+  std::optional<std::string> of{};
+  ros::Time asked{};  ///< when it was asked for; zero: not known
 };
 
 Garment to_message(const std_msgs::Header& header, const GarmentRequest& request);

@@ -188,9 +188,9 @@ Garment take_garment(const std::string& words, const std::string& folder) {
   const std::vector<std::string> parts = geometry::joined_words(words);
   if (parts.size() == 1) return load_garment(geometry::yaml_file(folder, words, kBadGarment));
   Garment all;
-  all.name = words;
   for (const std::string& part : parts) {
     const Garment one = load_garment(geometry::yaml_file(folder, part, kBadGarment));
+    all.name += (&part == &parts.front() ? "" : "+") + one.name;
     for (const std::string& region : one.regions)
       if (std::find(all.regions.begin(), all.regions.end(), region) == all.regions.end())
         all.regions.push_back(region);

@@ -73,7 +73,8 @@ void check_line(GarmentLine& line, const std::string& where);
 Garment load_garment(const std::string& path);
 
 /// The garment that `words` mean: a name in `folder` or a file, or several of them worn at once, joined by
-/// '+' (B1+H2). \throw Refusal bad_garment: no such garment; two of them have a line of the same name
+/// '+' (B1+H2), as their own names are in its name. \throw Refusal bad_garment: no such garment; two of them
+/// have a line of the same name
 Garment take_garment(const std::string& words, const std::string& folder);
 
 /// Sets the ratio of the line of that name, or of every line where `line` is empty. \throw Refusal

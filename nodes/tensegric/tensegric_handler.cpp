@@ -4,6 +4,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include <algorithm>
 #include <chrono>
 
 #include "geometry/shipped_files.hpp"
@@ -95,11 +96,42 @@ std::optional<TensegricHandler::Input> TensegricHandler::add(const TriangleMesh:
 std::optional<TensegricHandler::Input> TensegricHandler::newly_complete() {
   if (!fresh_ || !complete()) return std::nullopt;
   fresh_ = false;
-  return input();
+  std::string taken_off;
+  if (worn_.of && worn_.of->empty()) worn_.of = control_->scan_id;
+  if (worn_.of && worn_.of != control_->scan_id) {
+    taken_off = worn_.garment.name;
+    const ros::Time asked = worn_.asked;
+    worn_ = first_;
+    worn_.asked = asked;
+  }
+  Input complete = input();
+  complete.taken_off = std::move(taken_off);
+  return complete;
+}
+
+GarmentRequest TensegricHandler::of_body(GarmentRequest request) const {
+  const std::vector<tensegric::GarmentLine>& lines = request.garment.lines;
+  if (std::any_of(lines.begin(), lines.end(), [](const auto& line) { return !line.points.empty(); }))
+    request.of = body_ ? body_->scan_id : "";
+  return request;
+}
+
+std::optional<TensegricHandler::Input> TensegricHandler::put_on(const Garment& garment) {
+  const ros::Time asked = garment.header.stamp;
+  if (!asked.isZero() && asked <= worn_.asked) return std::nullopt;
+  return wear(of_body(request_in(garment)));
+}
+
+std::optional<TensegricHandler::Input> TensegricHandler::put_on(const SetGarment::Request& request,
+                                                                const ros::Time& asked) {
+  GarmentRequest wanted = request_in(request, setup_.garment_directory);
+  wanted.asked = asked;
+  return wear(of_body(std::move(wanted)));
 }
 
 std::optional<TensegricHandler::Input> TensegricHandler::wear(GarmentRequest request) {
   check(request.garment);
+  request.asked = std::max(request.asked, worn_.asked);
   worn_ = std::move(request);
   if (!complete()) return std::nullopt;
   return input();

@@ -32,7 +32,8 @@ class TensegricHandler {
     Landmarks::ConstPtr landmarks;  ///< needed for a posture, else null
     TriangleMesh::ConstPtr body;
     GarmentRequest request;
-    int rest;  ///< as GarmentFitter::fit
+    int rest;                    ///< as GarmentFitter::fit
+    std::string taken_off = {};  ///< garment of another body that `request` takes the place of, else empty
   };
   std::optional<Input> add(const ControlMesh::ConstPtr& control);
   /// Nothing waits for it: fits that are asked for later have their first answers on it.
@@ -40,11 +41,11 @@ class TensegricHandler {
   std::optional<Input> add(const Landmarks::ConstPtr& landmarks);
   std::optional<Input> add(const TriangleMesh::ConstPtr& body);
 
-  /// \throw Refusal unknown_line, bad_garment, bad_option: the garment worn before stays
-  std::optional<Input> put_on(const Garment& garment) { return wear(request_in(garment)); }
-  std::optional<Input> put_on(const SetGarment::Request& request) {
-    return wear(request_in(request, setup_.garment_directory));
-  }
+  /// A garment with lines by points is of the newest body: on the next the first garment takes its place.
+  /// A message that was asked for before the garment worn is one that its publisher latched: nothing comes of
+  /// it. \throw Refusal unknown_line, bad_garment, bad_option: the garment worn before stays
+  std::optional<Input> put_on(const Garment& garment);
+  std::optional<Input> put_on(const SetGarment::Request& request, const ros::Time& asked = {});
   /// Back to the first garment, from the body at rest.
   std::optional<Input> reset();
 
@@ -82,6 +83,7 @@ class TensegricHandler {
   };
   static Setup setup_from(Parameters& parameters);
 
+  GarmentRequest of_body(GarmentRequest request) const;
   std::optional<Input> wear(GarmentRequest request);
   void check(const tensegric::Garment& garment) const;
   std::optional<Input> newly_complete();

@@ -5,6 +5,7 @@
 #include "ros/display.hpp"
 #include "ros/markers.hpp"
 #include "ros/run_node.hpp"
+#include "ros/set_parameter.hpp"
 #include "ros/stage.hpp"
 #include "ros/watched_inputs.hpp"
 #include "tensegric/tensegric_handler.hpp"
@@ -52,7 +53,17 @@ class TensegricNode {
 
   template <typename Message>
   void on(const boost::shared_ptr<const Message>& message) {
-    fit(handler_.add(message));
+    const std::optional<Input> input = handler_.add(message);
+    if (input && !input->taken_off.empty()) {
+      stage_.drop(input->control->scan_id,
+                  geometry::Refusal(geometry::refusal::kBadGarment,
+                                    "garment '" + input->taken_off +
+                                        "' has lines by points, which lie on the body of an earlier scan; '" +
+                                        input->request.garment.name + "' is worn"));
+      announce();
+      keep();
+    }
+    fit(input);
   }
 
   void on_garment(const ros::MessageEvent<Garment const>& event) {
@@ -61,13 +72,13 @@ class TensegricNode {
       put_on(handler_.put_on(*event.getMessage()));
       announce();  // for late joiners: who asked for it may be gone by then
     } catch (const geometry::Refusal& refusal) {
-      stage_.refuse("", refusal);
+      stage_.drop("", refusal);  // the fit of the garment before stands
     }
   }
 
   bool on_set_garment(SetGarment::Request& request, SetGarment::Response& response) {
     try {
-      put_on(handler_.put_on(request));
+      put_on(handler_.put_on(request, ros::Time::now()));
       announce();
       response.accepted = true;
       response.message = handler_.outlook();
@@ -94,8 +105,10 @@ class TensegricNode {
 
   void put_on(const std::optional<Input>& input) {
     fit(input);
-    private_node_.setParam("worn", handler_.kept());  // for the next life of this node
+    keep();
   }
+
+  void keep() { set_parameter(private_node_, "worn", handler_.kept()); }  // for the next life of this node
 
   void announce() {
     std_msgs::Header header;

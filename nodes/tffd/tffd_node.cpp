@@ -68,10 +68,10 @@ class TffdNode {
 
   void publish(const Output& output) {
     if (output.scan.fit->status == FitState::SOLVING) return passing_.publish(output.scan.deformed);
+    exports_.keep(output.scan);  // first: who hears of the fit may ask for its export
     deformed_.publish(output.scan.deformed);
     warnings_.publish(output.warnings);
     show(output.scan.deformed, output.bound);
-    exports_.keep(output.scan);
   }
 
   void show(const DeformedMesh::ConstPtr& deformed, const std::shared_ptr<const BoundBody>& bound) {

@@ -11,6 +11,7 @@ import shutil
 import signal
 import sqlite3
 import stat
+import struct
 import subprocess
 import sys
 import tempfile
@@ -31,6 +32,13 @@ def lines_of(folder):
 
 def without_cost(line):
     return {key: value for key, value in line.items() if key != "cost"}
+
+
+def take_for_another_builds(folder):
+    """All that is in the folder becomes as if another build had written it."""
+    own = json.loads((folder / "batch.json").read_text())["build"]
+    for file in folder.iterdir():
+        file.write_text(file.read_text().replace(own, len(own) * "0"))
 
 
 def workers_of(process):
@@ -199,10 +207,15 @@ class FitBatch(unittest.TestCase):
         self.assertTrue(any(line["status"] == "ok" for line in lines_of(folder)))
 
     def test_too_much_memory_takes_one_scan_with_it(self):
-        folder = self.folder / "memory"
-        self.assertEqual(fit_batch(self.manifest, "--out", folder, "--memory", 0.1).returncode, 0)
-        statuses = {line["status"] for line in lines_of(folder)}
-        self.assertTrue(statuses & {"out_of_memory", "crashed"}, statuses)
+        facets = 10_000_000  # 0.5 GB that are not on the disk; as corners and triangles another 0.9 GB
+        with open(self.folder / "large.stl", "wb") as file:
+            file.write(bytes(80) + struct.pack("<I", facets))
+            file.truncate(84 + 50 * facets)
+        manifest, folder = self.folder / "large.csv", self.folder / "memory"
+        manifest.write_text("mesh,garment\nlarge.stl,B1\nw1/body.ply,B1\n")
+        self.assertEqual(fit_batch(manifest, "--out", folder, "--jobs", 1, "--memory", 1.5).returncode, 0)
+        lines = {line["row"]: line for line in lines_of(folder)}
+        self.assertEqual({row: line["status"] for row, line in lines.items()}, {1: "out_of_memory", 2: "ok"}, lines[1]["reason"])
 
     def test_two_at_once_on_one_shard_are_refused(self):
         folder = self.folder / "both"
@@ -274,6 +287,62 @@ class FitBatch(unittest.TestCase):
         self.assertEqual(done.returncode, 3)
         self.assertIn("another manifest", done.stderr)
 
+    def test_folders_of_different_builds_are_refused(self):
+        other = self.folder / "other_build"
+        shutil.copytree(self.whole, other)
+        take_for_another_builds(other)
+        done = fit_batch("merge", self.whole, other, "--out", self.folder / "two_builds")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("another build", done.stderr)
+
+    def test_a_scan_that_cannot_be_read_has_a_line_of_each_build(self):
+        manifest, folder = self.folder / "not_there.csv", self.folder / "not_there"
+        manifest.write_text("mesh\nnot_there.ply\n")
+        for _ in range(2):
+            self.assertEqual(fit_batch(manifest, "--out", folder).returncode, 0)
+            self.assertEqual(self.merged(folder)[0], 0)
+            take_for_another_builds(folder)
+        self.assertEqual(len(lines_of(folder)), 2)
+
+    def test_a_pipe_is_no_scan(self):
+        manifest, folder = self.folder / "pipe.csv", self.folder / "pipe"
+        os.mkfifo(self.folder / "pipe.ply")
+        manifest.write_text("mesh\npipe.ply\n")
+        subprocess.run([PROGRAMS / "fit_batch", manifest, "--out", folder, "--quiet"], check=True, timeout=60)
+        self.assertEqual(lines_of(folder)[0]["reason"]["code"], "broken_file")
+
+    def test_a_result_counts_before_a_line_without_one_in_a_file_of_other_shards(self):
+        folder = self.folder / "other_shards"
+        shutil.copytree(self.whole, folder)
+        line = next(line for line in lines_of(folder) if line["row"] == 1)
+        line.pop("result")
+        line.update(status="timed_out", reason={"code": "timed_out", "message": ""})
+        for shards in (0, 2):  # by name before and behind the file that has the result
+            (folder / f"shard-1-of-{shards}.jsonl").write_text(json.dumps(line) + "\n")
+        self.assertEqual(self.merged(folder), (0, self.table))
+
+    def test_only_files_of_shards_are_merged(self):
+        folder = self.folder / "with_manifest"
+        shutil.copytree(self.whole, folder)
+        (folder / "manifest.jsonl").write_text('{"mesh": "w1/body.ply"}\n')
+        self.assertEqual(self.merged(folder), (0, self.table))
+
+    def test_a_shard_that_has_not_begun_is_named(self):
+        empty, out = self.folder / "not_begun", self.folder / "merged_with_nothing"
+        empty.mkdir()
+        done = fit_batch("merge", self.whole, empty, "--out", out)
+        self.assertEqual(done.returncode, 0)  # no row is missing
+        self.assertIn(f"{empty} has no batch.json", done.stderr)
+        self.assertEqual(fit_batch("merge", empty, "--out", out).returncode, 3)
+
+    def test_results_may_go_to_a_link_to_a_folder(self):
+        manifest, link = self.folder / "to_link.csv", self.folder / "link"
+        manifest.write_text("mesh\nbroken.ply\n")
+        (self.folder / "behind_link").mkdir()
+        link.symlink_to("behind_link")
+        self.assertEqual(fit_batch(manifest, "--out", link).returncode, 0)
+        self.assertEqual(self.merged(link)[0], 0)
+
     def test_a_refusal_names_its_own_file(self):
         manifest, tables = self.folder / "two_broken.csv", []
         for name in ("a.ply", "b.ply"):
@@ -308,6 +377,7 @@ class FitBatch(unittest.TestCase):
             line = lines_of(folder)[-1]
             self.assertEqual(line["status"], "ok", line["reason"])
             self.assertAlmostEqual(line["result"]["lines"][0]["request"], float(ratio))
+            self.assertEqual(line["result"]["garment"], "B1+H3")  # by the names in the files
 
     def test_no_process_outlives_its_worker(self):
         manifest = self.folder / "scan.csv"

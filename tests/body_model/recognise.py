@@ -38,6 +38,9 @@ def line_of(report):
     return '; '.join(words), [model['stature'], 1e3 * model['misfit'], model['shape_deviation'], 100 * model['unexplained']]
 
 
+PARTS = ('trunk', 'head', 'crown', 'upper_arm', 'forearm', 'hand', 'thigh', 'shank', 'foot')
+
+
 def main():
     program, body, out, women = sys.argv[1], sys.argv[2], sys.argv[3], sys.argv[4:]
     sys.argv[1:] = [body, out]
@@ -50,8 +53,9 @@ def main():
         report = fit(program, path, os.path.join(out, 'fit'))
         words, measured = line_of(report)
         refused = report['status'] == 'refused'
-        named = refused or report['missing'] or report['unexplained']
-        if not named if kind != 'women' else refused or report['missing']:
+        parts = [] if refused else [name for name in report['missing'] if name.startswith(PARTS)]  # not figures
+        named = refused or parts or report['unexplained']
+        if not named if kind != 'women' else refused or parts:
             wrong.append(name)
         if measured:
             numbers[kind].append((measured, name))

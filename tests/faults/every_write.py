@@ -20,11 +20,12 @@ LINE = re.compile(r"^(\d+)\s+(\w+)\((.*)$")
 
 class Fit:
     def __init__(self, programs, work):
-        self.work, self.mesh, self.out = work, work / "woman/body.ply", work / "out"
+        self.work, self.mesh, self.out = work, work / "coarse.ply", work / "out"
         self.command = [programs / "fit", "--mesh", self.mesh, "--garment", "B1", "--export", "obj,glb,stl", "--quiet", "--out", self.out]
-        if not self.mesh.exists():
-            subprocess.run([programs / "virtual_booth", "--seed", "5", "--points", "1000", "--out", work / "woman"], check=True,
-                           stdout=subprocess.DEVNULL)
+        if not self.mesh.exists():  # few triangles: the calls are the same, and each takes two fits
+            for made in ([programs / "virtual_booth", "--seed", "5", "--points", "1000", "--out", work / "woman"],
+                         [programs / "repose", work / "woman/body.ply", "--triangles", "8000", "--out", self.mesh]):
+                subprocess.run(made, check=True, stdout=subprocess.DEVNULL)
 
     def run(self, *before):
         return subprocess.run([*before, *self.command], capture_output=True, text=True, check=False, timeout=300)

@@ -62,7 +62,7 @@ def drive(session, out, bodies):
     import rospy
     both = fits(session, out)
     publishers = {topic: rospy.Publisher(topic, kind, queue_size=2, latch=True) for topic, kind in types().items()}
-    rviz = session.start_rviz(os.path.join(LAUNCH, "rviz", "inspect.rviz"))
+    rviz = session.start_rviz(os.path.join(LAUNCH, "rviz", "inspect.rviz"), shows_a_body=False)
     rows = []
     for body in range(bodies):
         for topic, message in both[body % 2].items():

@@ -299,6 +299,15 @@ def apart(girths, reference):
     return max((1000 * abs(girths[name] - girth) for name, girth in reference.items() if name in girths), default=0)
 
 
+def alike(report, reference):
+    """Whether two reports have the same heights and girths."""
+    return all(report[kind].keys() == reference[kind].keys() and apart(report[kind], reference[kind]) <= SAME for kind in ("heights", "girths"))
+
+
+def read_as(report):
+    return f"{report['scan']['unit']}, {report['scan']['axes']['up']} up"
+
+
 def judged(report, expected, truth):
     """What came of a scan, in words, and whether it was expected."""
     if report["status"] == "refused":
@@ -339,12 +348,14 @@ def main():
         read, scans, meshes = "", "", ""
         if report["status"] == "ok":
             as_scan = as_scan or report["girths"]
-            read, scans = f"{report['scan']['unit']}, {report['scan']['axes']['up']} up", f"{apart(report['girths'], as_scan):.2f}"
+            read, scans = read_as(report), f"{apart(report['girths'], as_scan):.2f}"
         if expected == "same":
-            girths = fitted(arguments.programs, "--mesh", file, arguments.folder / "fit")["girths"]
-            as_mesh = as_mesh or girths
-            holds = holds and apart(girths, as_mesh) <= SAME and apart(report["girths"], as_scan) <= SAME
-            meshes = f"{apart(girths, as_mesh):.2f}"
+            mesh = fitted(arguments.programs, "--mesh", file, arguments.folder / "fit")
+            as_mesh = as_mesh or mesh
+            holds = holds and alike(mesh, as_mesh) and apart(report["girths"], as_scan) <= SAME
+            if name.endswith(" up"):  # the name says how it is to be read
+                holds = holds and all(name.endswith(f", {how}") for how in (read, read_as(mesh)))
+            meshes = f"{apart(mesh['girths'], as_mesh['girths']):.2f}"
         row = f"| {name} | {words} | {read} | {scans} | {meshes} |"
         print("ok   " if holds else "FAIL ", row, flush=True)
         rows.append(row)

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """The customer's page by keyboard and as a screen reader has it, in headless Chromium by its DevTools protocol.
 
-usage: drive_page.py PAGE.html [--pictures DIR]
-At 390 and 1280 pixels: the mouse reads off, turns and zooms; every control is reached by Tab in the order of the page, with a focus
+usage: drive_page.py PAGE.html [--pictures DIR [--at ADDRESS ...]]
+With --at nothing but pictures of the body as the page shows it at each address (PAGE.html#ADDRESS): DIR/0.png, DIR/1.png, ...
+Else, at 390 and 1280 pixels: the mouse reads off, turns and zooms; every control is reached by Tab in the order of the page, with a focus
 that can be seen; WebGL is lost and comes back; slider, boxes, buttons and the body answer to keys; roles, names and tables of the
 accessibility tree; nothing is requested but the page. Once
 more without WebGL. Prints what it met and the time of the first picture; ends with 1 where something is wrong."""
@@ -81,16 +82,21 @@ class Browser:
             raise RuntimeError(f"{script}: {answer['exceptionDetails']}")
         return answer["result"].get("value")
 
-    def open(self, page, width, height):
-        self.ask("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
-        self.ask("Page.navigate", url=page.resolve().as_uri())
+    def becomes_true(self, script):
+        """Whether it does, in time."""
         end = time.monotonic() + WAIT
         while time.monotonic() < end:
-            if self.run("document.readyState === 'complete' && (!document.body.classList.contains('turns') || "
-                        "document.getElementById('canvas').dataset.drawn !== undefined)"):
-                return
+            if self.run(script):
+                return True
             time.sleep(0.1)
-        raise RuntimeError("the page was not there in time")
+        return False
+
+    def open(self, page, width, height, address=""):
+        self.ask("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self.ask("Page.navigate", url=page.resolve().as_uri() + (f"#{address}" if address else ""))
+        if not self.becomes_true("location.protocol === 'file:' && document.readyState === 'complete' && (!document.body.classList."
+                                 "contains('turns') || document.getElementById('canvas').dataset.drawn !== undefined)"):
+            raise RuntimeError("the page was not there in time")
 
     def press(self, key):
         text = {"Enter": "\r", " ": " "}.get(key, "")
@@ -109,6 +115,16 @@ class Browser:
                            f"(document.querySelector('{element}').getBoundingClientRect())")
             parameters = {"clip": box, "captureBeyondViewport": True}
         return base64.b64decode(self.ask("Page.captureScreenshot", format="png", **parameters)["data"])
+
+    def still_picture(self, element):
+        """The same, once two in a row are alike."""
+        end, before = time.monotonic() + WAIT, b""
+        while time.monotonic() < end:
+            now = self.picture(element)
+            if now == before:
+                return now
+            before = now
+        raise RuntimeError(f"{element} does not stand still")
 
     def tree(self):
         """Of what a screen reader has: role, name, node of each that is not ignored."""
@@ -219,13 +235,14 @@ class Page:
           const gl = document.getElementById('canvas').drawn_by, draw = gl.drawElements;
           window.drawn = 0;
           gl.drawElements = function () { ++drawn; draw.apply(gl, arguments); };
+          gl.canvas.addEventListener('webglcontextlost', () => { window.gone = true; });
           window.taken = gl.getExtension('WEBGL_lose_context');
           taken.loseContext();
         })()""")
-        time.sleep(0.5)  # the browser says so to the page when it is idle
-        self.browser.run("taken.restoreContext()")
-        time.sleep(1)
-        self.expect(self.browser.run("drawn") > 0, "the body is not drawn again after WebGL came back")
+        # the browser says so to the page when it is idle
+        self.expect(self.browser.becomes_true("window.gone === true"), "the page does not hear that WebGL is lost")
+        self.browser.run("drawn = 0; taken.restoreContext()")
+        self.expect(self.browser.becomes_true("drawn > 0"), "the body is not drawn again after WebGL came back")
 
     def reads(self, turns):
         """What a screen reader has."""
@@ -291,13 +308,32 @@ def drive(page, options, width, turns, pictures):
         browser.close()
 
 
+def show(page, addresses, pictures):
+    browser = Browser(SOFTWARE_GL)
+    try:
+        for number, address in enumerate(addresses):
+            browser.ask("Page.navigate", url="about:blank")  # another address of the same page would not be read
+            browser.open(page, 390, 900, address)
+            if not browser.run("document.body.classList.contains('turns')"):
+                raise RuntimeError("no 3D")
+            (pictures / f"{number}.png").write_bytes(browser.still_picture("#canvas"))
+    finally:
+        browser.close()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("page", type=pathlib.Path)
     parser.add_argument("--pictures", type=pathlib.Path, help="folder for pictures of what was seen")
+    parser.add_argument("--at", action="append", metavar="ADDRESS", help="what follows # in the page's address; may be repeated")
     arguments = parser.parse_args()
+    if arguments.at and not arguments.pictures:
+        parser.error("--at needs --pictures")
     if arguments.pictures:
         arguments.pictures.mkdir(parents=True, exist_ok=True)
+    if arguments.at:
+        show(arguments.page, arguments.at, arguments.pictures)
+        return
     faults = []
     for width in (390, 1280):
         faults += drive(arguments.page, SOFTWARE_GL, width, True, arguments.pictures)

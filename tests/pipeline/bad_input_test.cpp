@@ -1,5 +1,6 @@
 /// Bad scans and bad parameters: each refused by name, and the chain goes on.
 #include <gtest/gtest.h>
+#include <pcl_conversions/pcl_conversions.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <sys/wait.h>
 
@@ -11,6 +12,7 @@
 #include <set>
 
 #include "chain_client.hpp"
+#include "geometry/point_cloud.hpp"
 
 namespace tensegric_fit::tests {
 namespace {
@@ -156,6 +158,13 @@ sensor_msgs::PointCloud2 laid_out(const Points& points, const Layout& layout) {
   return cloud;
 }
 
+/// As the reconstruction reads it.
+std::vector<Eigen::Vector3d> points_read(const sensor_msgs::PointCloud2& message) {
+  pcl::PCLPointCloud2 cloud;
+  pcl_conversions::toPCL(message, cloud);
+  return geometry::points_of(cloud).points;
+}
+
 TEST_F(BadInputTest, TheSamePointsInAnotherLayoutGiveTheSameBody) {
   const Points points = points_of(booth_scan("a"));
   ASSERT_EQ(points.size() % 100, 0u);
@@ -168,14 +177,22 @@ TEST_F(BadInputTest, TheSamePointsInAnotherLayoutGiveTheSameBody) {
       {"big-endian", xyz, false, true, 12, all, 0},
       {"big-endian doubles, padded points", xyz, true, true, 37, all, 0},
       {"padded points and rows", xyz, false, false, 20, 100, 7}};
-  std::vector<float> plain;
-  for (const Layout& layout : layouts) {
+  const std::vector<Eigen::Vector3d> plain = points_read(laid_out(points, layouts[0]));
+  EXPECT_EQ(plain.size(), points.size());
+  for (const Layout& layout : layouts)
+    EXPECT_TRUE(points_read(laid_out(points, layout)) == plain) << layout.name;
+
+  // One that is odd in order, size, byte order and padding goes through the chain, too.
+  const Layout odd = {"all at once", {"intensity", "z", "x", "y"}, true, true, 37, 100, 7};
+  EXPECT_TRUE(points_read(laid_out(points, odd)) == plain);
+  std::vector<std::vector<float>> bodies;
+  for (const Layout& layout : {layouts[0], odd}) {
     client_.forget();
     const std::string scan_id = client_.send(laid_out(points, layout));
     ASSERT_TRUE(wait_for([&] { return count_of(client_.bodies, scan_id) == 1; })) << layout.name;
-    if (plain.empty()) plain = client_.bodies.back()->vertices;
-    EXPECT_EQ(client_.bodies.back()->vertices, plain) << layout.name;
+    bodies.push_back(client_.bodies.back()->vertices);
   }
+  EXPECT_EQ(bodies[0], bodies[1]);
 }
 
 /// Exit code of a stage node that is started with one parameter.

@@ -17,6 +17,7 @@
 
 #include "chain_client.hpp"
 #include "recorded_booth.hpp"
+#include "ros/scan_tag.hpp"
 #include "virtual_booth/random_body.hpp"
 
 namespace tensegric_fit::tests {
@@ -118,10 +119,10 @@ class LeftBoothTest : public testing::Test {
     return customer_->result();
   }
 
-  /// Sends once the action has the goal: its first feedback shows that it listens.
+  /// Sends once the action has the goal, as its first feedback shows, and hears its sensors beside the
+  /// assembler. \pre the goal names all of them
   static void start(const std::string& body, int silent = -1) {
-    EXPECT_TRUE(wait_for([] { return !customer_->feedback.empty(); }));
-    listen(0.5);  // for the sensors to be connected to
+    EXPECT_TRUE(wait_for([] { return !customer_->feedback.empty() && sensors_->heard(2); }));
     sensors_->send_all(body, stamp_ += 10, silent);
   }
 
@@ -245,15 +246,14 @@ class WatchedFolderTest : public testing::Test {
 
   void SetUp() override {
     ros::NodeHandle node("files");
-    const boost::function<void(const sensor_msgs::PointCloud2::ConstPtr&)> on_scan =
-        [this](const sensor_msgs::PointCloud2::ConstPtr& scan) { points_.push_back(scan->width); };
-    scan_ = node.subscribe<sensor_msgs::PointCloud2>("scan/points", 8, on_scan);
+    scan_ = node.subscribe("scan/points", 8, &WatchedFolderTest::on_scan, this);
     const boost::function<void(const ScanLabel::ConstPtr&)> on_label =
         [this](const ScanLabel::ConstPtr& label) { labels_[label->source] = *label; };
     label_ = node.subscribe<ScanLabel>("scan/label", 8, on_label);
     said_ = node.subscribe("/diagnostics", 100, &WatchedFolderTest::on_diagnostics, this);
-    ASSERT_TRUE(wait_for([this] { return scan_.getNumPublishers() == 1 && !facts_.empty(); }));
-    listen(0.5);  // what is latched
+    ASSERT_TRUE(wait_for([this] {
+      return scan_.getNumPublishers() == 1 && !facts_.empty() && (!is_latched_ || !points_.empty());
+    }));
     points_.clear();
   }
 
@@ -269,6 +269,11 @@ class WatchedFolderTest : public testing::Test {
     return text;
   }
 
+  void on_scan(const sensor_msgs::PointCloud2::ConstPtr& scan) {
+    points_.push_back(scan->width);
+    scan_ids_[scan->width] = node::tag_of(*scan).scan_id;
+  }
+
   void on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
     for (const diagnostic_msgs::DiagnosticStatus& status : message->status)
       if (status.name == "files/scan_player: scan_player")
@@ -276,12 +281,16 @@ class WatchedFolderTest : public testing::Test {
   }
 
   bool played(const std::vector<std::uint32_t>& points) {
-    return wait_for([&] { return points_ == points; });
+    const bool came = wait_for([&] { return points_ == points; });
+    is_latched_ = is_latched_ || came;
+    return came;
   }
 
   inline static const fs::path inbox_ = TENSEGRIC_FIT_INBOX;
-  std::vector<std::uint32_t> points_;        // of each scan that came
-  std::map<std::string, ScanLabel> labels_;  // by file
+  inline static bool is_latched_ = false;          // a scan was played: who joins now hears it again
+  std::vector<std::uint32_t> points_;              // of each scan that came
+  std::map<std::uint32_t, std::string> scan_ids_;  // by number of points
+  std::map<std::string, ScanLabel> labels_;        // by file
   std::map<std::string, std::string> facts_;
   ros::Subscriber scan_, label_, said_;
 };
@@ -304,7 +313,8 @@ TEST_F(WatchedFolderTest, NewCompleteFilesArePlayedOnceEachAndABrokenOneIsRefuse
   EXPECT_TRUE(wait_for([this] { return labels_.count("4711_left.ply") != 0; }));
   EXPECT_EQ(labels_["4711_left.ply"].customer, "4711");
   EXPECT_EQ(labels_["next.ply"].customer, "");
-  EXPECT_EQ(labels_["next.ply"].scan_id.size(), labels_["4711_left.ply"].scan_id.size());
+  EXPECT_EQ(labels_["next.ply"].scan_id, scan_ids_[42]);
+  EXPECT_EQ(labels_["4711_left.ply"].scan_id, scan_ids_[44]);
   listen(1);  // for any that come twice
   EXPECT_EQ(points_.size(), 3u);
 }

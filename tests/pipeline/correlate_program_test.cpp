@@ -1,5 +1,6 @@
 // The program `correlate` as its users start it, after `fit`.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -118,6 +119,15 @@ TEST_F(CorrelateProgram, RefusesByName) {
   expect_refused("--fit " + file("spoilt") + worn, "nothing_yet");
   std::ofstream(copied() + "/report.json") << "no report";
   expect_refused("--fit " + file("spoilt") + worn, "broken_file");
+  const std::string pipe = copied() + "/report.json";
+  fs::remove(pipe);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  expect_refused("--fit " + file("spoilt") + worn, "broken_file");
+
+  auto body = tensegric_fit::geometry::read_ply_mesh(kScans + "/a/body.ply");
+  for (Eigen::Vector3d& vertex : body.vertices) vertex *= 1e3;
+  tensegric_fit::geometry::write_ply_mesh(file("millimetres.ply"), body);
+  expect_refused(good + " --mesh " + file("millimetres.ply") + " --unit inch", "not_a_body");
 }
 
 TEST_F(CorrelateProgram, UsageErrorsAreTwo) {
@@ -125,6 +135,7 @@ TEST_F(CorrelateProgram, UsageErrorsAreTwo) {
   EXPECT_EQ(correlate("--fit " + file("fit")), 2);
   EXPECT_EQ(correlate("--fit a --worn b.ply --mesh c.ply"), 2);
   EXPECT_EQ(correlate("--fit a --worn b.ply --thickness thin"), 2);
+  EXPECT_EQ(correlate("--fit a --worn b.ply --unit foot"), 2);
   EXPECT_EQ(correlate("--help"), 0);
   fs::create_directories(file("out"));
   fs::copy_file(kScans + "/a/body.ply", file("out/distance.ply"), fs::copy_options::overwrite_existing);

@@ -34,8 +34,9 @@ class CorrelationTest : public testing::Test {
   }
   static void TearDownTestSuite() { client_.reset(); }
 
-  static std::string send_worn(const std::string& body) {
-    const sensor_msgs::PointCloud2 scan = booth_scan(body);
+  static std::string send_worn(const std::string& body, double age = 0) {
+    sensor_msgs::PointCloud2 scan = booth_scan(body);
+    scan.header.stamp -= ros::Duration(age);
     worn_.publish(scan);
     return node::tag_of(scan).scan_id;
   }
@@ -114,6 +115,13 @@ TEST_F(CorrelationTest, SomebodyElseIsRefused) {
   found_.clear();
   send_worn("b");
   EXPECT_TRUE(wait_for([] { return last_error() == "other_person"; })) << last_error();
+  EXPECT_TRUE(found_.empty());
+}
+
+TEST_F(CorrelationTest, AWornScanThatIsOlderThanTheBodyIsOfTheCustomerBefore) {
+  found_.clear();
+  send_worn("a", 3600);
+  EXPECT_TRUE(wait_for([] { return last_error() == "nothing_yet"; })) << last_error();
   EXPECT_TRUE(found_.empty());
 }
 

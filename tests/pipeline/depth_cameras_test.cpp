@@ -8,10 +8,12 @@
 #include <sensor_msgs/Image.h>
 #include <std_srvs/Trigger.h>
 
+#include <chrono>
 #include <fstream>
+#include <functional>
+#include <future>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "chain_client.hpp"
 #include "geometry/ply.hpp"
@@ -158,41 +160,49 @@ TEST(DepthCamerasTest, DepthImagesBecomeABodyAndItsMeasures) {
   EXPECT_TRUE(booth.says("assembler", "missing_sensor", "cameras/5/points"));
 }
 
+/// Asks for a scan; until the answer is there `cameras_send` is called with 0, 1, ..., farther apart than the
+/// parameter `slop`.
+std_srvs::Trigger::Response asked_while(const std::function<void(int)>& cameras_send) {
+  std_srvs::Trigger scan;
+  std::future<bool> call = std::async(
+      std::launch::async, [&scan] { return ros::service::call("asked/depth_cameras/scan", scan); });
+  for (int count = 0; call.wait_for(std::chrono::seconds(0)) != std::future_status::ready; ++count) {
+    cameras_send(count);
+    listen(0.3);
+  }
+  EXPECT_TRUE(call.get()) << "no service";
+  return scan.response;
+}
+
 TEST(DepthCamerasTest, CamerasThatSendAllTheTimeAreAskedForAScan) {
   Cameras booth("asked");
   ASSERT_TRUE(booth.ready());
-  std_srvs::Trigger scan;
-  std::thread asking;
-  const auto ask = [&] {
-    asking = std::thread(
-        [&scan] { EXPECT_TRUE(ros::service::call("asked/depth_cameras/scan", scan)) << "no service"; });
-    listen(0.5);  // until it has begun
-  };
+  ASSERT_TRUE(ros::service::waitForService("asked/depth_cameras/scan", ros::Duration(kPatience)));
 
   // Nobody asked: no scan.
   booth.send_all(ros::Time::now());
   listen(2);
   EXPECT_TRUE(booth.scans.empty());
 
-  // Asked while a set of images comes in: half of the cameras sent theirs before.
-  ask();
-  for (int camera = 0; camera < kCameras / 2; ++camera)
-    booth.send(camera, recorded_cameras()[camera], ros::Time::now());
-  listen(0.5);
-  booth.send_all(ros::Time::now());
-  asking.join();
-  EXPECT_TRUE(scan.response.success) << scan.response.message;
+  // Asked while a set of images comes in: half of the cameras sent theirs before. For a second the others are
+  // silent, so that the service has been called by then.
+  const std_srvs::Trigger::Response whole = asked_while([&booth](int count) {
+    if (count >= 4) return booth.send_all(ros::Time::now());
+    for (int camera = 0; camera < kCameras / 2; ++camera)
+      booth.send(camera, recorded_cameras()[camera], ros::Time::now());
+  });
+  EXPECT_TRUE(whole.success) << whole.message;
   EXPECT_TRUE(wait_for([&] { return !booth.scans.empty(); }))
       << booth.facts[booth.stage("assembler")]["last_error_message"];
   booth.send_all(ros::Time::now());
   listen(2);
   EXPECT_EQ(booth.scans.size(), 1u);
 
-  ask();
-  booth.send_all(ros::Time::now(), 6);
-  asking.join();
-  EXPECT_FALSE(scan.response.success);
-  EXPECT_NE(scan.response.message.find("cameras/6"), std::string::npos) << scan.response.message;
+  const std_srvs::Trigger::Response lacking =
+      asked_while([&booth](int) { booth.send_all(ros::Time::now(), 6); });
+  EXPECT_FALSE(lacking.success);
+  EXPECT_NE(lacking.message.find("cameras/6"), std::string::npos) << lacking.message;
+  EXPECT_EQ(lacking.message.find("cameras/5"), std::string::npos) << lacking.message;
 }
 
 }  // namespace

@@ -219,6 +219,15 @@ TEST_F(FitProgram, BendsAnyShapeUnderGravity) {
   const auto bent = tensegric_fit::geometry::read_ply_mesh(file("out/deformed.ply"));
   EXPECT_LT((bent.vertices[0] - bar.vertices[0]).norm(), 1e-6);  // float32
   EXPECT_LT(bent.vertices[end].z(), bar.vertices[end].z() - 1e-3);
+  for (Eigen::Vector3d& vertex : bar.vertices) vertex *= 1e3;
+  tensegric_fit::geometry::write_ply_mesh(file("bar.ply"), bar);
+  ASSERT_EQ(fit("--mesh " + file("bar.ply") + " --unit mm --control " + file("bar.ply") + " --fixed " +
+                file("fixed.yaml") + " --gravity 0,0,-0.5"),
+            0)
+      << read_file(file("log"));
+  const auto same = tensegric_fit::geometry::read_ply_mesh(file("out/deformed.ply"));
+  for (std::size_t v = 0; v < same.vertices.size(); ++v)
+    EXPECT_LT((same.vertices[v] - bent.vertices[v]).norm(), 1e-4) << v;  // m
 }
 
 TEST_F(FitProgram, ExportsForMakers) {
@@ -251,7 +260,13 @@ TEST_F(FitProgram, ExportsForMakers) {
       EXPECT_LE(loop["skin"].get<double>(), 1.1 * loop["tape"].get<double>()) << name;
     }
   }
-  EXPECT_NE(read_file(file("out/measures.vit")).find("<m name=\"bust_circ\""), std::string::npos);
+  const std::string vit = read_file(file("out/measures.vit")), neck = "<m name=\"height_neck_back\" value=\"";
+  EXPECT_NE(vit.find("<m name=\"bust_circ\""), std::string::npos);
+  ASSERT_NE(vit.find(neck), std::string::npos);
+  const json &up = said["scan"]["body_from_scan"][2], &back = said["landmarks"]["neck_back"]["position"];
+  double height = up[3];
+  for (int k = 0; k < 3; ++k) height += up[k].get<double>() * back[k].get<double>();
+  EXPECT_NEAR(std::stod(vit.substr(vit.find(neck) + neck.size())), 100 * height, 0.06);  // cm, to the tenth
   ASSERT_EQ(fit("--mesh " + kScans + "/a/body.ply"), 0);  // old ones are never taken for new ones
   EXPECT_FALSE(fs::exists(folder_ / "out" / "fit.glb"));
 }

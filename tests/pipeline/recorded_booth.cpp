@@ -47,10 +47,11 @@ RecordedBooth::RecordedBooth(const std::string& name_space) : prefix_(name_space
   tf_.publish(poses);
 }
 
-bool RecordedBooth::heard() const {
+bool RecordedBooth::heard(std::uint32_t listeners) const {
   return tf_.getNumSubscribers() != 0 &&
-         std::all_of(sensors_.begin(), sensors_.end(),
-                     [](const ros::Publisher& sensor) { return sensor.getNumSubscribers() != 0; });
+         std::all_of(sensors_.begin(), sensors_.end(), [listeners](const ros::Publisher& sensor) {
+           return sensor.getNumSubscribers() >= listeners;
+         });
 }
 
 void RecordedBooth::send(const std::string& body, int sensor, double stamp) {

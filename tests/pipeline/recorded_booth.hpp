@@ -5,6 +5,7 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,8 @@ class RecordedBooth {
  public:
   explicit RecordedBooth(const std::string& name_space);
 
-  /// Whether someone listens to each sensor.
-  bool heard() const;
+  /// Whether so many listen to each sensor.
+  bool heard(std::uint32_t listeners = 1) const;
 
   void send(const std::string& body, int sensor, double stamp);
   void send(const sensor_msgs::PointCloud2& cloud, int sensor);

@@ -15,11 +15,10 @@ import sys
 import time
 
 import numpy as np
-from matplotlib import image
 
 sys.dont_write_bytecode = True  # not into the sources
 from rviz_test import view_of
-from session import HERE, LAUNCH, Session, run_test, wait_for
+from session import HERE, LAUNCH, Session, pixels_of, run_test, wait_for
 
 LEAST, MOST = 0.5, 1.2  # ratios that the panel's sliders end at
 
@@ -77,7 +76,7 @@ def sliders_at_their_ends_and_nonsense_typed(shop):
     shop.comes_to(MOST)
     shop.press("Home")
     shop.comes_to(LEAST)
-    time.sleep(2)
+    shop.still_picture(os.path.join(shop.out, "tightest.png"))
     shop.picture(os.path.join(shop.out, "tightest.png"))
     shop.press("Tab")  # to the per cent
     for typed in ("nonsense", "-40", "1e999", "99999", "0"):
@@ -145,19 +144,15 @@ def a_garment_file_spoilt_while_it_is_worn(shop):
 
 def the_scan_over_beside_and_wiped_against_the_garment(shop):
     """The list of Compare, from the keyboard; each picture is another, and the first comes back."""
-    view = "840x709+0+62"
-    shown = {}
+    shown, last = {}, None
     shop.press("alt+c", "Home")
-    time.sleep(2)
     for way in ("alone", "ghost", "beside", "wipe", "fade"):
         path = os.path.join(shop.out, way + ".png")
-        shop.picture(path, view)
-        shown[way] = np.rint(255 * image.imread(path)[:, :, :3]).astype(int)
+        shop.still_picture(path, unlike=last)
+        shown[way], last = pixels_of(path), path
         shop.press("Down")
-        time.sleep(2)
     shop.press("Home")
-    time.sleep(2)
-    shop.picture(os.path.join(shop.out, "alone_again.png"), view)
+    shop.still_picture(os.path.join(shop.out, "alone_again.png"), unlike=last)
 
     def differs(one, other, part=slice(None)):
         return (np.abs(one[:, part] - other[:, part]).max(axis=2) > 8).mean()
@@ -174,7 +169,7 @@ def the_scan_over_beside_and_wiped_against_the_garment(shop):
     width = half - left - 4
     same = differs(top[:, left + 2:left + 2 + width], top[:, half + 2:half + 2 + width])
     assert same < 0.05, "the two bodies are not of one size and view: %g" % same
-    again = np.rint(255 * image.imread(os.path.join(shop.out, "alone_again.png"))[:, :, :3]).astype(int)
+    again = pixels_of(os.path.join(shop.out, "alone_again.png"))
     assert differs(shown["alone"], again) < 0.001, "the view did not come back"
 
 
@@ -184,8 +179,7 @@ def messages_that_are_no_good(shop):
 
     good = shop.message["body/deformed"]
     before, after = (os.path.join(shop.out, name + ".png") for name in ("good", "still_good"))
-    time.sleep(2)
-    shop.picture(before, "840x600+0+62")
+    shop.still_picture(before, "840x600+0+62")
     publisher = rospy.Publisher("body/deformed", DeformedMesh, queue_size=9)
     wait_for("rviz and this as subscribers", lambda: publisher.get_num_connections() >= 2)
     for spoil in (lambda m: setattr(m, "vertices", [float("nan")] * len(m.vertices)),
@@ -264,6 +258,68 @@ def exports_that_cannot_be_written(shop):
     assert len(shop.exported()) == 1, "something was written"
 
 
+def a_body_that_is_not_the_newest(shop):
+    """After a scan that was refused no page of the body before is written, and no name is noted for it. On the next body nothing
+    goes back to what the last customer wore."""
+    import rosbag
+    import rospy
+    from sensor_msgs.msg import PointCloud2
+    from tensegric_fit.msg import ScanLabel
+
+    labels = []
+    listener = rospy.Subscriber("scan/label", ScanLabel, labels.append)
+    publisher = rospy.Publisher("scan/points", PointCloud2, queue_size=2)
+    wait_for("reconstruction and capture", lambda: publisher.get_num_connections() >= 2)
+    with rosbag.Bag(shop.scan) as bag:
+        _, scan, _ = next(bag.read_messages(topics=["/scan/points"]))
+    shop.press("alt+1", "Left")  # a step back, while she is shown
+    shop.comes_to(0.945)
+    exported, last = shop.exported(), shop.message["body/mesh"].scan_id
+    labels.clear()  # those of before, which are latched
+    shop.press("alt+m")
+    shop.write("47")  # and no Return so far
+    scan.header.stamp = rospy.Time.now()
+    publisher.publish(PointCloud2(header=scan.header, height=1, fields=scan.fields, point_step=scan.point_step))
+    shop.hears("The customer was not noted: another scan has come")
+    shop.press("alt+1", "alt+m")
+    shop.write("4711")
+    shop.press("Return", "alt+x")
+    time.sleep(3)
+    shop.picture(os.path.join(shop.out, "pale.png"))
+    assert not labels, "the body before was given a name: %s" % labels
+    assert shop.exported() == exported, "the body before was exported"
+
+    scan.header.stamp = rospy.Time.now()
+    publisher.publish(scan)
+    wait_for("fit of the next customer", lambda: shop.message["body/deformed"].scan_id == shop.message["body/mesh"].scan_id != last)
+    time.sleep(2)
+    shop.press("alt+1", "ctrl+z")
+    time.sleep(3)
+    shop.comes_to(0.945)
+    shop.press("alt+m")
+    shop.write("4711")
+    shop.press("Return")
+    wait_for("name of the next customer", lambda: labels, 20)
+    assert (labels[-1].scan_id, labels[-1].customer) == (shop.message["body/mesh"].scan_id, "4711"), labels
+    publisher.unregister()
+    listener.unregister()
+
+
+def warnings_of_another_garment_are_not_said(shop):
+    import rospy
+    from tensegric_fit.msg import FitWarning, FitWarnings
+
+    publisher = rospy.Publisher("body/warnings", FitWarnings, queue_size=2)
+    wait_for("rviz", lambda: publisher.get_num_connections() > 0)
+    for garment in ("B17", "B1"):
+        publisher.publish(FitWarnings(scan_id=shop.message["control/deformed"].scan_id, garment=garment,
+                                      warnings=[FitWarning(code="shelf", message="Made up for %s." % garment)]))
+        time.sleep(1)
+    wait_for("warning on the panel", lambda: any("Made up for B1." in line for line in list(shop.said)), 20)
+    assert not any("B17" in line for line in list(shop.said)), "a warning of a garment that is not worn was said"
+    publisher.unregister()
+
+
 def two_panels_at_once(shop):
     import rospy
     from tensegric_fit.msg import Garment
@@ -283,7 +339,13 @@ def two_panels_at_once(shop):
         shop.picture(os.path.join(shop.out, "second_panel.png"), "430x709+850+62")
     shop.press("Right", "Right", "Right")
     shop.comes_to(0.95)
-    time.sleep(1)  # the last garment may be heard after the body in it, on a busy machine
+
+    def was_the_last():  # it may be heard after the body in it, on a busy machine
+        count = len(asked)
+        time.sleep(1)
+        return count == len(asked) > 0 and abs(asked[-1] - 0.95) < 1e-4
+
+    wait_for("end of what the panels ask for", was_the_last, 30)
     asked.clear()
     time.sleep(3)
     assert not asked, "the panels go on asking: %s" % asked
@@ -304,13 +366,14 @@ def the_pipeline_gone_and_back(shop):
     shop.wear("B1")
     shop.press("alt+1", "Left")
     shop.comes_to(0.945)
-    time.sleep(2)
+    shop.still_picture(os.path.join(shop.out, "back.png"))
     shop.picture(os.path.join(shop.out, "back.png"))
 
 
 SCENES = (sliders_at_their_ends_and_nonsense_typed, the_wheel_turns_what_was_chosen_only, a_garment_file_spoilt_while_it_is_worn,
           the_scan_over_beside_and_wiped_against_the_garment, messages_that_are_no_good,
-          exports_are_of_the_scan_that_is_shown, exports_that_cannot_be_written, two_panels_at_once, the_pipeline_gone_and_back)
+          exports_are_of_the_scan_that_is_shown, exports_that_cannot_be_written, a_body_that_is_not_the_newest,
+          warnings_of_another_garment_are_not_said, two_panels_at_once, the_pipeline_gone_and_back)
 
 
 def main(scan, out):

@@ -6,22 +6,15 @@ rviz_test.py SCAN_BAG OUT_DIR. Exit: 0 passed, 1 failed, 77 skipped. OUT_DIR get
 import math
 import os
 import sys
-import time
 
 import numpy as np
-from matplotlib import image
 
 sys.dont_write_bytecode = True  # not into the sources
-from session import HERE, LAUNCH, Session, run_test, wait_for
+from session import BACKGROUND, HERE, LAUNCH, PANEL, Session, pixels_of, run_test, wait_for
 
-BACKGROUND = (238, 240, 243)  # of launch/rviz/inspect.rviz
-EYE = {"distance": 1.1, "yaw": 0.45, "pitch": 0.1, "focus": (0.05, 0.0, 1.18), "field": math.pi / 4}  # of the same file
+EYE = {"distance": 1.1, "yaw": 0.45, "pitch": 0.1, "focus": (0.05, 0.0, 1.18), "field": math.pi / 4}  # of launch/rviz/inspect.rviz
 KEY_STEP, START, GOAL = 0.005, 0.95, 0.90  # ratio: of an arrow key, of B1.yaml, wanted
 RADIUS = 25  # pixels round a landmark that are looked at
-
-
-def pixels_of(path):
-    return np.rint(255 * image.imread(path)[:, :, :3]).astype(int)
 
 
 def view_of(picture):
@@ -50,17 +43,17 @@ def change_around(change, pixel):
 def drive(session, scan):
     session.start_chain(os.path.join(HERE, "rviz_test.launch"), "scan:=" + scan)
     wait_for("first fit", lambda: "body/deformed" in session.message)
+    first, panel, before, after = (os.path.join(session.out, name + ".png") for name in ("first", "panel", "before", "after"))
     rviz = session.start_rviz(os.path.join(LAUNCH, "rviz", "inspect.rviz"))
+    session.still_picture(first)
     session.put_on("B1")
     wait_for("body under B1", lambda: session.wears("B1", START))
-    time.sleep(2)  # its lines are on the panel
+    session.still_picture(before, unlike=first)  # H1 is on no more
+    session.still_picture(panel, PANEL)  # with the lines of B1
     session.press("alt+1")  # the slider of the first line
-    time.sleep(3)  # drawn
-    session.picture(os.path.join(session.out, "before.png"))
     session.press(*["Left"] * round((START - GOAL) / KEY_STEP))
     wait_for("body at %g" % GOAL, lambda: session.wears("B1", GOAL))
-    time.sleep(3)
-    session.picture(os.path.join(session.out, "after.png"))
+    session.still_picture(after, unlike=before)
     assert rviz.poll() is None, "rviz has ended"
     with open(os.path.join(session.out, "rviz.log")) as log:
         assert "failed to load" not in log.read(), "a plugin did not load: see rviz.log"

@@ -7,7 +7,13 @@ import socket
 import subprocess
 import time
 
+import numpy as np
+from matplotlib import image
+
 PATIENCE = 120  # seconds, for a scan on a busy machine
+STILL = 60  # seconds at most until the screen stands still
+BACKGROUND = (238, 240, 243)  # of launch/rviz/inspect.rviz
+VIEW, PANEL = "840x709+0+62", "430x541+850+230"  # of the screen; the panel without the garment's name, where a cursor blinks
 HERE = os.path.dirname(os.path.abspath(__file__))
 LAUNCH = os.path.join(HERE, "..", "..", "launch")
 
@@ -29,6 +35,10 @@ def wait_for(what, condition, seconds=PATIENCE):
             return
         time.sleep(0.05)
     raise AssertionError("in %d s there was no %s" % (seconds, what))
+
+
+def pixels_of(path):
+    return np.rint(255 * image.imread(path)[:, :, :3]).astype(int)
 
 
 def run_test(session, drive):
@@ -156,12 +166,22 @@ class Session:
         return (fit is not None and body is not None and fit.garment == body.garment == garment
                 and fit.status == body.status == "converged" and all(abs(line.request - ratio) < 1e-6 for line in fit.lines))
 
-    def start_rviz(self, config, name="rviz"):
+    def start_rviz(self, config, name="rviz", shows_a_body=True):
+        """Returns it once its window stands still, with a body in it."""
         rviz = self.start(name, "rviz", "-d", config)
         wait_for("window of rviz", lambda: self.windows() or rviz.poll() is not None)
         assert rviz.poll() is None, "rviz has ended: see %s.log" % name
         subprocess.check_call(["xdotool", "windowfocus", self.windows()[-1]])  # there is no window manager to do it
-        time.sleep(8)  # the window settles, the body is drawn
+        path = os.path.join(self.out, name + ".png")
+
+        def is_drawn():
+            self.picture(path, VIEW)
+            background = (np.abs(pixels_of(path) - BACKGROUND).max(axis=2) <= 1).mean()
+            return 0.1 < background < (0.8 if shows_a_body else 1)  # the scale of colours is a tenth of the view
+
+        wait_for("picture of rviz", lambda: rviz.poll() is not None or is_drawn())
+        self.still_picture(path)
+        self.still_picture(path, PANEL)
         assert rviz.poll() is None, "rviz has ended: see %s.log" % name
         return rviz
 
@@ -195,4 +215,19 @@ class Session:
 
     @staticmethod
     def picture(path, part="1280x800+0+0"):
-        subprocess.check_call(["import", "-window", "root", "-crop", part, "+repage", path])
+        subprocess.check_call(["import", "-window", "root", "-crop", part, "+repage", "png24:" + path])  # RGB, also of a grey screen
+
+    def still_picture(self, path, part=VIEW, unlike=None):
+        """Takes pictures until two in a row are the same, and another one than the file `unlike`. The last stays."""
+        def content(file):
+            with open(file, "rb") as opened:
+                return opened.read()
+
+        def stands_still():
+            before = content(path)
+            time.sleep(0.3)
+            self.picture(path, part)
+            return content(path) == before and (unlike is None or before != content(unlike))
+
+        self.picture(path, part)
+        wait_for("picture that stays" + (", other than " + os.path.basename(unlike) if unlike else ""), stands_still, STILL)

@@ -10,6 +10,7 @@ is by part; it leaves out the first scans of it, while heaps fill up, and compar
 Exit: 0 all constant, 1 something grew, 2 no answer."""
 import argparse
 import csv
+import functools
 import os
 import pathlib
 import signal
@@ -123,20 +124,18 @@ def rows_of(path):
         return [row for row in csv.DictReader(file) if all(row.get(column) for column in columns())]
 
 
-def clouds_of(points):
-    """A message per body, of scans of so many points."""
+@functools.lru_cache(maxsize=None)
+def cloud_of(points, body):
+    """A scan of so many points of that body; made when it is first asked for."""
     from sensor_msgs import point_cloud2
     from std_msgs.msg import Header
-    clouds = []
     with tempfile.TemporaryDirectory(prefix="soak_") as folder:
-        for n in range(BODIES):
-            subprocess.run([program("virtual_booth"), "--seed", str(n + 1), "--points", str(points), "--out", f"{folder}/{n}"],
-                           check=True, stdout=subprocess.DEVNULL)
-            clouds.append(point_cloud2.create_cloud_xyz32(Header(frame_id="booth"), points_of(pathlib.Path(folder) / f"{n}/scan.ply")))
-    return clouds
+        subprocess.run([program("virtual_booth"), "--seed", str(body + 1), "--points", str(points), "--out", folder], check=True,
+                       stdout=subprocess.DEVNULL)
+        return point_cloud2.create_cloud_xyz32(Header(frame_id="booth"), points_of(pathlib.Path(folder) / "scan.ply"))
 
 
-def record(chain, small, full, scans, path):
+def record(chain, points, scans, path):
     rows = rows_of(path)
     part = int(rows[-1]["part"]) + chain.is_new if rows else 1
     with open(path, "w", encoding="utf-8", newline="") as file:
@@ -146,7 +145,7 @@ def record(chain, small, full, scans, path):
         processes = chain.processes()
         for i in range(len(rows), scans):
             is_full = i % FULL_EVERY == FULL_EVERY - 1
-            seconds = chain.scan((full if is_full else small)[i % BODIES], 120)
+            seconds = chain.scan(cloud_of(FULL_POINTS if is_full else points, i % BODIES), 120)
             costs = [value for node in NODES for value in costs_of(processes[node])]
             writer.writerow(dict(zip(columns(), [part, i, f"{seconds:.3f}"] + costs)))
             file.flush()
@@ -192,7 +191,7 @@ def main():
     if not arguments.verdict:
         chain = Chain(arguments.out, [f"config:={arguments.config.resolve()}"] if arguments.config else [])
         try:
-            record(chain, clouds_of(arguments.points), clouds_of(FULL_POINTS), arguments.scans, arguments.out)
+            record(chain, arguments.points, arguments.scans, arguments.out)
         except (TimeoutError, RuntimeError) as error:
             print(error, file=sys.stderr)
             return 2

@@ -1,5 +1,6 @@
 /// A customer's visits, found in the folders that exports and `fit` wrote.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -95,6 +96,51 @@ TEST_F(HistoryTest, ReportsOfFitAreVisitsToo) {
   EXPECT_EQ(visit->source, "scan.ply");
   EXPECT_EQ(visit->girths.at("bust").half_width, 0.004);
   EXPECT_EQ(visit->heights.at("bust").half_width, 0);
+}
+
+TEST_F(HistoryTest, WhatIsNoDocumentOfOursIsNotRead) {
+  const std::string document = exported("1760000000.5", "4711", 920, 5);
+  write("own", "fit.json", document);
+  fs::create_directories(root_ / "link");
+  fs::create_symlink(root_ / "own" / "fit.json", root_ / "link" / "fit.json");
+  EXPECT_TRUE(read_visit(root_ / "link"));
+  write("large", "fit.json", document + std::string(16 << 20, ' '));
+  EXPECT_FALSE(read_visit(root_ / "large"));
+  fs::create_directories(root_ / "pipe");
+  ASSERT_EQ(mkfifo((root_ / "pipe" / "report.json").c_str(), 0600), 0);
+  EXPECT_FALSE(read_visit(root_ / "pipe"));
+}
+
+TEST_F(HistoryTest, ABodyWithoutItsHeadLiesWhereItLayWithIt) {
+  geometry::TriangleMesh body;  // leans, so that it lies elsewhere where its trunk is taken for lower
+  for (const double height : {0.0, 0.9, 1.3, 1.4}) {
+    const double lean = height > 1 ? 0.2 : 0;
+    body.vertices.insert(body.vertices.end(),
+                         {{lean, lean, height}, {lean + 0.3, lean, height}, {lean, lean + 0.3, height}});
+  }
+  for (int ring = 0; ring < 9; ring += 3)
+    for (int k = 0; k < 3; ++k) {
+      const int a = ring + k, b = ring + (k + 1) % 3;
+      body.triangles.insert(body.triangles.end(), {{a, b, b + 3}, {a, b + 3, a + 3}});
+    }
+  geometry::TriangleMesh whole = body;
+  whole.vertices.emplace_back(0, 0, 1.7);  // the crown, which no triangle shows
+  std::string document = exported("1760000000.5", "4711", 920, 5);
+  const std::string heights = "\"heights\": [";
+  document.insert(document.find(heights) + heights.size(),
+                  R"({"name": "stature", "before_mm": 1700, "after_mm": null})");
+  std::vector<Visit> visits;
+  for (const auto& [folder, mesh] : {std::pair("a", &whole), {"b", &whole}, {"c", &body}}) {
+    write(folder, "fit.json", document);
+    geometry::write_ply_mesh((root_ / folder / "body.ply").string(), *mesh);
+    visits.push_back(read_visit(root_ / folder).value());
+  }
+  const auto picture = [&](std::size_t to) {
+    const std::string page = visits_page(visits, 0, to, root_ / "page.html");
+    const std::size_t begin = page.find("base64,");
+    return page.substr(begin, page.find('"', begin) - begin);
+  };
+  EXPECT_TRUE(picture(1) == picture(2));
 }
 
 TEST_F(HistoryTest, ThePageIsWholeSafeAndLinksEachVisit) {

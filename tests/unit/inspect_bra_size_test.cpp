@@ -71,6 +71,10 @@ TEST(BraSizeTest, ASecondSizeIsAsLikelyAsItsDefinitionSays) {
   EXPECT_EQ(sizes(0.73 * deviation), 1u);
 }
 
+TEST(BraSizeTest, TheLikeliestOtherIsNamedWhereMostOfTheSharesAreOthers) {
+  EXPECT_EQ(labels(90.3, 75, 4), "75B 75C");  // each of them less often than one time in four
+}
+
 TEST(BraSizeTest, GirthsThatNoSizeIsMadeForHaveNone) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(label(85, 75), "none");

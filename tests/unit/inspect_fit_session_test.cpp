@@ -115,5 +115,22 @@ TEST(FitSession, WhatWasUndoneIsDoneAgainUntilSomethingElseIs) {
   EXPECT_FALSE(session.can_redo());
 }
 
+TEST(FitSession, TheLastCustomersStepsAreForgottenAndWhatIsWornStays) {
+  FitSession session = both_worn();
+  session.ask("chest", 0.9);
+  session.settle();
+  session.ask("chest", 0.85);
+  ASSERT_TRUE(session.undo());
+  ASSERT_TRUE(session.can_undo() && session.can_redo());
+  session.forget_steps();
+  EXPECT_FALSE(session.undo());
+  EXPECT_FALSE(session.redo());
+  EXPECT_DOUBLE_EQ(ratio_of(session, "chest"), 0.9);
+  EXPECT_TRUE(session.ask("chest", 0.88)) << "the next customer's";
+  ASSERT_TRUE(session.undo());
+  EXPECT_DOUBLE_EQ(ratio_of(session, "chest"), 0.9);
+  EXPECT_FALSE(session.can_undo());
+}
+
 }  // namespace
 }  // namespace tensegric_fit::inspect

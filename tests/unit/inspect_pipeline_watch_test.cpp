@@ -50,6 +50,30 @@ TEST(PipelineWatch, NamesTheStageThatDied) {
   EXPECT_EQ(watch.state(60).words, words::kPipelineNotRunning);
 }
 
+TEST(PipelineWatch, AChainThatOnlyMeasuresIsReadyAndSaysSo) {
+  PipelineWatch watch;
+  watch.hear({"reconstruction", "done", "no_stamp: let the driver stamp it", "one", true}, 0);
+  watch.hear({"landmarks", "working", "", "one"}, 0);
+  EXPECT_FALSE(watch.state(0).trouble);
+  EXPECT_EQ(watch.state(0).words, words::working("landmarks"));
+  watch.hear({"landmarks", "done", "", "one"}, 1);
+  const PipelineWatch::State state = watch.state(1);
+  EXPECT_FALSE(state.trouble);
+  EXPECT_EQ(state.done, state.all);
+  EXPECT_EQ(state.words.find(words::kReadyToMeasure), 0u);
+  EXPECT_NE(state.words.find("no_stamp"), std::string::npos) << "its warnings are said";
+}
+
+TEST(PipelineWatch, AStageThatNeverCameUpIsNamedWhereAnyThatFitsDid) {
+  PipelineWatch watch;
+  for (const char* stage : {"reconstruction", "landmarks", "tffd"}) watch.hear({stage, "done", "", "one"}, 0);
+  EXPECT_EQ(watch.state(0).words, words::silent("control_mesh"));
+  EXPECT_TRUE(watch.state(0).trouble);
+  PipelineWatch without_landmarks;
+  without_landmarks.hear({"reconstruction", "done", "", "one"}, 0);
+  EXPECT_EQ(without_landmarks.state(0).words, words::silent("landmarks"));
+}
+
 TEST(PipelineWatch, WhatTheBoothNamesIsSaidToo) {
   PipelineWatch watch;
   all_say(watch, "done", 0);
@@ -113,13 +137,74 @@ TEST(PipelineWatch, TheNewestScanIsNotForgottenWhereStagesEndOrComeBack) {
   EXPECT_EQ(watch.state(64).newest_scan, "four");
 }
 
+TEST(PipelineWatch, ABodyThatCamePastReconstructionIsTheNewest) {
+  PipelineWatch watch;
+  all_say(watch, "done", 0);
+  watch.hear({"scan_player", "refused", "b.ply: broken", "b.ply"}, 0.5);
+  watch.hear({"landmarks", "working", "", "lone"}, 1);
+  EXPECT_EQ(watch.state(1).newest_scan, "lone");
+  for (const char* stage : {"landmarks", "control_mesh", "tensegric", "tffd"})
+    watch.hear({stage, "done", "", "lone"}, 2);
+  watch.hear({"reconstruction", "done", "", "one"}, 2);  // it says so once a second
+  EXPECT_EQ(watch.state(2).newest_scan, "lone");
+  EXPECT_EQ(watch.state(2).words, words::kReady);
+  EXPECT_EQ(watch.state(2).done, watch.state(2).all);
+  watch.hear({"landmarks", "working", "", "one"}, 3);  // played again, from a bag
+  EXPECT_EQ(watch.state(3).newest_scan, "one");
+  watch.hear({"reconstruction", "working", "", "two"}, 4);
+  watch.hear({"landmarks", "done", "", "one"}, 4);
+  EXPECT_EQ(watch.state(4).newest_scan, "two");
+  watch.hear({"reconstruction", "refused", "not_a_body", "two"}, 5);
+  EXPECT_EQ(watch.state(5).newest_scan, "two");
+  watch.hear({"landmarks", "working", "", "lone"}, 6);
+  EXPECT_EQ(watch.state(6).newest_scan, "lone") << "it came after the scan that was refused";
+
+  PipelineWatch without_scans;
+  without_scans.hear({"reconstruction", "waiting", "", ""}, 0);
+  without_scans.hear({"landmarks", "done", "", "lone"}, 0);
+  EXPECT_EQ(without_scans.state(0).newest_scan, "lone");
+}
+
+TEST(PipelineWatch, WhereTheLandmarksComeLateReconstructionsScanIsTheNewest) {
+  PipelineWatch watch;
+  all_say(watch, "done", 0);
+  watch.hear({"reconstruction", "working", "", "two"}, 1);
+  watch.hear({"reconstruction", "refused", "empty_cloud", "three"}, 2);  // it came while two was worked on
+  watch.hear({"reconstruction", "done", "", "two"}, 3);
+  watch.hear({"reconstruction", "refused", "empty_cloud", "three"}, 3);
+  watch.hear({"landmarks", "working", "", "two"}, 3);
+  EXPECT_EQ(watch.state(3).newest_scan, "three");
+  watch.hear({"landmarks", "done", "", "two"}, 4);
+  EXPECT_EQ(watch.state(4).newest_scan, "three");
+
+  PipelineWatch joined;
+  joined.hear({"reconstruction", "working", "", "two"}, 0);
+  joined.hear({"landmarks", "done", "", "one"}, 0);
+  EXPECT_EQ(joined.state(0).newest_scan, "two");
+  joined.hear({"landmarks", "waiting", "", ""}, 1);  // it has come back
+  joined.hear({"landmarks", "working", "", "one"}, 1);
+  EXPECT_EQ(joined.state(1).newest_scan, "two");
+}
+
+TEST(PipelineWatch, CamerasThatDiedAreNamed) {
+  PipelineWatch watch;
+  watch.hear({"depth_cameras", "waiting", "", ""}, 0);
+  all_say(watch, "done", 0);
+  EXPECT_EQ(watch.state(0).words, words::kReady);
+  all_say(watch, "done", 10);
+  EXPECT_EQ(watch.state(10).words, words::silent("depth_cameras"));
+  EXPECT_TRUE(watch.state(10).trouble);
+}
+
 TEST(PipelineWatch, WarningsOfTheScanThatIsShownAreSaidAndOfNoOther) {
   PipelineWatch watch;
   all_say(watch, "done", 0);
   watch.hear({"reconstruction", "done", "no_stamp: let the driver stamp it", "one", true}, 0);
   EXPECT_NE(watch.state(0).words.find("no_stamp"), std::string::npos);
-  watch.hear({"landmarks", "done", "of the scan before", "zero", true}, 0);
-  EXPECT_EQ(watch.state(0).words.find("of the scan before"), std::string::npos);
+  watch.hear({"landmarks", "done", "of the scan before", "one", true}, 0);
+  watch.hear({"reconstruction", "done", "", "two"}, 1);
+  EXPECT_FALSE(watch.state(1).trouble || watch.state(1).working);
+  EXPECT_EQ(watch.state(1).words.find("of the scan before"), std::string::npos);
 }
 
 TEST(PipelineWatch, SaysWhatWasRefused) {

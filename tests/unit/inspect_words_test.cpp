@@ -64,6 +64,12 @@ TEST(Words, SayWhatAPressureMeans) {
   EXPECT_NE(pressure_warning(5.23).find("5.2 kPa"), std::string::npos);
 }
 
+TEST(Words, NameWhatIsWrongWithRvizItself) {
+  EXPECT_NE(unknown_frame("booth_1/body").find("'booth_1/body'"), std::string::npos);
+  EXPECT_EQ(default_taken("parameter '/inspect/keep_previous_body' is not a number", 120),
+            "parameter '/inspect/keep_previous_body' is not a number; 120 s are taken.");
+}
+
 TEST(Words, DetailsAreNotSaidToAClerk) {
   EXPECT_EQ(without_details("It folds. (Details: 3 patches.) Loosen it. (Details: 1 patch.)"),
             "It folds. Loosen it.");

@@ -163,6 +163,16 @@ TEST(Settle, AFigureThatThePrecisionLacksIsNamed) {
   }
 }
 
+TEST(Reasons, AnUncertainGroundNamesBothOfItsCauses) {
+  Figure height = girth(1.2, 1.2);
+  height.kind = Kind::height;
+  const Settled settled = settle(height, precision(), false);
+  EXPECT_EQ(reason_of(height, settled).find("ground"), std::string::npos);
+  height.ground = 0.004;  // 7.8 mm at 95 %; one and a half times ISO 20685's limit is 6
+  for (const char* words : {"the ground is", "no foot is there", "soles and lowest place do not agree"})
+    EXPECT_NE(reason_of(height, settled).find(words), std::string::npos) << words;
+}
+
 TEST(Limits, AreThoseOfIso20685) {
   const auto limit = [](Kind kind, const char* name) { return limit_of({kind, name, {}, {}, 0, 0, {}}); };
   EXPECT_EQ(limit(Kind::girth, "bust"), 0.009);

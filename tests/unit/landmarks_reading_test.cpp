@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
 
+#include "geometry/status.hpp"
 #include "measured_body.hpp"
 #include "virtual_booth/random_body.hpp"
 
@@ -20,6 +24,17 @@ struct Registered {
 
   landmarks::Reading reading(const std::vector<char>& filled = {}) const {
     return landmarks::read_figures(body.mesh, filled, model, landmarks::shipped_precision());
+  }
+
+  /// Reasons by name.
+  std::map<std::string, std::string> missing() const {
+    std::map<std::string, std::string> reasons;
+    const landmarks::Reading all = reading();
+    for (const geometry::Missing& figure : all.missing) {
+      EXPECT_TRUE(reasons.emplace(figure.name, figure.reason).second) << figure.name << " twice";
+      for (const landmarks::Figure& found : all.figures) EXPECT_NE(found.name, figure.name);
+    }
+    return reasons;
   }
 
   virtual_body::VirtualBody body;
@@ -119,6 +134,53 @@ TEST(LandmarksReading, WithoutAWaistNothingOfItIsSure) {
            forwards;
     }
   for (const double support : supports()) EXPECT_NEAR(support, 0.1, 1e-12);
+}
+
+// Folds are looked for where shape and pose have them: nowhere near the bust points here.
+TEST(LandmarksReading, WhatIsNotFoundIsMissingAndSoIsWhatIsMeasuredFromIt) {
+  Registered her(1);
+  EXPECT_TRUE(her.missing().empty());
+  const Vector3d forwards = her.model.left().cross(her.model.up());
+  for (Vector3d& p : her.model.posed) p -= 0.3 * forwards;
+  const auto missing = her.missing();
+  const std::pair<const char*, const char*> expected[] = {
+      {"underbust_L", "no fold under the breast was found"},
+      {"underbust_R", "no fold under the breast was found"},
+      {"underbust", "it is measured from underbust_L, which was not found"},
+      {"waist", "it is measured from underbust, which was not found"},
+      {"waist_side_L", "it is measured from waist, which was not found"},
+      {"waist_side_R", "it is measured from waist, which was not found"}};
+  for (const auto& [name, reason] : expected) {
+    ASSERT_EQ(missing.count(name), 1u) << name;
+    EXPECT_EQ(missing.at(name), reason) << name;
+  }
+  const geometry::BodyMeasures measures =
+      landmarks::find_landmarks(her.body.mesh, {}, her.model, landmarks::shipped_precision());
+  EXPECT_EQ(measures.missing.size(), missing.size());
+  try {
+    measures.landmark("underbust_R");
+    ADD_FAILURE() << "found";
+  } catch (const geometry::Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), "missing_part:underbust_R");
+    EXPECT_NE(std::string(refusal.what()).find(missing.at("underbust_R")), std::string::npos);
+  }
+}
+
+TEST(LandmarksReading, WithoutArmsThereAreNoAxillae) {
+  Registered her(1);
+  const auto armless = std::make_shared<body_model::Model>(*her.model.model);
+  std::vector<Eigen::Vector3i>& triangles = armless->triangles;
+  const auto is_arm = [&armless](const Eigen::Vector3i& t) {
+    return armless->arm[t[0]] + armless->arm[t[1]] + armless->arm[t[2]] > 3 * 0.5;
+  };
+  triangles.erase(std::remove_if(triangles.begin(), triangles.end(), is_arm), triangles.end());
+  her.model.model = armless;
+  her.body.mesh = {her.model.skin, triangles};
+  auto missing = her.missing();
+  for (const std::string side : {"_L", "_R"}) {
+    EXPECT_EQ(missing["axilla" + side], "no gap between arm and trunk was found");
+    EXPECT_EQ(missing["upper_arm" + side], "it is measured from axilla" + side + ", which was not found");
+  }
 }
 
 // Skin that nothing was seen near is no farther off than a body model is wrong: 100 mm.

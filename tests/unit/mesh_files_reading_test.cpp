@@ -100,12 +100,14 @@ TEST(Reading, WhatFitsTwoReadingsIsRefusedAndSaysBoth) {
   EXPECT_EQ(refused(trunk, kMesh, {}, &message), "wrong_unit");
   EXPECT_NE(message.find("cm"), std::string::npos);
   EXPECT_NE(message.find("inch"), std::string::npos);
+  EXPECT_EQ(message.find("--"), std::string::npos) << "not each program that says it has options";
   EXPECT_EQ(refused(trunk, kMesh, {"cm", ""}), "accepted");
 
   Points post;  // neither end is a head
   add_wall(post, {0, 0, 0}, {0, 0, 1.7}, 0.15, 0.15);
   EXPECT_EQ(refused(post, kMesh, {}, &message), "wrong_axes");
   EXPECT_NE(message.find("-z"), std::string::npos);
+  EXPECT_EQ(message.find("--"), std::string::npos);
   EXPECT_EQ(refused(post, kMesh, {"", "-z"}), "accepted");
   EXPECT_EQ(infer_reading(post, {true, "z"}, {}).up, "z");  // a format that has a usual up
 

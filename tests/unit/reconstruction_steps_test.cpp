@@ -76,8 +76,14 @@ TEST(ReconstructionSteps, NormalsPointOutwardWhateverTheHints) {
   std::vector<Eigen::Vector3d> inwards;  // of a driver that took the booth's origin for its viewpoint
   for (const Eigen::Vector3d& n : scan.normals) inwards.push_back(-n);
   const std::vector<Eigen::Vector3d> unknown(scan.points.size(), Eigen::Vector3d::Zero());
-  const std::map<std::string, std::vector<Eigen::Vector3d>> hints{
-      {"none", {}}, {"given", scan.normals}, {"unknown", unknown}, {"inwards", inwards}};
+  std::vector<Eigen::Vector3d> of_one_cloud = scan.normals;  // the scan's other cloud, her trunk, has none
+  for (std::size_t i = 0; i < scan.points.size(); ++i)
+    if (scan.points[i].z() > 0.9) of_one_cloud[i].setZero();
+  const std::map<std::string, std::vector<Eigen::Vector3d>> hints{{"none", {}},
+                                                                  {"given", scan.normals},
+                                                                  {"unknown", unknown},
+                                                                  {"inwards", inwards},
+                                                                  {"of one cloud", of_one_cloud}};
   for (const auto& [hinted, given] : hints) {
     const auto normals = outward_normals(scan.points, given);
     int inward = 0, in_creases = 0;
@@ -229,6 +235,16 @@ TEST(ReconstructionSteps, ThinningKeepsPointsWhereTheSkinBends) {
   // Outside of the heights that count, the finger is as coarse as the wall: 40 cm^2, one in 10 mm by 10 mm,
   // and what the rims of the cubes add.
   EXPECT_LT(thinned(cloud, {0.5, 1}).points.size(), wall + 120);
+}
+
+TEST(ReconstructionSteps, MergedPointsStayThoseOfTheirSensors) {
+  geometry::PointCloud cloud;
+  cloud.points = {{0.001, 0, 0}, {0.002, 0, 0}, {0.003, 0, 0}, {0.004, 0, 0}, {0.5, 0, 0}};
+  cloud.sensor = {1, 0, 1, -1, 0};
+  const geometry::PointCloud means = merged(cloud, 0.01);
+  EXPECT_EQ(means.sensor, (std::vector<int>{-1, 0, 1, 0}));
+  ASSERT_EQ(means.points.size(), 4u);
+  EXPECT_NEAR(means.points[2].x(), 0.002, 1e-12);
 }
 
 TEST(ReconstructionSteps, AFingerKeepsItsThickness) {

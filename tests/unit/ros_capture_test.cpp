@@ -69,6 +69,13 @@ TEST_F(CaptureHandlerTest, SecondsThatAreNoNumberDoNotMakeProgress) {
   }
 }
 
+TEST_F(CaptureHandlerTest, ForgettingEndsTheGoalOfThatScanAlone) {
+  EXPECT_FALSE(handler_.forget("another"));
+  EXPECT_TRUE(handler_.forget(handler_.scan_id()));
+  handler_.stop();
+  EXPECT_FALSE(handler_.forget("another"));
+}
+
 TEST_F(CaptureHandlerTest, NoLandmarksOfAnotherAreKept) {
   const auto of = [](const std::string& scan_id) {
     const auto landmarks = boost::make_shared<Landmarks>();

@@ -110,6 +110,7 @@ TEST_F(ExportFolders, AFolderMadeToHarmIsLeftAlone) {
 TEST_F(ExportFolders, ExportsAreDeletedByScanAndNothingElseIs) {
   const std::string id = scan_.body->scan_id;
   for (const char* name : {"one", "two"}) export_fit(scan_, root_ / name, kWhole);
+  export_fit(scan_, root_ / "2026" / "11" / "three", kWhole);
   export_fit(fitted("3.000000000-00000003"), root_ / "other", kWhole);
   fs::create_directories(root_ / "no_export");
   std::ofstream(root_ / "no_export" / "fit.json") << R"({"scan": {"scan_id": ")" << id << "\"}}";
@@ -122,7 +123,7 @@ TEST_F(ExportFolders, ExportsAreDeletedByScanAndNothingElseIs) {
   EXPECT_EQ(not_deleted(root_ / "nowhere", id), "cannot_write");
   std::vector<geometry::Refusal> left;
   EXPECT_EQ(delete_exports(root_.string() + "/", id, left),
-            (std::vector<std::string>{root_ / "one", root_ / "two"}));
+            (std::vector<std::string>{root_ / "2026" / "11" / "three", root_ / "one", root_ / "two"}));
   EXPECT_TRUE(left.empty());
   EXPECT_EQ(not_deleted(root_, id), "nothing_yet");
   EXPECT_TRUE(fs::exists(root_ / "other" / "fit.json"));

@@ -385,6 +385,59 @@ TEST_F(TensegricHandlerTest, StartedAgainItWearsWhatItWore) {
     EXPECT_FALSE(kept_garment(words, "B2")) << words;
 }
 
+TEST_F(TensegricHandlerTest, AGarmentOnOneBodysSkinIsNotPutOnTheNextBody) {
+  const auto on_skin = [] {
+    Garment garment = chest_at(0.95);
+    garment.lines[0].points = {0, -0.1F, 1.1F, 0.1F, -0.1F, 1.1F};
+    return garment;
+  };
+  TensegricHandler stage = handler("garment: B2");
+  stage.put_on(on_skin());  // of the next body
+  stage.add(body_of("A"));
+  std::optional<Input> input = stage.add(control_of("A"));
+  ASSERT_TRUE(input);
+  EXPECT_EQ(input->request.garment.name, "band");
+  EXPECT_EQ(input->taken_off, "");
+  EXPECT_EQ(stage.add(control_of("A"))->request.garment.name, "band");  // the same scan again
+
+  TensegricHandler again = handler("garment: B2, worn: '" + stage.kept() + "'");
+  for (TensegricHandler* node : {&stage, &again}) {
+    node->add(body_of("B"));
+    input = node->add(control_of("B"));
+    ASSERT_TRUE(input);
+    EXPECT_EQ(input->request.garment.name, "B2");
+    EXPECT_EQ(input->taken_off, "band");
+    EXPECT_EQ(node->worn().garment.name, "B2");
+    node->add(body_of("C"));
+    EXPECT_EQ(node->add(control_of("C"))->taken_off, "");
+  }
+  stage.put_on(chest_at(0.95));  // not by points: worn by whoever comes
+  stage.add(body_of("D"));
+  EXPECT_EQ(stage.add(control_of("D"))->request.garment.name, "band");
+}
+
+TEST_F(TensegricHandlerTest, AGarmentThatWasAskedForEarlierDoesNotComeBack) {
+  const auto at = [](double ratio, int seconds) {
+    Garment garment = chest_at(ratio);
+    garment.header.stamp = ros::Time(seconds, 0);
+    return garment;
+  };
+  TensegricHandler stage = handler("garment: B2");
+  stage.put_on(at(0.9, 10));
+  SetGarment::Request request;
+  request.garment = chest_at(0.8);
+  stage.put_on(request, ros::Time(20, 0));
+  TensegricHandler again = handler("garment: B2, worn: '" + stage.kept() + "'");
+  for (TensegricHandler* node : {&stage, &again}) {
+    node->put_on(at(0.9, 10));  // latched, and delivered again
+    EXPECT_EQ(node->worn().garment.lines.at(0).ratio, 0.8);
+    node->put_on(at(0.7, 30));
+    EXPECT_EQ(node->worn().garment.lines.at(0).ratio, 0.7);
+    node->put_on(chest_at(0.6));  // nobody said when
+    EXPECT_EQ(node->worn().garment.lines.at(0).ratio, 0.6);
+  }
+}
+
 TEST_F(TensegricHandlerTest, RefusedGarmentsLeaveTheOldOneOn) {
   TensegricHandler stage = handler();
   EXPECT_EQ(refusal_of([&] { stage.put_on(chest_at(1e300)); }),

@@ -40,6 +40,16 @@ TEST_F(HeldScanTest, AScanIsHeldWhileItIsWorkedOnThoughANewerOneHasCome) {
   EXPECT_TRUE(held_.holds("c"));
 }
 
+TEST_F(HeldScanTest, AScanWhoseWorkFailedIsHeldUntilAnotherTakesItsPlace) {
+  take("a");
+  held_.work("a");
+  held_.rest();  // refused: the worker keeps what it was given
+  take("b");
+  EXPECT_TRUE(held_.holds("a"));
+  do_work("b");
+  EXPECT_FALSE(held_.holds("a"));
+}
+
 TEST_F(HeldScanTest, SecondScansAreHeldUntilANewStart) {
   do_work("a");
   held_.begin_beside("worn");
@@ -55,7 +65,7 @@ TEST_F(HeldScanTest, SecondScansAreHeldUntilANewStart) {
   EXPECT_FALSE(held_.holds("worn too"));
 }
 
-TEST_F(HeldScanTest, AScanIsNotHeldOnceWorkOnItWasDropped) {
+TEST_F(HeldScanTest, AScanIsHeldUntilAnotherTakesItsPlaceThoughWorkOnItWasDropped) {
   take("b");
   held_.work("b");
   held_.begin("c");
@@ -63,6 +73,8 @@ TEST_F(HeldScanTest, AScanIsNotHeldOnceWorkOnItWasDropped) {
   EXPECT_TRUE(held_.works_on_other("b"));
   held_.rest();
   EXPECT_FALSE(held_.works_on_other("b"));
+  EXPECT_TRUE(held_.holds("b"));
+  do_work("c");
   EXPECT_FALSE(held_.holds("b"));
 }
 

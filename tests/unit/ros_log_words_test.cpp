@@ -15,17 +15,26 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(LogWords, FiguresAreLeftOutAndNamesStay) {
-  EXPECT_EQ(without_figures("bust 94.2 cm (+1,5), line B1 of bust_point_2: -3 mm."),
+  EXPECT_EQ(log_words("bust 94.2 cm (+1,5), line B1 of bust_point_2: -3 mm."),
             "bust # cm (+#), line B1 of bust_point_2: -# mm.");
-  EXPECT_EQ(without_figures("7"), "#");
-  EXPECT_EQ(without_figures(""), "");
+  EXPECT_EQ(log_words("7"), "#");
+  EXPECT_EQ(log_words(""), "");
 }
 
-/// In every call that writes to the log, sentences go through without_figures, and the only number is a time.
+TEST(LogWords, FilesAreLeftOutAndTopicsStay) {
+  EXPECT_EQ(log_words("bad_option: '/tmp/fits/Anna Muster' is there already and is not overwritten"),
+            "bad_option: '(file)' is there already and is not overwritten");
+  EXPECT_EQ(log_words("/tmp/4711_Mueller.ply: scans are not read; nothing on /booth_1/scan/points."),
+            "(file): scans are not read; nothing on /booth_1/scan/points.");
+  EXPECT_EQ(log_words("Wrote 7 files into /home."), "Wrote # files into (file).");
+  EXPECT_EQ(log_words("anna_4711.ply (of Muster.bag) and/or km/h"), "(file) (of (file)) and/or km/h");
+}
+
+/// In every call that writes to the log, sentences go through log_words, and the only number is a time.
 TEST(LogWords, NoLogCallSaysAFigure) {
   const std::set<std::string> of_a_start{"run_node.hpp", "replay_node.cpp"};  // of parameters and files
   const std::regex call(R"(ROS_(?:DEBUG|INFO|WARN|ERROR|FATAL)\w*\s*\(([^;]*)\);)");
-  const std::regex text(R"("(?:[^"\\]|\\.)*")"), checked(R"(without_figures\([^,;]*\)\.c_str\(\))"),
+  const std::regex text(R"("(?:[^"\\]|\\.)*")"), checked(R"(log_words\([^,;]*\)\.c_str\(\))"),
       sentence(R"(\b(message|words|what|warning|left_out|metres|points)\b)"), number("%[^sd]*[fgu]");
   int calls = 0;
   for (const auto& entry : fs::recursive_directory_iterator(TENSEGRIC_FIT_SOURCE_DIR "/nodes")) {

@@ -49,7 +49,7 @@ TEST(Loopback, HoldsForTheNextProtocol) {
 }
 
 TEST(Loopback, FollowsRosHostnameThenRosIp) {
-  ASSERT_EQ(without_figures("1"), "#");  // the library is there
+  ASSERT_EQ(log_words("1"), "#");  // the library is there
   unsetenv("ROS_HOSTNAME");
   unsetenv("ROS_IP");
   EXPECT_EQ(address_of_any(), "0.0.0.0");

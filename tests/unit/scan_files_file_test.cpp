@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -313,6 +314,24 @@ TEST(ScanFileUnit, ChangesTheFieldsThatAreReadAndNoOther) {
   scan_files::apply({"mm", "z"}, cloud);
   EXPECT_NEAR(geometry::points_of(cloud).points[0].x(), 1.5, 1e-6);
   for (std::size_t i = 12; i < 16; ++i) EXPECT_EQ(cloud.data[i], 7) << i;
+}
+
+TEST_F(ScanFileTest, FacesOfAPlyThatShareNoCornersAreJoinedAndCornersOfNoFaceLeftOut) {
+  const std::array<Vector3d, 4> corners{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0),
+                                        Vector3d(0, 0, 1)};
+  geometry::TriangleMesh loose{{Vector3d(0, 0, -5)}, {}};
+  for (const std::array<int, 3>& face : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}) {
+    const int first = static_cast<int>(loose.vertices.size());
+    for (const int corner : face) loose.vertices.push_back(corners[corner]);
+    loose.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  geometry::write_ply_mesh(file("loose.ply"), loose);
+  mesh_files::Reading reading;
+  const geometry::TriangleMesh mesh =
+      scan_files::read_body_mesh(file("loose.ply"), {"m", "z"}, false, reading);
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+  EXPECT_EQ(mesh.triangles.size(), 4u);
+  EXPECT_EQ(geometry::bounding_box(mesh.vertices)[0].z(), 0);
 }
 
 }  // namespace

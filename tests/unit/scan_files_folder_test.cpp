@@ -37,7 +37,7 @@ class ScanFolderTest : public testing::Test {
   int written_ = 0;
 };
 
-TEST_F(ScanFolderTest, AFileIsToldOnceAndOnlyWhenItIsStill) {
+TEST_F(ScanFolderTest, AFileIsPlayedOnceAndOnlyWhenItIsStill) {
   ScanFolder folder(root_, 1);
   EXPECT_EQ(played(folder, 0), "");
   write("a.ply", "half");
@@ -96,6 +96,18 @@ TEST_F(ScanFolderTest, AnotherLifeGoesOnWhereTheFirstEnded) {
   fs::remove(root_ / "a.ply");
   played(second, 2);
   EXPECT_EQ(second.played().size(), 2u);  // what is gone need not be remembered
+}
+
+TEST_F(ScanFolderTest, AFileThatStillWaitsIsForTheNextLife) {
+  write("a.ply", "a");
+  write("b.ply", "b");
+  ScanFolder first(root_, 1);
+  played(first, 0);
+  EXPECT_EQ(played(first, 1), "a.ply b.ply");
+  ScanFolder second(root_, 1);
+  second.skip(first.played({"b.ply"}));
+  played(second, 0);
+  EXPECT_EQ(played(second, 1), "b.ply");
 }
 
 TEST_F(ScanFolderTest, AFolderThatIsGoneIsSaidAndMayComeBack) {

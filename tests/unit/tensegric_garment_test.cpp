@@ -193,6 +193,9 @@ TEST(Garment, SeveralAreWornAtOnce) {
   EXPECT_EQ(both.lines.back().name, b4.lines.back().name);
   for (const char* wrong : {"B1+B1", "B1+", "+", "B1+none"})
     EXPECT_THROW(take_garment(wrong, folder), geometry::Refusal) << wrong;
+  const GarmentFile own(with_line("ratio: 0.9"));
+  EXPECT_EQ(take_garment(own.path() + "+B4", folder).name, "G+B4")
+      << "the file's own name, not where it lies";
 }
 
 }  // namespace

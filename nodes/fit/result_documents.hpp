@@ -1,0 +1,36 @@
+/// The documents by which folders of results are known.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "files/whole_folder.hpp"
+
+namespace tensegric_fit::fit {
+
+inline constexpr char kFitReport[] = "report.json";       ///< of `fit`
+inline constexpr char kExportDocument[] = "fit.json";     ///< of an export of the pipeline
+inline constexpr char kSealedDocument[] = "sealed.json";  ///< of an encrypted one
+
+/// Whether it is an export, which takes no other files: they would be read with its document, and it would
+/// not be deleted as one.
+inline bool is_export(const std::filesystem::path& folder) {
+  std::error_code not_there;
+  return std::filesystem::exists(folder / kExportDocument, not_there) ||
+         std::filesystem::exists(folder / kSealedDocument, not_there);
+}
+
+/// Discarded where it is no file of JSON (a pipe has no end), or larger than these documents are.
+inline nlohmann::json read_document(const std::filesystem::path& file) {
+  constexpr std::size_t kLargest = 16 << 20;  // bytes
+  std::error_code not_there;
+  const std::filesystem::path place = std::filesystem::canonical(file, not_there);  // it may be a link
+  const std::optional<std::string> text = files::bytes_of_plain_file(place.string(), kLargest);
+  return nlohmann::json::parse(text.value_or(""), nullptr, false);
+}
+
+}  // namespace tensegric_fit::fit
