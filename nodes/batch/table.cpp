@@ -94,8 +94,9 @@ std::optional<Folder> read_folder(const std::string& path) {
     });
     for (auto& [row, line] : last) {
       const auto known = folder.lines.find(row);
-      if (known == folder.lines.end() || is_settled(line) || !is_settled(known->second))
-        folder.lines[row] = std::move(line);
+      const bool stays = known != folder.lines.end() && is_settled(known->second) && !is_settled(line) &&
+                         (line.at("key") == "" || line.at("key") == known->second.at("key"));
+      if (!stays) folder.lines[row] = std::move(line);
     }
   }
   return folder;

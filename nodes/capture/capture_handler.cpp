@@ -129,8 +129,10 @@ std::optional<CaptureResult> CaptureHandler::result(double now) {
   result.measured = true;
   result.message = end->message;
   result.scan_id = watch_->scan_id();
-  result.landmarks = *landmarks_.at(result.scan_id);
-  if (goal_.with_fit) result.fit_status = fit_status_.at(result.scan_id);
+  const auto landmarks = landmarks_.find(result.scan_id);
+  if (landmarks == landmarks_.end()) return std::nullopt;  // forgotten
+  result.landmarks = *landmarks->second;
+  if (goal_.with_fit) result.fit_status = fit_status_[result.scan_id];
   stop();
   return result;
 }

@@ -11,8 +11,10 @@
 
 #include "capture/capture_handler.hpp"
 #include "geometry/status.hpp"
+#include "ros/held_scan.hpp"
 #include "ros/log_words.hpp"
 #include "ros/run_node.hpp"
+#include "ros/scan_tag.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -128,7 +130,9 @@ class CaptureNode {
     }
   }
 
-  void on_scan(const PointCloud2::ConstPtr& scan) { handler_.add(*scan); }
+  void on_scan(const PointCloud2::ConstPtr& scan) {
+    if (!HeldScan::of_process().is_forgotten(tag_of(*scan).scan_id)) handler_.add(*scan);
+  }
   void on_landmarks(const Landmarks::ConstPtr& landmarks) { handler_.add(landmarks); }
   void on_deformed(const DeformedMesh::ConstPtr& deformed) { handler_.add(*deformed); }
   void on_diagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {

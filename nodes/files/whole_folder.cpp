@@ -141,7 +141,17 @@ void delete_whole_folder(const std::string& folder) {
     const LockedParent parent(parent_of(folder));
     const fs::path place = parent_of(folder) / fs::path(folder).filename();
     const fs::file_type there = fs::symlink_status(place).type();
-    if (there == fs::file_type::not_found) return;  // an unfinished one, which went with the lock
+    if (there == fs::file_type::not_found) {
+      // An unfinished one, which went with the lock, unless it was finished meanwhile.
+      const std::string name = place.filename();
+      const std::size_t suffix = sizeof(kUnfinished) - 1;
+      if (name.front() == '.' && place.extension() == kUnfinished &&
+          fs::exists(place.parent_path() / name.substr(1, name.size() - 1 - suffix))) {
+        errno = EBUSY;
+        fail(folder);
+      }
+      return;
+    }
     if (there != fs::file_type::directory) {
       errno = ENOTDIR;
       fail(folder);

@@ -8,6 +8,8 @@
 
 namespace tensegric_fit::geometry {
 
+static_assert(NANOFLANN_VERSION >= 0x142, "earlier constructors may not build the tree");
+
 /// A kd-tree over `points`, arrays of kAxes coordinates. They are stored in the order of its leaves, those of
 /// a leaf beside each other; the index says places in that order. \pre not empty, all finite
 template <typename Point, typename Scalar, int kAxes>

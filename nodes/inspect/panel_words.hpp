@@ -29,6 +29,7 @@ inline constexpr char kMeasure[] = "Measure", kScanned[] = "scan", kWornGirth[] 
                       kLift[] = "lift of the bust", kApart[] = "bust points apart";
 inline constexpr char kOldBody[] = " Shown pale below: the body before.",
                       kOldBodyGone[] = " The body before is no longer shown.";
+inline constexpr char kOfAnotherBody[] = "This garment lies on the skin of another body: choose one.";
 inline constexpr char kNoLines[] = "No garment is worn so far.";
 inline constexpr char kRegionHelp[] = "Without its lines nothing pulls there. One region stays on.";
 inline constexpr char kGarmentHelp[] = "A garment's name, several joined by + (B1+H4), or a garment file.";

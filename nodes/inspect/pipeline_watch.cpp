@@ -42,7 +42,8 @@ void PipelineWatch::hear(const StageReport& report, double now) {
       newest_ = report.scan_id;
       refused_.clear();
       lone_ = false;
-      ahead_.insert(newest_);
+      made_.push_back(newest_);
+      if (made_.size() > kRemembered) made_.pop_front();
     }
   } else if (report.stage == kStages[kLandmarks]) {
     if (has_another && !report.refused() && (newest_.empty() || (!first && is_lone(report)))) {
@@ -51,7 +52,6 @@ void PipelineWatch::hear(const StageReport& report, double now) {
       lone_ = true;
       if (new_scan) scan_at_ = now;
     }
-    if (report.scan_id == newest_) ahead_.clear();
   }
   if (is_of_booth(report.stage) && !report.scan_id.empty() && (new_words || new_scan))
     refused_ = report.refused() ? report.scan_id : "";
@@ -63,7 +63,7 @@ void PipelineWatch::hear(const StageReport& report, double now) {
 bool PipelineWatch::is_lone(const StageReport& report) const {
   const auto maker = stages_.find(kStages.front());
   const bool makes_next = maker != stages_.end() && maker->second.report.state == "working";
-  return !makes_next && ahead_.count(report.scan_id) == 0;
+  return !makes_next && std::find(made_.begin(), made_.end(), report.scan_id) == made_.end();
 }
 
 // A chain that only measures has none of the stages that fit. Where one of them was heard, all belong to it.

@@ -1,8 +1,8 @@
 /// What the stages say of themselves, in one sentence.
 #pragma once
 
+#include <deque>
 #include <map>
-#include <set>
 #include <string>
 
 #include "geometry/stage_report.hpp"
@@ -46,7 +46,8 @@ class PipelineWatch {
   double dropped_at_ = -kNews;
   std::string newest_, refused_;  // the last that came to the chain; what the booth refused since
   bool lone_ = false;             // newest_ is of a body that reconstruction did not make
-  std::set<std::string> ahead_;   // what reconstruction took since the landmarks last had the newest
+  static constexpr std::size_t kRemembered = 16;  // scans: more than any stage lags behind
+  std::deque<std::string> made_;                  // scans that reconstruction took, newest last
   double scan_at_ = 0;  // when the newest scan came: what the booth refused before is no news any more
 };
 

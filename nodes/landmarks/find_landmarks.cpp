@@ -134,9 +134,10 @@ class Reader {
     return found == figures_.end() ? nullptr : &*found;
   }
   /// The figure that `name` is measured from. Null: there is none, and so `name` is missing, too.
-  const Figure* base_of(const std::string& name, Kind kind, const std::string& base) {
+  const Figure* base_of(const std::string& name, Kind kind, const std::string& base,
+                        const std::string& what = "it") {
     const Figure* figure = find(kind, base);
-    if (figure == nullptr) lacks(name, "it is measured from " + base + ", which was not found");
+    if (figure == nullptr) lacks(name, what + " is measured from " + base + ", which was not found");
     return figure;
   }
   Vector3d point(const std::string& name) const {
@@ -281,7 +282,7 @@ class Reader {
   void girth_of(const std::string& name, const Tape& on_mesh, const Tape& on_model,
                 double least_support = 0) {
     if (on_mesh.size() < 3 && on_model.size() < 3)
-      return lacks(name, "no skin to lay its tape round was found");
+      return lacks(name, "no skin to lay the tape of its girth round was found");
     const auto value = [](const Tape& t) {
       return t.size() < 3 ? std::nullopt : std::optional<double>(length(t));
     };
@@ -316,7 +317,7 @@ class Reader {
 
   void upper_arm(Side side) {
     const std::string arm = kSuffix[side] + 1, from = std::string("axilla") + kSuffix[side];
-    if (base_of(std::string("upper_arm") + kSuffix[side], Kind::point, from) == nullptr) return;
+    if (base_of(std::string("upper_arm") + kSuffix[side], Kind::point, from, "its girth") == nullptr) return;
     const Vector3d shoulder = frame_ * body_.joint("upperarm01." + arm);
     const Vector3d along = (frame_ * body_.joint("lowerarm01." + arm) - shoulder).normalized();
     const double down = along.dot(point(from) - shoulder) + kArmBelowAxilla * body_.stature();

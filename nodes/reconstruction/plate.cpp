@@ -10,10 +10,9 @@
 namespace tensegric_fit::reconstruction {
 namespace {
 
-// Tolerances. m: on floors that were seen the model's soles are within 4 mm of them (9 training women), so
-// that higher ones stand on something; its top is as near to them as that. Of a foot that is tilted the
-// lowest place may be half as high.
-constexpr double kPlate = 0.015;
+// Its top is as near to the soles as that; of a foot that is tilted the lowest place may be half as high.
+constexpr double kPlate = kThinnestPlate;
+// Tolerances.
 constexpr double kLevelNormal = 0.95;  // of a normal's z, 18 degrees: noise tilts those of a plane by less
 constexpr double kBesideFeet = 0.02;   // m from her skin: beyond the soles of a shoe
 constexpr std::size_t kFewestOfTop = 100;  // points: its height is known to an eighth of their noise

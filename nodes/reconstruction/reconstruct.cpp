@@ -51,7 +51,6 @@ constexpr double kLowestBust = 0.53, kHighestBust = 0.88;  // of the height: fro
 // nipples are smaller than the others' edges are long.
 constexpr double kBeltShare = 0.15, kBeltLow = 0.66, kBeltHigh = 0.78;
 constexpr double kOffTheFloor = 0.05;  // m; a body whose lowest point is higher stands on something else
-constexpr double kSameGround = 3;  // deviations of the soles: of a normal variable one value in 370 is beyond
 constexpr double kSampleCube = 0.007;  // m: 30,000 samples of a person
 
 PointCloud pick(const PointCloud& cloud, const std::vector<int>& indices) {
@@ -80,8 +79,12 @@ PointCloud without_surplus(PointCloud scan, const Options& options) {
         geometry::refusal::kTooFewPoints,
         fmt::format("without duplicates (closer than {:g} mm) the scan has {} points, {} are needed",
                     1000 * kDuplicate, scan.points.size(), options.min_points));
-  for (double cube = 1.5 * kDuplicate; scan.points.size() > kEnoughPoints && cube < kCoarsest; cube *= 1.5)
-    scan = merged(scan, cube);
+  double cube = kDuplicate;
+  while (scan.points.size() > kEnoughPoints && 1.5 * cube < kCoarsest) {
+    cube *= 1.5;
+    scan = merged(scan, cube, true);  // sensors are brought together by what each of them saw
+  }
+  if (scan.points.size() > kEnoughPoints) scan = merged(scan, cube);
   return scan;
 }
 
@@ -242,7 +245,7 @@ void leave_plate(Person& person, RegisteredBody& model, const body_model::Standi
 void stand(Person& person, RegisteredBody& model, const body_model::Standing& standing) {
   if (person.floor_at == 0.0) return leave_plate(person, model, standing);
   const body_model::Ground soles = body_model::ground_by_soles(model, standing);
-  if (person.floor_at && std::abs(soles.height - *person.floor_at) < kSameGround * soles.deviation) {
+  if (person.floor_at && std::abs(soles.height - *person.floor_at) < kThinnestPlate) {
     model.ground = *person.floor_at;  // black shoes: her feet were not seen, the floor was
   } else {
     model.vertical = body_model::upright(model, standing);

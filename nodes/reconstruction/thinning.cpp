@@ -40,19 +40,19 @@ void add_means(const PointCloud& cloud, double cube, PointCloud& means) {
 
 }  // namespace
 
-PointCloud merged(const PointCloud& cloud, double cube) {
+PointCloud merged(const PointCloud& cloud, double cube, bool by_sensor) {
   const bool oriented = !cloud.normals.empty(), sensed = !cloud.sensor.empty();
   const VoxelGrid grid(cloud.points, cube);
   std::vector<int> order = grid.order();
-  const auto sensor_of = [&](int i) { return sensed ? cloud.sensor[i] : 0; };
+  const auto same = [&](int a, int b) { return !sensed || cloud.sensor[a] == cloud.sensor[b]; };
   PointCloud means;
   for (int c = 0; c < grid.cell_count(); ++c) {
     const auto first = order.begin() + grid.begin(c), last = order.begin() + grid.end(c);
-    if (sensed)
-      std::stable_sort(first, last, [&](int a, int b) { return cloud.sensor[a] < cloud.sensor[b]; });
+    const bool apart = by_sensor && sensed;
+    if (apart) std::stable_sort(first, last, [&](int a, int b) { return cloud.sensor[a] < cloud.sensor[b]; });
     for (auto from = first; from != last;) {
-      const auto to =
-          std::find_if(from, last, [&, sensor = sensor_of(*from)](int i) { return sensor_of(i) != sensor; });
+      const auto other = std::find_if(from, last, [&](int i) { return !same(i, *from); });
+      const auto to = apart ? other : last;
       Eigen::Vector3d point = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
       for (auto i = from; i != to; ++i) {
         point += cloud.points[*i];
@@ -60,7 +60,7 @@ PointCloud merged(const PointCloud& cloud, double cube) {
       }
       means.points.push_back(point / static_cast<double>(to - from));
       if (oriented) means.normals.push_back(normal.squaredNorm() > 0 ? normal.normalized() : normal);
-      if (sensed) means.sensor.push_back(cloud.sensor[*from]);
+      if (sensed) means.sensor.push_back(other == to ? cloud.sensor[*from] : -1);
       from = to;
     }
   }

@@ -7,9 +7,9 @@
 
 namespace tensegric_fit::reconstruction {
 
-/// One point for all of one sensor that lie in one cube, their mean; the mean of their normals where there
-/// are any (zero stays unknown). \pre finite points within a few metres
-geometry::PointCloud merged(const geometry::PointCloud& cloud, double cube);
+/// One point for all that lie in one cube, their mean, or with `by_sensor` one for each sensor's; the mean of
+/// their normals where there are any (zero stays unknown). \pre finite points within a few metres
+geometry::PointCloud merged(const geometry::PointCloud& cloud, double cube, bool by_sensor = false);
 
 /// Means of the points in cubes of 2.5 mm where the skin bends strongly (fingers, ears, nose), 5 mm where it
 /// bends, 10 mm where it is smooth; points of two sides of a gap in one cube stay as they are. The first come

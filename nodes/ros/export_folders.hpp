@@ -19,14 +19,15 @@ inline constexpr std::array<const char*, 18> kExportFiles = {
     "deformed.obj",  "body.stl",         "deformed.stl",
     "measures.json", "measures.vit",     "measures_worn.vit"};
 
-/// Deletes the exports of that scan: `directory` itself, or the folders in it. Links are not followed.
-/// Returns the folders that are gone; `left` is assigned why each other one is not: it holds anything else
-/// (bad_option), or could not be read or deleted (cannot_write). \throw Refusal bad_option: a relative path,
-/// or no scan; nothing_yet: there is no export of it; cannot_write: the directory cannot be looked at
+/// Deletes the exports of that scan: `directory` itself, or the folders in it, at any depth. Links are not
+/// followed. Returns the folders that are gone; `left` is assigned why each other one is not: it holds
+/// anything else (bad_option), or could not be read or deleted (cannot_write). \throw Refusal bad_option: a
+/// relative path, or no scan; nothing_yet: there is no export of it; cannot_write: the directory cannot be
+/// looked at
 std::vector<std::string> delete_exports(const std::string& directory, const std::string& scan_id,
                                         std::vector<geometry::Refusal>& left);
 
-/// Deletes the exports in `directory` whose document was written more than `days` ago. Returns
+/// Deletes the exports in `directory`, at any depth, whose document was written more than `days` ago. Returns
 /// the folders that are gone; what could not be deleted
 /// stays and is added to `left`, in words.
 std::vector<std::string> delete_old_exports(const std::string& directory, double days,

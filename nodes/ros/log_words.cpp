@@ -22,28 +22,55 @@ bool is_of_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
+bool is_blank(char c) {
+  return std::isspace(static_cast<unsigned char>(c)) != 0;
+}
+
 /// Topics look like paths, but there is no folder where they begin.
-bool is_file(const std::string& word) {
+bool is_path(const std::string& word) {
   std::error_code unknown;
-  if (word.size() > 1 && word.front() == '/')
-    return fs::is_directory(word.substr(0, word.find('/', 1)), unknown);
+  return word.size() > 1 && word.front() == '/' &&
+         fs::is_directory(word.substr(0, word.find('/', 1)), unknown);
+}
+
+bool is_name_of_file(const std::string& word) {
   return std::any_of(kEndings.begin(), kEndings.end(), [&](const std::string& ending) {
     return word.size() > ending.size() &&
            word.compare(word.size() - ending.size(), ending.size(), ending) == 0;
   });
 }
 
+/// The end of a path that begins there, which may have blanks in it: at its closing quote or bracket, or
+/// where a sentence about it goes on.
+std::size_t end_of_path(const std::string& sentence, std::size_t begin) {
+  const char before = begin > 0 ? sentence[begin - 1] : ' ';
+  const char closing = before == '[' ? ']' : before == '(' ? ')' : before;
+  const auto ends = [&](std::size_t at) {
+    const bool last = at + 1 == sentence.size() || !is_of_name(sentence[at + 1]);
+    if (!is_blank(before) && before != '=') return sentence[at] == closing && last;
+    return (sentence[at] == ':' || sentence[at] == ';' || sentence[at] == ',') && last;
+  };
+  std::size_t end = begin;
+  while (end < sentence.size() && !ends(end)) ++end;
+  return end == sentence.size() && sentence.back() == '.' ? end - 1 : end;
+}
+
 std::string without_files(const std::string& sentence) {
+  const std::string openings = "'\"([=", breaks = " \t\n'\",;()[]";
   std::string words;
   for (std::size_t i = 0; i < sentence.size();) {
-    const bool quoted = i > 0 && sentence[i - 1] == '\'';
-    const bool begins = i == 0 || quoted || std::isspace(static_cast<unsigned char>(sentence[i - 1])) != 0 ||
-                        sentence[i - 1] == '(';
-    std::size_t end =
-        begins ? std::min(sentence.find_first_of(quoted ? "'" : " \t\n',;()", i), sentence.size()) : i;
-    if (!quoted)
+    const bool begins =
+        i == 0 || is_blank(sentence[i - 1]) || openings.find(sentence[i - 1]) != std::string::npos;
+    std::size_t end = i;
+    if (begins) {
+      end = std::min(sentence.find_first_of(breaks, i), sentence.size());
       while (end > i && (sentence[end - 1] == ':' || sentence[end - 1] == '.')) --end;  // of the sentence
-    if (end > i && is_file(sentence.substr(i, end - i))) {
+    }
+    const std::string word = sentence.substr(i, end - i);
+    if (is_path(word)) {
+      words += kFile;
+      i = end_of_path(sentence, i);
+    } else if (is_name_of_file(word)) {
       words += kFile;
       i = end;
     } else {

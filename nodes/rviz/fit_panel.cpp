@@ -117,7 +117,7 @@ void FitPanel::take_step(bool taken) {
 void FitPanel::send() {
   const Wish& wish = session_.now();
   const auto known = known_.find(wish.garment);
-  if (known == known_.end()) return;
+  if (known == known_.end()) return answer(words::kOfAnotherBody);
   SetGarment::Request request;
   request.garment = known->second;
   auto& lines = request.garment.lines;

@@ -139,7 +139,7 @@ class ScanPlayer {
   void forget(const ForgetOrder& order, ForgetAnswer& done) {
     const auto source = sources_.find(source_key(order.scan_id));
     if (source == sources_.end()) {
-      if (order.scan_file && !setup_.played_files.empty())
+      if (order.scan_file && (!folder_ || !setup_.played_files.empty()))
         done.failed.push_back(
             "the file that it was played from, if it was: this node has been started again");
       return;

@@ -128,7 +128,6 @@ Garment to_message(const std_msgs::Header& header, const GarmentRequest& request
 
 GarmentRequest request_in(const Garment& message) {
   GarmentRequest request;
-  request.asked = message.header.stamp;
   request.garment.name = message.name;
   request.garment.regions = message.regions;
   if (message.lines.empty())

@@ -26,6 +26,11 @@ std::optional<geometry::BodyMeasures> measures_of(const TensegricHandler::Input&
   return input.landmarks ? std::optional(measures_in(*input.landmarks)) : std::nullopt;
 }
 
+/// What a scan_id says of the points alone: of a file that is played over and over the stamp changes.
+std::string points_in_scan(const std::string& scan_id) {
+  return scan_id.substr(scan_id.rfind('-') + 1);
+}
+
 std::function<geometry::TriangleMesh()> body_of(const TensegricHandler::Input& input) {
   return [body = input.body] { return mesh_in(*body); };
 }
@@ -98,11 +103,11 @@ std::optional<TensegricHandler::Input> TensegricHandler::newly_complete() {
   fresh_ = false;
   std::string taken_off;
   if (worn_.of && worn_.of->empty()) worn_.of = control_->scan_id;
-  if (worn_.of && worn_.of != control_->scan_id) {
+  if (worn_.of && points_in_scan(*worn_.of) != points_in_scan(control_->scan_id)) {
     taken_off = worn_.garment.name;
-    const ros::Time asked = worn_.asked;
+    const std::string heard = worn_.heard;
     worn_ = first_;
-    worn_.asked = asked;
+    worn_.heard = heard;
   }
   Input complete = input();
   complete.taken_off = std::move(taken_off);
@@ -116,22 +121,24 @@ GarmentRequest TensegricHandler::of_body(GarmentRequest request) const {
   return request;
 }
 
-std::optional<TensegricHandler::Input> TensegricHandler::put_on(const Garment& garment) {
-  const ros::Time asked = garment.header.stamp;
-  if (!asked.isZero() && asked <= worn_.asked) return std::nullopt;
-  return wear(of_body(request_in(garment)));
+std::optional<TensegricHandler::Input> TensegricHandler::put_on(const Garment& garment,
+                                                                const std::string& publisher) {
+  const ros::Time stamp = garment.header.stamp;
+  const std::string heard =
+      stamp.isZero() || publisher.empty() ? "" : fmt::format("{} {}", publisher, stamp.toNSec());
+  if (!heard.empty() && heard == worn_.heard) return std::nullopt;
+  GarmentRequest request = of_body(request_in(garment));
+  request.heard = heard;
+  return wear(std::move(request));
 }
 
-std::optional<TensegricHandler::Input> TensegricHandler::put_on(const SetGarment::Request& request,
-                                                                const ros::Time& asked) {
-  GarmentRequest wanted = request_in(request, setup_.garment_directory);
-  wanted.asked = asked;
-  return wear(of_body(std::move(wanted)));
+std::optional<TensegricHandler::Input> TensegricHandler::put_on(const SetGarment::Request& request) {
+  return wear(of_body(request_in(request, setup_.garment_directory)));
 }
 
 std::optional<TensegricHandler::Input> TensegricHandler::wear(GarmentRequest request) {
   check(request.garment);
-  request.asked = std::max(request.asked, worn_.asked);
+  if (request.heard.empty()) request.heard = worn_.heard;
   worn_ = std::move(request);
   if (!complete()) return std::nullopt;
   return input();

@@ -42,10 +42,10 @@ class TensegricHandler {
   std::optional<Input> add(const TriangleMesh::ConstPtr& body);
 
   /// A garment with lines by points is of the newest body: on the next the first garment takes its place.
-  /// A message that was asked for before the garment worn is one that its publisher latched: nothing comes of
-  /// it. \throw Refusal unknown_line, bad_garment, bad_option: the garment worn before stays
-  std::optional<Input> put_on(const Garment& garment);
-  std::optional<Input> put_on(const SetGarment::Request& request, const ros::Time& asked = {});
+  /// A message with a stamp that the same publisher sent last is one that it latched: nothing comes of it.
+  /// \throw Refusal unknown_line, bad_garment, bad_option: the garment worn before stays
+  std::optional<Input> put_on(const Garment& garment, const std::string& publisher = "");
+  std::optional<Input> put_on(const SetGarment::Request& request);
   /// Back to the first garment, from the body at rest.
   std::optional<Input> reset();
 

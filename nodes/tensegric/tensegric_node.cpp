@@ -55,7 +55,7 @@ class TensegricNode {
   void on(const boost::shared_ptr<const Message>& message) {
     const std::optional<Input> input = handler_.add(message);
     if (input && !input->taken_off.empty()) {
-      stage_.drop(input->control->scan_id,
+      stage_.drop("",  // it is no fault of this scan
                   geometry::Refusal(geometry::refusal::kBadGarment,
                                     "garment '" + input->taken_off +
                                         "' has lines by points, which lie on the body of an earlier scan; '" +
@@ -69,7 +69,7 @@ class TensegricNode {
   void on_garment(const ros::MessageEvent<Garment const>& event) {
     if (event.getPublisherName() == ros::this_node::getName()) return;
     try {
-      put_on(handler_.put_on(*event.getMessage()));
+      put_on(handler_.put_on(*event.getMessage(), event.getPublisherName()));
       announce();  // for late joiners: who asked for it may be gone by then
     } catch (const geometry::Refusal& refusal) {
       stage_.drop("", refusal);  // the fit of the garment before stands
@@ -78,7 +78,7 @@ class TensegricNode {
 
   bool on_set_garment(SetGarment::Request& request, SetGarment::Response& response) {
     try {
-      put_on(handler_.put_on(request, ros::Time::now()));
+      put_on(handler_.put_on(request));
       announce();
       response.accepted = true;
       response.message = handler_.outlook();

@@ -120,7 +120,7 @@ TEST_F(CorrelationTest, SomebodyElseIsRefused) {
 
 TEST_F(CorrelationTest, AWornScanThatIsOlderThanTheBodyIsOfTheCustomerBefore) {
   found_.clear();
-  send_worn("a", 3600);
+  send_worn("a", 500);
   EXPECT_TRUE(wait_for([] { return last_error() == "nothing_yet"; })) << last_error();
   EXPECT_TRUE(found_.empty());
 }

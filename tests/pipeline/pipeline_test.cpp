@@ -291,7 +291,7 @@ TEST_F(PipelineTest, AForgottenScanIsNowhereAndTheNextOneIsFitted) {
        {"/reconstruction:", "/landmarks:", "/control_mesh:", "/tensegric:", "/tffd:", "export "})
     EXPECT_NE(removed.find(node), std::string::npos) << node << " is not in\n" << removed;
   for (const char* topic : {"/body/mesh", "/control/deformed"})
-    EXPECT_NE(not_reached.find(ros::this_node::getName() + ": what it keeps or shows of " + topic),
+    EXPECT_NE(not_reached.find(ros::this_node::getName() + ": what it keeps, latches or shows of " + topic),
               std::string::npos)
         << not_reached;
   EXPECT_FALSE(fs::exists(folder / "one"));

@@ -149,8 +149,8 @@ TEST(PipelineWatch, ABodyThatCamePastReconstructionIsTheNewest) {
   EXPECT_EQ(watch.state(2).newest_scan, "lone");
   EXPECT_EQ(watch.state(2).words, words::kReady);
   EXPECT_EQ(watch.state(2).done, watch.state(2).all);
-  watch.hear({"landmarks", "working", "", "one"}, 3);  // played again, from a bag
-  EXPECT_EQ(watch.state(3).newest_scan, "one");
+  watch.hear({"landmarks", "working", "", "one"}, 3);  // latched, and delivered again to one that came back
+  EXPECT_EQ(watch.state(3).newest_scan, "lone") << "reconstruction made it before";
   watch.hear({"reconstruction", "working", "", "two"}, 4);
   watch.hear({"landmarks", "done", "", "one"}, 4);
   EXPECT_EQ(watch.state(4).newest_scan, "two");

@@ -179,7 +179,8 @@ TEST(LandmarksReading, WithoutArmsThereAreNoAxillae) {
   auto missing = her.missing();
   for (const std::string side : {"_L", "_R"}) {
     EXPECT_EQ(missing["axilla" + side], "no gap between arm and trunk was found");
-    EXPECT_EQ(missing["upper_arm" + side], "it is measured from axilla" + side + ", which was not found");
+    EXPECT_EQ(missing["upper_arm" + side],
+              "its girth is measured from axilla" + side + ", which was not found");
   }
 }
 

@@ -237,11 +237,12 @@ TEST(ReconstructionSteps, ThinningKeepsPointsWhereTheSkinBends) {
   EXPECT_LT(thinned(cloud, {0.5, 1}).points.size(), wall + 120);
 }
 
-TEST(ReconstructionSteps, MergedPointsStayThoseOfTheirSensors) {
+TEST(ReconstructionSteps, MergedPointsAreOfASensorOrOfSeveral) {
   geometry::PointCloud cloud;
   cloud.points = {{0.001, 0, 0}, {0.002, 0, 0}, {0.003, 0, 0}, {0.004, 0, 0}, {0.5, 0, 0}};
   cloud.sensor = {1, 0, 1, -1, 0};
-  const geometry::PointCloud means = merged(cloud, 0.01);
+  EXPECT_EQ(merged(cloud, 0.01).sensor, (std::vector<int>{-1, 0}));
+  const geometry::PointCloud means = merged(cloud, 0.01, true);
   EXPECT_EQ(means.sensor, (std::vector<int>{-1, 0, 1, 0}));
   ASSERT_EQ(means.points.size(), 4u);
   EXPECT_NEAR(means.points[2].x(), 0.002, 1e-12);

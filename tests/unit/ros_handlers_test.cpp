@@ -416,24 +416,26 @@ TEST_F(TensegricHandlerTest, AGarmentOnOneBodysSkinIsNotPutOnTheNextBody) {
   EXPECT_EQ(stage.add(control_of("D"))->request.garment.name, "band");
 }
 
-TEST_F(TensegricHandlerTest, AGarmentThatWasAskedForEarlierDoesNotComeBack) {
+TEST_F(TensegricHandlerTest, ALatchedGarmentThatIsDeliveredAgainDoesNotComeBack) {
   const auto at = [](double ratio, int seconds) {
     Garment garment = chest_at(ratio);
     garment.header.stamp = ros::Time(seconds, 0);
     return garment;
   };
   TensegricHandler stage = handler("garment: B2");
-  stage.put_on(at(0.9, 10));
+  stage.put_on(at(0.9, 10), "/shop");
   SetGarment::Request request;
   request.garment = chest_at(0.8);
-  stage.put_on(request, ros::Time(20, 0));
+  stage.put_on(request);
   TensegricHandler again = handler("garment: B2, worn: '" + stage.kept() + "'");
   for (TensegricHandler* node : {&stage, &again}) {
-    node->put_on(at(0.9, 10));  // latched, and delivered again
+    node->put_on(at(0.9, 10), "/shop");  // after a respawn, say
     EXPECT_EQ(node->worn().garment.lines.at(0).ratio, 0.8);
-    node->put_on(at(0.7, 30));
+    node->put_on(at(0.7, 5), "/shop");  // its clock was set back
     EXPECT_EQ(node->worn().garment.lines.at(0).ratio, 0.7);
-    node->put_on(chest_at(0.6));  // nobody said when
+    node->put_on(at(0.9, 10), "/play");  // a bag
+    EXPECT_EQ(node->worn().garment.lines.at(0).ratio, 0.9);
+    node->put_on(chest_at(0.6), "/play");  // nobody said when
     EXPECT_EQ(node->worn().garment.lines.at(0).ratio, 0.6);
   }
 }

@@ -26,6 +26,11 @@ TEST(LogWords, FilesAreLeftOutAndTopicsStay) {
             "bad_option: '(file)' is there already and is not overwritten");
   EXPECT_EQ(log_words("/tmp/4711_Mueller.ply: scans are not read; nothing on /booth_1/scan/points."),
             "(file): scans are not read; nothing on /booth_1/scan/points.");
+  EXPECT_EQ(log_words("/tmp/Muster Anna 4711.ply: is truncated"), "(file): is truncated");
+  EXPECT_EQ(log_words("'/tmp/Ann O'Brien.ply' cannot be read"), "'(file)' cannot be read");
+  EXPECT_EQ(log_words("/nowhere/Jane_Doe.ply: is truncated"), "(file): is truncated");
+  EXPECT_EQ(log_words("cannot get file size: No such file [/tmp/Jane Doe.ply]"),
+            "cannot get file size: No such file [(file)]");
   EXPECT_EQ(log_words("Wrote 7 files into /home."), "Wrote # files into (file).");
   EXPECT_EQ(log_words("anna_4711.ply (of Muster.bag) and/or km/h"), "(file) (of (file)) and/or km/h");
 }
