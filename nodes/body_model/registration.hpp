@@ -8,7 +8,8 @@
 
 namespace tensegric_fit::body_model {
 
-/// m, height of what can be registered: less of a person is too little to know her by; nobody is taller.
+/// m, height of what can be registered. Tolerances: less of a person is too little to know her by, and what
+/// is higher is not a person alone.
 inline constexpr double kLowestPerson = 0.5, kHighestPerson = 2.15;
 
 /// A model made ready for any number of registrations.
