@@ -1,5 +1,6 @@
 #include "reconstruction/unseen_skin.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -22,6 +23,22 @@ constexpr double kBeyond =
 constexpr double kUnseenSpacing = 0.004;  // m
 constexpr double kInside = 0.03;          // m under other skin that faces the other way: parts that touch
 constexpr int kAround = 100;              // samples within that
+constexpr double kOpposed = -0.3;         // cosine of two normals: the skins face each other
+
+/// The normals of a cell's samples lie in this box, each axis by itself.
+using NormalBox = Eigen::AlignedBox3d;
+
+std::vector<NormalBox> normal_boxes(const VoxelGrid& grid, const std::vector<Eigen::Vector3d>& normals) {
+  std::vector<NormalBox> boxes(grid.cell_count());
+  for (int c = 0; c < grid.cell_count(); ++c)
+    for (int i = grid.begin(c); i < grid.end(c); ++i) boxes[c].extend(normals[i]);
+  return boxes;
+}
+
+/// No normal in the box is further from n than this cosine says.
+double least_cosine(const Eigen::Vector3d& n, const NormalBox& box) {
+  return n.cwiseProduct(box.min()).cwiseMin(n.cwiseProduct(box.max())).sum();
+}
 
 }  // namespace
 
@@ -49,10 +66,10 @@ geometry::PointCloud unseen_skin(const body_model::RegisteredBody& body, const g
     trees[half] = std::make_unique<const geometry::PointTree>(half == 0 ? samples.points : seen.points);
   });
   const geometry::PointTree &own = *trees[0], &tree = *trees[1];
+  const std::vector<NormalBox> boxes = normal_boxes(grid, samples.normals);
   std::vector<char> is_unseen(samples.points.size(), 0);
-  geometry::parallel_for(samples.points.size(), [&](std::size_t begin, std::size_t end, int) {
-    std::vector<int> near;
-    for (std::size_t i = begin; i < end; ++i) {
+  const auto look = [&](int cell, const std::vector<int>& around, std::vector<int>& near) {
+    for (int i = grid.begin(cell); i < grid.end(cell); ++i) {
       const Eigen::Vector3d &p = samples.points[i], &n = samples.normals[i];
       const auto is_seen = [&](int j) {
         return (seen.points[j] - p).squaredNorm() +
@@ -63,14 +80,23 @@ geometry::PointCloud unseen_skin(const body_model::RegisteredBody& body, const g
       if (!tree.any_within(p, kBeyond, [](int) { return true; })) continue;
       // What lies under skin that faces the other way has run into it.
       const auto over = [&](int j) {
-        return n.dot(samples.normals[j]) < -0.3 && samples.normals[j].dot(p - samples.points[j]) < 0 &&
+        return n.dot(samples.normals[j]) < kOpposed && samples.normals[j].dot(p - samples.points[j]) < 0 &&
                (p - samples.points[j]).norm() < kInside;
       };
-      if (own.any_within(p, kInside, over)) {  // few are: only for these the nearest are looked for
+      const bool may_be_over = std::any_of(around.begin(), around.end(),
+                                           [&](int c) { return least_cosine(n, boxes[c]) < kOpposed; });
+      if (may_be_over && own.any_within(p, kInside, over)) {  // few: only for these the nearest are found
         own.nearest(p, kAround, near);
         if (std::any_of(near.begin(), near.end(), over)) continue;
       }
       is_unseen[grid.order()[i]] = 1;
+    }
+  };
+  geometry::parallel_for(grid.cell_count(), [&](std::size_t begin, std::size_t end, int) {
+    std::vector<int> around, near;
+    for (std::size_t c = begin; c < end; ++c) {
+      grid.around(static_cast<int>(c), around);
+      look(static_cast<int>(c), around, near);
     }
   });
   geometry::PointCloud unseen;

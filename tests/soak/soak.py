@@ -3,8 +3,9 @@
 
 Usage: build/devel/env.sh python3 tests/soak/soak.py [--scans N] [--points N] [--config FILE.yaml] [--out FILE.csv]
 
-The same few scans come again and again, each when the one before is through; every 33rd is of full size. After each a row: seconds from scan to deformed body, and
-of each node anonymous memory (kB, /proc/PID/smaps_rollup), descriptors and threads. A run that was stopped goes on where it was: with the
+The same few scans come again and again, each when the one before is through; every 33rd is of full size. After each a row: seconds from scan to deformed body,
+seconds of the processor that the nodes and their children took, which other work on the machine hardly changes, and of each node anonymous memory (kB,
+/proc/PID/smaps_rollup), descriptors and threads. A run that was stopped goes on where it was: with the
 same chain where that still runs (the chain outlives a run that is killed), else with a new one, whose rows are another part. The verdict
 is by part; it leaves out the first scans of it, while heaps fill up, and compares medians of the first and the last rows after them.
 Exit: 0 all constant, 1 something grew, 2 no answer."""
@@ -30,7 +31,7 @@ POINTS, BODIES = 9000, 4
 FULL_POINTS, FULL_EVERY = 180000, 33  # 303 of 10,000 scans are of full size
 MEMORY = 0.01  # a node may have so much more at the end
 FEWEST = 100  # medians of fewer rows say nothing of memory: heaps still fill up
-SLOWER = 0.25  # and a scan take so much longer: machines are shared
+SLOWER = {"seconds": 0.25, "processor_s": 0.1}  # and a scan take so much longer: machines are shared
 
 
 class Chain:
@@ -112,8 +113,17 @@ def costs_of(process):
     return anonymous, len(list((folder / "fd").iterdir())), len(list((folder / "task").iterdir()))
 
 
+def processor_seconds(processes):
+    """That the nodes have taken since they started, with their children that have ended."""
+    ticks = 0
+    for process in processes:
+        after_name = pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+        ticks += sum(map(int, after_name[11:15]))  # utime, stime, cutime, cstime
+    return ticks / os.sysconf("SC_CLK_TCK")
+
+
 def columns():
-    return ["part", "scan", "seconds"] + [f"{node}_{what}" for node in NODES for what in ("kB", "descriptors", "threads")]
+    return ["part", "scan", *SLOWER] + [f"{node}_{what}" for node in NODES for what in ("kB", "descriptors", "threads")]
 
 
 def rows_of(path):
@@ -145,9 +155,12 @@ def record(chain, points, scans, path):
         processes = chain.processes()
         for i in range(len(rows), scans):
             is_full = i % FULL_EVERY == FULL_EVERY - 1
-            seconds = chain.scan(cloud_of(FULL_POINTS if is_full else points, i % BODIES), 120)
+            cloud = cloud_of(FULL_POINTS if is_full else points, i % BODIES)
+            before = processor_seconds(processes.values())
+            seconds = chain.scan(cloud, 120)
+            time_taken = [f"{seconds:.3f}", f"{processor_seconds(processes.values()) - before:.2f}"]
             costs = [value for node in NODES for value in costs_of(processes[node])]
-            writer.writerow(dict(zip(columns(), [part, i, f"{seconds:.3f}"] + costs)))
+            writer.writerow(dict(zip(columns(), [part, i, *time_taken] + costs)))
             file.flush()
         if chain.processes() != processes:
             raise RuntimeError("a node died")
@@ -169,8 +182,8 @@ def constant(rows, part, out):
     print(f"part {part}: {len(rows)} scans; medians of {count} rows, after {len(rows) - len(settled)} and at the end", file=out)
     for column in columns()[2:]:
         before, after = (statistics.median(float(row[column]) for row in part_of) for part_of in (first, last))
-        judged = count >= FEWEST or not column.endswith(("seconds", "_kB"))
-        allowed = SLOWER if column == "seconds" else MEMORY if column.endswith("_kB") else 0
+        judged = count >= FEWEST or column.endswith(("_descriptors", "_threads"))
+        allowed = SLOWER.get(column, MEMORY if column.endswith("_kB") else 0)
         grew = judged and after > before * (1 + allowed)
         fine = fine and not grew
         print(f"| {column} | {before:g} | {after:g} | {100 * (after / before - 1):+.2f} % |{' GREW' if grew else ''}", file=out)
