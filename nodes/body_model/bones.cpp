@@ -79,7 +79,13 @@ std::vector<BoneShape> load_bones(const std::string& path, const Model& model) {
     for (const Json& bone : file.header().at("bones")) {
       const std::string name = bone.at("name");
       shapes.push_back({skinned_in(file, name + "_", model.bones.size(), check), name});
-      check(shapes.back().basis.rows() == model.components(), "a bone of another number of components");
+      const BoneShape& shape = shapes.back();
+      check(shape.basis.rows() == model.components(), "a bone of another number of components");
+      std::vector<char> has_normal(shape.mean.size(), 0);  // it is pressed along it
+      for (const Eigen::Vector3i& t : shape.triangles)
+        for (const int v : t) has_normal[v] = 1;
+      check(std::find(has_normal.begin(), has_normal.end(), 0) == has_normal.end(),
+            "a bone's point of no quad");
     }
   } catch (const Json::exception& error) {
     check(false, error.what());

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "body_model/model.hpp"
 #include "geometry/array_file.hpp"
@@ -91,6 +92,34 @@ void take_arrays(const ArrayFile& file, const Check& check, Model& model) {
   model.fit_weights = array("fit_weights", {model.fit_points.size()});
 }
 
+/// What other code asks for by name: a file without it would fail with the first customer.
+void check_names(const Model& model, const Check& check) {
+  const auto has = [](const auto& list, const std::string& name) {
+    return std::any_of(list.begin(), list.end(), [&](const auto& entry) { return entry.name == name; });
+  };
+  const auto needed = [&](const char* what, std::initializer_list<const char*> names, const char* separator,
+                          const auto& is_there) {
+    for (const char* name : names)
+      for (const char* side : {"L", "R"}) {
+        const std::string full = *separator ? name + std::string(separator) + side : name;
+        check(is_there(full), std::string(what) + " '" + full + "' is missing");
+      }
+  };
+  const auto is_bone = [&](const std::string& name) { return has(model.bones, name); };
+  const auto is_group = [&](const std::string& name) { return model.group_named(name) >= 0; };
+  const auto is_part = [&](const std::string& name) { return model.part_named(name) >= 0; };
+  const auto is_skin_point = [&](const std::string& name) { return has(model.skin_points, name); };
+  const auto is_bone_point = [&](const std::string& name) { return has(model.bone_points, name); };
+  needed("bone", {"upperarm01", "lowerarm01", "upperleg01", "lowerleg01", "foot"}, ".", is_bone);
+  needed("group", {"arm", "forearm"}, "_", is_group);
+  needed("part", {"head", "neck", "trunk"}, "", is_part);
+  needed("part", {"breast", "upper_arm", "forearm", "hand", "thigh", "shank", "foot"}, "_", is_part);
+  needed("skin point", {"crotch", "navel", "neck_front", "neck_back", "neck_ring_front", "neck_ring_back"},
+         "", is_skin_point);
+  needed("skin point", {"bust_point", "underbust", "neck_side", "neck_ring"}, "_", is_skin_point);
+  needed("bone point", {"acromion"}, "_", is_bone_point);
+}
+
 }  // namespace
 
 int Model::part_named(const std::string& name) const {
@@ -149,6 +178,7 @@ Model load_model(const std::string& path) {
   try {
     take_header(file.header(), check, model);
     take_arrays(file, check, model);
+    check_names(model, check);
   } catch (const Json::exception& error) {
     check(false, error.what());
   }

@@ -192,8 +192,9 @@ RegisteredBody register_mesh(const Registrar& registrar, const geometry::Triangl
     body.ground_deviation = ground.deviation;
     return body;
   }
-  body.ground = body.vertical.dot(mesh.vertices.front());
-  for (const Vector3d& v : mesh.vertices) body.ground = std::min(body.ground, body.vertical.dot(v));
+  body.ground = HUGE_VAL;  // under the surface: vertices of no triangle may lie anywhere
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    for (const int v : t) body.ground = std::min(body.ground, body.vertical.dot(mesh.vertices[v]));
   // Reconstruction ends soles on the ground; whether it saw a floor is not known here.
   if (body.scanned) body.ground_deviation = registrar.standing().ground;
   const double deviation =

@@ -22,7 +22,8 @@ constexpr double kSole = 0.006;  // m over the lowest point of the feet at rest:
 // Deviations: of 100 women who stand upright one seems to lean by 2.5 (fit_standing.py). Round that the
 // scan's vertical gives way by degrees, so that a rounding error of the scan moves no measure by much.
 constexpr double kUpright = 2, kLeaning = 3;
-constexpr std::size_t kStray = 9;  // points that may lie below the feet
+constexpr double kLeastDeviation = 0.01;  // degrees: what is divided by
+constexpr std::size_t kStray = 9;         // points that may lie below the feet
 
 constexpr double kApart = 3;  // deviations: of a normal variable one value in 370 is beyond
 
@@ -83,13 +84,19 @@ Standing load_standing(const std::string& path) {
                        {"made", "bodies", "error", "forwards", "legs_forwards", "sideways", "along", "seen",
                         "soles", "without_feet", "without_thighs"},
                        path, kCode);
-  const auto degrees = [&](const char* key) {
-    return geometry::number_in(root, key, -5, 5, path, kCode) * M_PI / 180;
+  const auto degrees = [&](const char* key, double least) {
+    return geometry::number_in(root, key, least, 5, path, kCode) * M_PI / 180;
   };
   const auto metres = [&](const char* key) { return geometry::number_in(root, key, 0, 0.1, path, kCode); };
-  return {degrees("forwards"), degrees("legs_forwards"), degrees("sideways"),
-          degrees("along"),    metres("seen"),           metres("soles"),
-          metres("error"),     metres("without_feet"),   metres("without_thighs")};
+  return {degrees("forwards", -5),
+          degrees("legs_forwards", -5),
+          degrees("sideways", kLeastDeviation),
+          degrees("along", kLeastDeviation),
+          metres("seen"),
+          metres("soles"),
+          metres("error"),
+          metres("without_feet"),
+          metres("without_thighs")};
 }
 
 Stance stance_of(const RegisteredBody& body) {

@@ -10,6 +10,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "body_model/model.hpp"
 #include "body_model/standing.hpp"
@@ -194,6 +196,24 @@ TEST_F(ModelFile, WhatDoesNotFitTogetherIsRefusedByName) {
     expect_refused([=](File& f) { f.header["stature"] = stature; }, "stature");
 }
 
+TEST_F(ModelFile, NamesThatOtherCodeAsksForAreNeeded) {
+  const auto renamed = [](const char* list, const char* name) {
+    return [=](File& f) {
+      for (Json& entry : f.header[list])
+        if (entry.is_string() ? entry == name : entry["name"] == name)
+          (entry.is_string() ? entry : entry["name"]) = "other";
+    };
+  };
+  for (const auto& [list, name] :
+       std::vector<std::pair<const char*, const char*>>{{"bones", "foot.L"},
+                                                        {"groups", "arm_R"},
+                                                        {"parts", "trunk"},
+                                                        {"skin_points", "crotch"},
+                                                        {"skin_points", "neck_ring_L"},
+                                                        {"bone_points", "acromion_R"}})
+    expect_refused(renamed(list, name), name);
+}
+
 TEST_F(ModelFile, ArraysOfAnotherSizeOrTypeAreRefused) {
   expect_refused([](File& f) { f.array("mean")["name"] = "means"; }, "'mean'");
   expect_refused([](File& f) { f.array("mean")["type"] = "float64"; }, "type");
@@ -240,6 +260,7 @@ TEST_F(ModelFile, HowWomenStandIsCheckedToo) {
   EXPECT_NE(refusal("sideways:", "aside:").find("aside"), std::string::npos);
   EXPECT_NE(refusal("seen:", "seen: 0.5 #").find("seen"), std::string::npos);
   EXPECT_NE(refusal("forwards:", "forwards: 40 #").find("forwards"), std::string::npos);
+  EXPECT_NE(refusal("sideways:", "sideways: 0 #").find("sideways"), std::string::npos);  // it is divided by
   EXPECT_NE(refusal("soles:", "soles: .nan #").find("soles"), std::string::npos);
   EXPECT_NE(refusal_of("", load), "");
 }

@@ -171,6 +171,14 @@ TEST(Registration, GivesPerVertexWhatItPromises) {
   EXPECT_THROW(her.body.joint("elbow"), std::out_of_range);
 }
 
+TEST(Registration, AVertexOfNoTriangleIsNotTheGround) {
+  const virtual_body::StandingModel standing = virtual_body::stand(model(), {});
+  TriangleMesh mesh{standing.vertices, model().triangles};
+  const double ground = register_mesh(shipped_registrar(), mesh).ground;
+  mesh.vertices.emplace_back(0, 0, -0.5);  // the scanner's origin
+  EXPECT_EQ(register_mesh(shipped_registrar(), mesh).ground, ground);
+}
+
 // A mesh that was made of a scan has fillings that are nobody's skin.
 TEST(Registration, FillingsOfAScansMeshCountForNothing) {
   const virtual_body::StandingModel standing = virtual_body::stand(model(), {});
