@@ -77,19 +77,27 @@ LengthCurvature::LengthCurvature(const Band& band, const std::vector<int>& free_
           place[node] = static_cast<int>(nodes_.size());
           nodes_.push_back(free_index[node]);
         }
-  std::vector<char> meet(pair_of(static_cast<int>(nodes_.size()), 0), 0);
+  const int nodes = static_cast<int>(nodes_.size());
+  std::vector<int> first(nodes);  // that it meets
+  for (int p = 0; p < nodes; ++p) first[p] = p;
   for (const Thread& thread : band.threads)
     for (const auto& span : thread.spans) {
       spans_.emplace_back();
       for (const auto& [node, weight] : span)
         if (place[node] >= 0) spans_.back().emplace_back(place[node], weight);
       std::sort(spans_.back().begin(), spans_.back().end());
-      for (const auto& [p, by_p] : spans_.back())
-        for (const auto& [q, by_q] : spans_.back())
-          if (q <= p) meet[pair_of(p, q)] = 1;
+      for (const auto& [p, by_p] : spans_.back()) first[p] = std::min(first[p], spans_.back().front().first);
     }
-  for (int p = 0; p < static_cast<int>(nodes_.size()); ++p)
-    for (int q = 0; q <= p; ++q)
+  for (int p = 0; p < nodes; ++p) {
+    row_.push_back(pairs_ - first[p]);
+    pairs_ += p - first[p] + 1;
+  }
+  std::vector<char> meet(pairs_, 0);
+  for (const auto& parts : spans_)
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      for (std::size_t q = 0; q <= p; ++q) meet[pair_of(parts[p].first, parts[q].first)] = 1;
+  for (int p = 0; p < nodes; ++p)
+    for (int q = first[p]; q <= p; ++q)
       if (meet[pair_of(p, q)]) coupled_.emplace_back(p, q);
 }
 
@@ -104,9 +112,7 @@ std::vector<std::pair<int, int>> LengthCurvature::coupled_nodes() const {
 // a pair and segment.
 void LengthCurvature::add(const Positions& x, double scale, NodeMatrix& hessian) const {
   using Six = Eigen::Matrix<double, 6, 1>;
-  const int nodes = static_cast<int>(nodes_.size());
-  Eigen::Matrix<double, 6, Eigen::Dynamic> sums =
-      Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, pair_of(nodes, 0));
+  Eigen::Matrix<double, 6, Eigen::Dynamic> sums = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, pairs_);
   std::size_t next = 0;
   each_span(band_, x, [&](const Thread& thread, std::size_t, const Eigen::Vector3d& span) {
     const double length = span.norm(), whole = scale * thread.share;

@@ -39,13 +39,16 @@ class LengthCurvature {
   void add(const Positions& x, double scale, NodeMatrix& hessian) const;
 
  private:
-  // Pairs of its nodes, p >= q, in one row.
-  static int pair_of(int p, int q) { return p * (p + 1) / 2 + q; }
+  // Pairs of its nodes, p >= q, row by row: each row from the first node that p meets. Nodes are numbered
+  // along the band, so that rows stay short.
+  Eigen::Index pair_of(int p, int q) const { return row_[p] + q; }
 
   const Band& band_;
   std::vector<int> nodes_;                                  // free index of each node that carries it
   std::vector<std::vector<std::pair<int, double>>> spans_;  // of each segment: place in nodes_, and weight
-  std::vector<std::pair<int, int>> coupled_;                // places in nodes_
+  std::vector<Eigen::Index> row_;                           // of each place in nodes_: pair_of(p, 0)
+  Eigen::Index pairs_ = 0;
+  std::vector<std::pair<int, int>> coupled_;  // places in nodes_
 };
 
 }  // namespace tensegric_fit::tensegric

@@ -22,6 +22,15 @@ Iterate state_of(const Solution& solution) {
   return state;
 }
 
+// So that lines pull with as many newtons on another mesh.
+void scale_forces(Garment& garment, double by) {
+  for (GarmentLine& line : garment.lines) {
+    line.law.stiffness *= by;
+    for (auto& row : line.law.table) row.second *= by;
+    line.tension_limit *= by;
+  }
+}
+
 }  // namespace
 
 CoarseFitter::CoarseFitter(const FitterOptions& fine, BindBody bind_body)
@@ -41,12 +50,14 @@ void CoarseFitter::take(const geometry::ControlMesh& coarse, const geometry::Con
                      bones_, beta_);
 }
 
-std::optional<CoarseFitter::Answer> CoarseFitter::fit(const Garment& garment, SolverName solver, int rest,
-                                                      const std::function<bool()>& go_on) {
+std::optional<CoarseFitter::Answer> CoarseFitter::fit(Garment garment, double newtons, SolverName solver,
+                                                      int rest, const std::function<bool()>& go_on) {
   if (!skin_) return std::nullopt;
+  scale_forces(garment, newtons / fitter_.model()->newtons());
   const auto solution =
       fitter_.fit(garment, solver, rest, [&go_on](const auto&, const auto&, const auto&) { return go_on(); });
-  if (!solution) return std::nullopt;
+  if (!solution || (solution->status != Status::converged && solution->status != Status::infeasible))
+    return std::nullopt;
   const std::vector<Eigen::Vector3d> carried = skin_->worn(solution->outer, solution->inner);
   Answer answer{state_of(*solution), {}, {}, static_cast<int>(fitter_.model()->control.triangles.size())};
   // Held nodes stay where bones have them. Inner ones over bone do not move in this tissue.

@@ -27,8 +27,9 @@ class CoarseFitter {
     std::vector<Eigen::Vector3d> outer, inner;  ///< nodes of the fine mesh, carried by the coarse one
     int triangles;                              ///< of the coarse mesh
   };
-  /// Nothing where `go_on` stopped it, or no meshes are taken. \throw Refusal as GarmentFitter::fit
-  std::optional<Answer> fit(const Garment& garment, SolverName solver, int rest,
+  /// `newtons`: Model::newtons of the fine mesh, which the garment's pseudo forces are of. Nothing where
+  /// `go_on` stopped it, no balance was found, or no meshes are taken. \throw Refusal as GarmentFitter::fit
+  std::optional<Answer> fit(Garment garment, double newtons, SolverName solver, int rest,
                             const std::function<bool()>& go_on);
 
  private:

@@ -14,8 +14,6 @@ namespace {
 constexpr Tolerance kExact{1e-10, 1e-12, 1e-11};  // what is aimed at
 constexpr Tolerance kOnTheWay{0.2, 1e-4, 1e-4};   // at a load between rest and the request
 constexpr double kShareOfWeight = 0.01;           // residual on the way, of the change in gravity
-constexpr double kTightestHold = 200;    // times k, of a band without a limit of its own: seven times
-                                         // what taut hips pull at 0.95
 constexpr double kFirstRatioStep = 0.1;  // change of a neutral length in the first load step, relative
 constexpr double kShortestLoadStep = 1.0 / 1024;
 constexpr double kTrue = 1e-6;       // of a length: README.md, Exactness
@@ -24,6 +22,7 @@ constexpr double kSamePlace = 1e-9;  // m
 constexpr Tolerance kHandedBack{1, 1e-9, 1};
 constexpr double kNearFold = 0.002;  // of a line's length: a millimetre of a chest
 constexpr int kMostPerLoad = 60, kMostAtEnd = 80, kMostCorrections = 10;
+constexpr int kMostGoBack = 2;                       // halvings of the way to a shape that is tried
 constexpr int kMostFromRest = 300, kMostWarm = 100;  // a start that leads nowhere soon is dropped
 // Under a weight a shape may buckle and go over to another balance, by up to twice its length in steps of
 // half a part's length at most: 100 to 200 of them, whatever the load steps.
@@ -37,7 +36,7 @@ std::string per_cent(double share) {
 
 class LoadPath {
  public:
-  /// `spent`: iterations before it. `most`: of its own, where the caller sets no bound.
+  /// `spent`: iterations before it. `most`: with them.
   LoadPath(Problem& problem, Recorder& recorder, int spent, int most)
       : problem_(problem),
         recorder_(recorder),
@@ -78,7 +77,8 @@ class LoadPath {
   int iterations() const { return newton_.iterations(); }
   /// By the caller, or a bound that the caller set.
   bool interrupted() const {
-    return stopped() && (newton_.stop() != Stop::iterations || problem_.options.max_iterations > 0);
+    const int most = problem_.options.max_iterations;
+    return stopped() && (newton_.stop() != Stop::iterations || (most > 0 && iterations() >= most));
   }
 
  private:
@@ -115,7 +115,7 @@ class LoadPath {
     Load load;
     for (const Band& band : problem_.bands) {
       load.neutral.push_back(band.neutral);
-      load.limit.push_back(std::isinf(band.tension_limit) ? kTightestHold : band.tension_limit);
+      load.limit.push_back(hold_limit(problem_, band));
     }
     load.gravity = problem_.options.gravity;
     return load;
@@ -220,6 +220,16 @@ class LoadPath {
   // The load is the garment's alone: a part of it is a looser garment.
   bool goes_back() const { return problem_.options.bones.still() && problem_.options.gravity.isZero(0); }
 
+  // From one share of the load to another, in halves where it does not settle at once.
+  bool settle_between(Balance& at, double from, double to, int halvings) {
+    const Balance start = at;
+    if (newton_.settle(at, load_at(to), kExact, kMostPerLoad)) return true;
+    at = start;
+    const double middle = (from + to) / 2;
+    return halvings > 0 && !stopped() && settle_between(at, from, middle, halvings - 1) &&
+           settle_between(at, middle, to, halvings - 1);
+  }
+
   // From rest to the farthest share of the way, but for kNearFold of a line, where no skin is turned over.
   // `share`: where it is.
   double go_back(Balance& at, double share) {
@@ -228,7 +238,7 @@ class LoadPath {
     while ((share - smooth) * length_change() > kNearFold && !stopped()) {
       const double middle = (smooth + share) / 2;
       Balance next = at;
-      if (newton_.settle(next, load_at(middle), kExact, kMostPerLoad) && !skin_folds(problem_, next.x)) {
+      if (settle_between(next, smooth, middle, kMostGoBack) && !skin_folds(problem_, next.x)) {
         smooth = middle;
         at = next;
       } else {
@@ -273,7 +283,7 @@ class LoadPath {
     bool at_limit = false;
     for (std::size_t b = 0; b < bands_; ++b) {
       const Band& band = problem_.bands[b];
-      const bool stuck = !can_hold(band) && band.neutral < band.initial;
+      const bool stuck = !can_hold(band) && length_of(band, at.x) > band.neutral * (1 + kTrue);
       at_limit = at_limit || stuck || at.holds[b] == Hold::limit;
       result.state.tensions.push_back(at.holds[b] == Hold::slack ? 0 : std::max(0.0, at.tensions[b]));
     }
@@ -335,14 +345,15 @@ bool is_start(const Problem& problem, const Solution& start) {
 
 Outcome find_equilibrium(Problem& problem, const Solution* start, Recorder& recorder) {
   int spent = 0;
+  const int allowed = problem.options.max_iterations;
   if (start != nullptr && is_start(problem, *start) && !is_rest_asked_for(problem)) {
-    LoadPath warm(problem, recorder, 0, kMostWarm);
+    LoadPath warm(problem, recorder, 0, allowed > 0 ? std::min(allowed, kMostWarm) : kMostWarm);
     Outcome result = warm.from_solution(*start);
     if (warm.settled() || warm.interrupted()) return result;
     spent = warm.iterations();
   }
   const int most = problem.options.gravity.isZero(0) ? kMostFromRest : kMostUnderWeight;
-  return LoadPath(problem, recorder, spent, most).from_rest();
+  return LoadPath(problem, recorder, spent, allowed > 0 ? allowed : spent + most).from_rest();
 }
 
 }  // namespace tensegric_fit::tensegric

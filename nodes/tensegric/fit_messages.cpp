@@ -11,6 +11,7 @@
 #include "geometry/status.hpp"
 #include "ros/flat.hpp"
 #include "tensegric/members.hpp"
+#include "tensegric/problem.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -25,8 +26,13 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 TensionLaw law_in(const GarmentLine& line) {
   TensionLaw law;
-  if (line.law.empty() && (line.stiffness != 0 || !line.stretch.empty() || !line.tension.empty()))
+  const bool has_table = !line.stretch.empty() || !line.tension.empty();
+  if (line.law.empty() && (line.stiffness != 0 || has_table))
     refuse(line, "has a stiffness or a table, and no 'law' that says so");
+  if (line.stiffness != 0 && line.law != GarmentLine::STIFFNESS && !line.law.empty())
+    refuse(line, fmt::format("law '{}' has no stiffness", line.law));
+  if (has_table && line.law != GarmentLine::TABLE && !line.law.empty())
+    refuse(line, fmt::format("law '{}' has no table", line.law));
   if (line.law.empty() || line.law == GarmentLine::RIGID) return law;
   if (line.law == GarmentLine::STIFFNESS) {
     if (line.stiffness == 0) refuse(line, "law 'stiffness' needs a stiffness");
@@ -262,9 +268,7 @@ BandShapes bands_message(const FitName& name, const tensegric::Solution& solutio
 
 MemberForces to_message(const ScanTag& tag, const std::string& garment, const tensegric::Model& model,
                         const tensegric::Solution& solution) {
-  tensegric::Positions nodes = solution.outer;
-  nodes.insert(nodes.end(), solution.inner.begin(), solution.inner.end());
-  nodes.insert(nodes.end(), solution.between.begin(), solution.between.end());
+  const tensegric::Positions nodes = tensegric::positions_of(solution);
   const double mean = model.mean_tension();
   MemberForces message;
   message.header = tag.header;

@@ -28,7 +28,6 @@ struct GarmentRequest {
   /// scan_id of the body that its lines by points lie on, empty for the next body; nothing: of no certain
   /// one, or without such lines.
   std::optional<std::string> of{};
-  std::string heard{};  ///< publisher and stamp of the last message that asked for it, or for one before it
 };
 
 Garment to_message(const std_msgs::Header& header, const GarmentRequest& request);

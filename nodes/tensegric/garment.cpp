@@ -42,6 +42,7 @@ void check_table(std::vector<std::pair<double, double>>& table, const std::strin
     if (stretch <= table[i - 1].first || tension < table[i - 1].second)
       refuse(where, "the rows of 'table' must ascend");
   }
+  if (table.back().second == 0) refuse(where, "'table' has no tension: such a line pulls nothing");
 }
 
 std::vector<std::pair<double, double>> read_table(const YAML::Node& law, const std::string& where) {

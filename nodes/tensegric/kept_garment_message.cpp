@@ -12,9 +12,9 @@
 namespace tensegric_fit::node {
 namespace {
 
-// Ends the first garment's name; then the message, two hexadecimal digits a byte, kOf with the scan_id of the
-// body that it is of, if any, and kHeard with what GarmentRequest::heard has.
-constexpr char kEnd = '|', kOf = '@', kHeard = '#';
+// Ends the first garment's name; then the message, two hexadecimal digits a byte, and kOf with the scan_id of
+// the body that it is of, if any.
+constexpr char kEnd = '|', kOf = '@';
 
 int digit_in(char digit) {
   const std::size_t value = std::string("0123456789abcdef").find(digit);
@@ -29,16 +29,14 @@ std::string kept_text(const std::string& first, const GarmentRequest& worn) {
   std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
   ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   ros::serialization::serialize(stream, message);
-  return first + kEnd + fmt::format("{:02x}", fmt::join(bytes, "")) + (worn.of ? kOf + *worn.of : "") +
-         kHeard + worn.heard;
+  return first + kEnd + fmt::format("{:02x}", fmt::join(bytes, "")) + (worn.of ? kOf + *worn.of : "");
 }
 
 std::optional<GarmentRequest> kept_garment(const std::string& text, const std::string& first) {
   const std::size_t end = text.rfind(kEnd);
   if (end == std::string::npos || text.substr(0, end) != first) return std::nullopt;
   try {
-    const std::size_t heard = std::min(text.find(kHeard, end), text.size());
-    const std::size_t of = std::min(text.find(kOf, end), heard);
+    const std::size_t of = std::min(text.find(kOf, end), text.size());
     std::vector<std::uint8_t> bytes;
     for (std::size_t i = end + 1; i + 1 < of; i += 2)
       bytes.push_back(static_cast<std::uint8_t>(16 * digit_in(text[i]) + digit_in(text[i + 1])));
@@ -46,8 +44,7 @@ std::optional<GarmentRequest> kept_garment(const std::string& text, const std::s
     Garment message;
     ros::serialization::deserialize(stream, message);
     GarmentRequest request = request_in(message);
-    if (of < heard) request.of = text.substr(of + 1, heard - of - 1);
-    if (heard < text.size()) request.heard = text.substr(heard + 1);
+    if (of < text.size()) request.of = text.substr(of + 1);
     return request;
   } catch (const std::exception&) {  // of another version of the message
     return std::nullopt;

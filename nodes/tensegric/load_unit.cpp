@@ -26,8 +26,11 @@ Eigen::Vector3d force_of_share(const Model& model, const Eigen::Vector3d& share,
   for (std::size_t i = 0; i < model.control.outer.size(); ++i)
     if (problem.free_index[i] >= 0)
       farthest = std::max(farthest, step.move.segment<3>(3 * problem.free_index[i]).norm());
-  if (!(farthest > 0 && std::isfinite(farthest)))
+  if (problem.free_nodes == 0)
     throw geometry::Refusal(geometry::refusal::kBadOption, "all nodes are fixed: gravity has no effect");
+  if (!(farthest > 0 && std::isfinite(farthest)))
+    throw geometry::Refusal(geometry::refusal::kBadMesh,
+                            "the shape at rest is no stable balance: there is no unit of gravity for it");
   const auto box = geometry::bounding_box(model.control.outer);
   return kMoveOfUnit * (box[1] - box[0]).norm() / farthest * share;
 }

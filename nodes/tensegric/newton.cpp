@@ -14,6 +14,8 @@ namespace {
 // This near to a balance that is no minimum the model cannot distinguish one way down from the other: a
 // symmetric one stays symmetric.
 constexpr Tolerance kAtSaddle{1e-5, 1e-6, 1e-6};
+// This near, a matrix that is no minimum's is one of a balance, not of a shape far from any.
+constexpr Tolerance kNearBalance{0.2, 1e-4, 1e-4};
 constexpr int kMostHoldChanges = 20, kMostHalvings = 14;
 constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();  // of the coordinates
 constexpr double kContradicted = 1e-6;  // of a neutral length: far above rounding
@@ -34,8 +36,8 @@ Newton::Newton(const Problem& problem, Recorder& recorder, int spent, int most)
       recorder_(recorder),
       kkt_(problem),
       iterations_(spent),
-      most_iterations_(problem.options.max_iterations > 0 ? problem.options.max_iterations : spent + most),
-      most_factorisations_(std::max(kLeastCap, 4 * std::max(most, problem.options.max_iterations) / 3)) {
+      most_iterations_(most),
+      most_factorisations_(std::max(kLeastCap, 4 * (most - spent) / 3)) {
   double sum = 0;
   for (const Member& m : problem.model.members) sum += m.rest;
   for (const Eigen::Vector3d& p : problem.rest) farthest_ = std::max(farthest_, p.cwiseAbs().maxCoeff());
@@ -53,6 +55,11 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
   penalties_ =
       Eigen::VectorXd::Zero(problem_.volumes.size() + static_cast<Eigen::Index>(problem_.bands.size()));
   int changes = 0;
+  bool passes_branch = false;
+  const auto settled = [&](bool balanced) {
+    branch_near_ = branch_near_ || (balanced && passes_branch);
+    return balanced;
+  };
   KktResidual defect = kkt_.defect(at, load);
   for (int i = 0; i <= most; ++i) {
     while ((within(defect, tolerance) && change_holds(at, load)) ||
@@ -60,22 +67,22 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
       if (++changes > kMostHoldChanges) return false;
       defect = kkt_.defect(at, load);
     }
-    if (within(defect, tolerance)) return true;
+    if (within(defect, tolerance)) return settled(true);
     stop_ = spent();
-    if (i == most || stop_ != Stop::none) return is_balance(at, load, defect);
+    if (i == most || stop_ != Stop::none) return settled(is_balance(at, load, defect));
     Step step = kkt_.step(at, load, defect, within(defect, kAtSaddle), true);
-    branch_near_ = branch_near_ || !step.minimum;
+    passes_branch = passes_branch || (!step.minimum && within(defect, kNearBalance));
     if (!step.move.allFinite() || !step.multipliers.allFinite()) return false;
     if (release_contradicted(at, load, step)) {
       if (++changes > kMostHoldChanges) return false;
       defect = kkt_.defect(at, load);
       continue;
     }
-    if (is_rounding(step) && is_balance(at, load, defect)) return true;
+    if (is_rounding(step) && is_balance(at, load, defect)) return settled(true);
     if (!advance(at, load, defect, step)) {
       step = kkt_.step(at, load, defect, within(defect, kAtSaddle), false);
       if (!step.move.allFinite() || !step.multipliers.allFinite() || !advance(at, load, defect, step))
-        return is_balance(at, load, defect);
+        return settled(is_balance(at, load, defect));
     }
     if (!recorder_.record(++iterations_, at.x, defect.residual, merit_change_)) {
       stop_ = Stop::caller;

@@ -19,7 +19,7 @@ enum class Stop { none, iterations, time, caller };
 
 class Newton {
  public:
-  /// `spent`: iterations of the same solve before it. `most`: of its own, where the caller sets no bound.
+  /// `spent`: iterations of the same solve before it. `most`: with them.
   Newton(const Problem& problem, Recorder& recorder, int spent, int most);
 
   /// Brings `at` to balance under `load`; false where `most` steps, or all that are left, do not.
@@ -32,7 +32,7 @@ class Newton {
   double longest_move() const { return longest_move_; }
   int iterations() const { return iterations_; }
   Stop stop() const { return stop_; }
-  bool branch_near() const { return branch_near_; }  ///< a balance that is no minimum was passed
+  bool branch_near() const { return branch_near_; }  ///< on the way kept, near balance, there was no minimum
 
  private:
   Stop spent() const;

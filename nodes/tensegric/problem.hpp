@@ -41,6 +41,10 @@ struct Outcome {
   std::string note;
 };
 
+/// What of a garment can be found wrong by the names of nodes and regions alone. \throw Refusal unknown_line,
+/// bad_garment
+void check_names(const geometry::ControlMesh& control, const Garment& garment);
+
 /// \throw Refusal unknown_line, bad_garment, bad_option
 Problem lay_garment(const Model& model, const Garment& garment, const SolverOptions& options,
                     const std::vector<PosedVolume>& body_volumes = {},
@@ -51,6 +55,9 @@ Positions posed(const Problem& problem, double share);
 
 /// Carries what is not a node to `share` of the posture: the apexes of the regions, bands on the body.
 void pose_problem(Problem& problem, double share);
+
+/// Pseudo force at which a band gives way in the equilibrium solver: its own, or what no garment pulls.
+double hold_limit(const Problem& problem, const Band& band);
 
 /// Whether skin over the nodes is turned over, as far as the caller knows.
 bool skin_folds(const Problem& problem, const Positions& x);

@@ -69,6 +69,7 @@ struct Nearest {
 
 Outcome relax(const Problem& problem, const Solution* start, bool adaptive, Recorder& recorder) {
   const int most = problem.options.max_iterations > 0 ? problem.options.max_iterations : kMostCycles;
+  const double budget = problem.options.time_budget;
   StrutRelaxation relaxation(problem, start, adaptive);
   Outcome outcome;
   outcome.state = relaxation.state();
@@ -99,16 +100,19 @@ Outcome relax(const Problem& problem, const Solution* start, bool adaptive, Reco
     outcome.residual = residual;
     if (residual < nearest.residual) nearest = {outcome.state, residual, outcome.iterations};
     if (!recorder.record(outcome.iterations, outcome.state.x, residual)) return outcome;
+    if (budget > 0 && recorder.seconds() >= budget && !settled())
+      return settle_for(Status::capped, "The time budget ended");
     if (!extrapolates) continue;
     if (residual > kRisen * nearest.residual)
       extrapolation.restart();
     else
       relaxation.unpack(extrapolation.next(before, relaxation.packed()));
   }
-  if (settled())
-    outcome.status = Status::converged;
-  else if (oscillates(recorder.history))
-    return settle_for(Status::oscillating, "The forces of lines and volumes swing");
+  if (!settled())
+    return oscillates(recorder.history)
+               ? settle_for(Status::oscillating, "The forces of lines and volumes swing")
+               : settle_for(Status::capped, "The cycles ended");
+  outcome.status = Status::converged;
   return outcome;
 }
 

@@ -37,13 +37,18 @@ std::string millimetres(double metres, int digits = 0) {
 }
 
 // Lines that stayed longer than asked for, and why where it is plain.
-std::string reach_note(const std::vector<LineResult>& lines, const std::vector<Band>& bands) {
+std::string reach_note(const std::vector<LineResult>& lines, const Problem& problem) {
+  const bool is_equilibrium = problem.options.solver == SolverName::equilibrium;
   std::string note;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const LineResult& line = lines[i];
-    if (bands[i].law.kind != TensionLaw::Kind::rigid) {
-      if (line.tension >= line.tension_limit * (1 - 1e-9))
-        add_sentence(note, "Line " + line.name + " pulls as hard as its tension_limit lets it.");
+    if (problem.bands[i].law.kind != TensionLaw::Kind::rigid) {
+      const double limit = is_equilibrium ? hold_limit(problem, problem.bands[i]) : line.tension_limit;
+      if (line.tension >= limit * (1 - 1e-9))
+        add_sentence(note, "Line " + line.name + " pulls as hard as " +
+                               (std::isinf(line.tension_limit)
+                                    ? "the solver lets a line pull that has no tension_limit."
+                                    : "its tension_limit lets it."));
       continue;
     }
     if (line.final <= line.neutral * (1 + 1e-6)) continue;
@@ -112,7 +117,7 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
   solution.residual = outcome.residual;
   solution.history = std::move(history);
   solution.note = outcome.note;
-  add_sentence(solution.note, reach_note(solution.lines, problem.bands));
+  add_sentence(solution.note, reach_note(solution.lines, problem));
   add_sentence(solution.note, shape_note(problem.model, x));
   if (solution.status == Status::converged && held(problem) &&
       triangle_change(problem.model, x).turned_over > 0)

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <atomic>
 #include <functional>
 #include <limits>
 #include <string>
@@ -44,7 +43,7 @@ struct LineResult {
   std::vector<Eigen::Vector3d> course_at_rest, course;  ///< its middle thread, scan frame
   /// Of a band from edge to edge, of a string its course.
   std::vector<std::vector<Eigen::Vector3d>> fibres_at_rest, fibres;
-  double width;          ///< m; 0 of a string; of a cup where its fibres begin to spread
+  double width = 0;      ///< m; 0 of a string; of a cup where its fibres begin to spread
   bool cup = false;      ///< its fibres spread
   double straight = 0;   ///< m, between the fixed nodes that it runs over: it cannot become shorter
   double reachable = 0;  ///< m, the shortest that it came to: `final` where the request is infeasible
@@ -75,7 +74,7 @@ inline constexpr geometry::Range kMaxIterations{0, 1e7}, kTimeBudget{0, 3600}, k
 struct SolverOptions {
   SolverName solver = SolverName::equilibrium;
   int max_iterations = 0;  ///< 0: the solver's own cap
-  double time_budget = 0;  ///< s, of the equilibrium solver; 0: none
+  double time_budget = 0;  ///< s; 0: none
   KeptVolume volume = KeptVolume::control;
   /// Posture (P2 §6): where the bones move, all inner nodes are bound to them, fixed outer nodes go with
   /// them, and free outer nodes settle; volumes stay those of the scan's posture.

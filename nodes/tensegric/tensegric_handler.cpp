@@ -11,6 +11,7 @@
 #include "geometry/tffd_reach.hpp"
 #include "ros/body_messages.hpp"
 #include "tensegric/kept_garment_message.hpp"
+#include "tensegric/problem.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -70,6 +71,7 @@ TensegricHandler::Setup TensegricHandler::setup_from(Parameters& parameters) {
   setup.progress_period = parameters.number("progress_period", setup.progress_period, {0.001, 60});
   setup.garment = parameters.text("garment", setup.garment);
   setup.kept = parameters.text("worn", "");
+  setup.heard = parameters.text("heard", "");
   setup.garment_directory = parameters.text("garment_directory", geometry::shipped_folder("garments"));
   parameters.check_all_known();
   return setup;
@@ -79,6 +81,7 @@ TensegricHandler::TensegricHandler(Parameters parameters, tensegric::BindBody bi
     : setup_(setup_from(parameters)),
       first_{tensegric::take_garment(setup_.garment, setup_.garment_directory), ""},
       worn_(kept_garment(setup_.kept, setup_.garment).value_or(first_)),
+      heard_(setup_.heard),
       fitter_(setup_.fitter, bind_body),
       coarse_fitter_(setup_.fitter, std::move(bind_body)) {}
 
@@ -101,17 +104,30 @@ std::optional<TensegricHandler::Input> TensegricHandler::add(const TriangleMesh:
 std::optional<TensegricHandler::Input> TensegricHandler::newly_complete() {
   if (!fresh_ || !complete()) return std::nullopt;
   fresh_ = false;
-  std::string taken_off;
   if (worn_.of && worn_.of->empty()) worn_.of = control_->scan_id;
-  if (worn_.of && points_in_scan(*worn_.of) != points_in_scan(control_->scan_id)) {
-    taken_off = worn_.garment.name;
-    const std::string heard = worn_.heard;
-    worn_ = first_;
-    worn_.heard = heard;
-  }
+  const std::string why = unwearable();
+  if (!why.empty()) worn_ = first_;
   Input complete = input();
-  complete.taken_off = std::move(taken_off);
+  complete.taken_off = why;
   return complete;
+}
+
+/// Why the garment worn is not for this body, where another one is to be worn in its place.
+std::string TensegricHandler::unwearable() const {
+  const std::string& name = worn_.garment.name;
+  if (worn_.of && points_in_scan(*worn_.of) != points_in_scan(control_->scan_id))
+    return fmt::format("garment '{}' has lines by points, which lie on the body of an earlier scan", name);
+  try {
+    tensegric::check_names(control_in(*control_), worn_.garment);
+    return "";
+  } catch (const geometry::Refusal& refusal) {
+    try {  // the first garment's own fault is this scan's
+      tensegric::check_names(control_in(*control_), first_.garment);
+    } catch (const geometry::Refusal&) {
+      return "";
+    }
+    return refusal.what();
+  }
 }
 
 GarmentRequest TensegricHandler::of_body(GarmentRequest request) const {
@@ -123,13 +139,8 @@ GarmentRequest TensegricHandler::of_body(GarmentRequest request) const {
 
 std::optional<TensegricHandler::Input> TensegricHandler::put_on(const Garment& garment,
                                                                 const std::string& publisher) {
-  const ros::Time stamp = garment.header.stamp;
-  const std::string heard =
-      stamp.isZero() || publisher.empty() ? "" : fmt::format("{} {}", publisher, stamp.toNSec());
-  if (!heard.empty() && heard == worn_.heard) return std::nullopt;
-  GarmentRequest request = of_body(request_in(garment));
-  request.heard = heard;
-  return wear(std::move(request));
+  if (!heard_.is_new(publisher, garment.header.stamp.toNSec())) return std::nullopt;
+  return wear(of_body(request_in(garment)));
 }
 
 std::optional<TensegricHandler::Input> TensegricHandler::put_on(const SetGarment::Request& request) {
@@ -138,7 +149,6 @@ std::optional<TensegricHandler::Input> TensegricHandler::put_on(const SetGarment
 
 std::optional<TensegricHandler::Input> TensegricHandler::wear(GarmentRequest request) {
   check(request.garment);
-  if (request.heard.empty()) request.heard = worn_.heard;
   worn_ = std::move(request);
   if (!complete()) return std::nullopt;
   return input();
@@ -182,10 +192,11 @@ std::string TensegricHandler::kept() const {
 }
 
 // Nothing where it was stopped, or where this garment has none: what is to be refused is refused on the fine
-// mesh.
+// mesh, which fitter_ has taken.
 std::optional<FitState> TensegricHandler::first_answer(const Input& input, const FitName& name,
                                                        const std::function<bool()>& go_on) {
-  if (!input.coarse) return std::nullopt;
+  const bool has_weight = !setup_.fitter.solver.gravity.isZero(0);  // forces of the fine mesh's nodes
+  if (!input.coarse || has_weight) return std::nullopt;
   const auto start = Clock::now();
   try {
     if (input.coarse != coarse_taken_ || input.control != fine_taken_) {
@@ -196,7 +207,8 @@ std::optional<FitState> TensegricHandler::first_answer(const Input& input, const
       coarse_taken_ = input.coarse;
       fine_taken_ = input.control;
     }
-    const auto answer = coarse_fitter_.fit(input.request.garment, name.solver, input.rest, go_on);
+    const auto answer =
+        coarse_fitter_.fit(input.request.garment, fitter_.model()->newtons(), name.solver, input.rest, go_on);
     if (!answer) return std::nullopt;
     FitState state = to_message(name, answer->state, answer->outer, answer->inner, milliseconds_since(start));
     state.note =
@@ -216,6 +228,12 @@ std::optional<TensegricHandler::Output> TensegricHandler::handle(
       request.solver.empty() ? setup_.fitter.solver.solver : tensegric::solver_from(request.solver);
   const FitName name{tag_in(*input.control), request.garment.name, solver, setup_.fitter.posture};
   const auto start = Clock::now();
+  if (input.control != taken_) {
+    const auto measures = measures_of(input);
+    fitter_.take(input.control->scan_id, control_in(*input.control), measures ? &*measures : nullptr,
+                 body_of(input));
+    taken_ = input.control;
+  }
   const std::optional<FitState> first = first_answer(input, name, go_on);
   if (first)
     publish(*first);
@@ -231,12 +249,6 @@ std::optional<TensegricHandler::Output> TensegricHandler::handle(
     }
     return go_on();
   };
-  if (input.control != taken_) {
-    const auto measures = measures_of(input);
-    fitter_.take(input.control->scan_id, control_in(*input.control), measures ? &*measures : nullptr,
-                 body_of(input));
-    taken_ = input.control;
-  }
   std::optional<tensegric::Solution> solution = fitter_.fit(request.garment, solver, input.rest, progress);
   if (!solution) return std::nullopt;
 

@@ -15,6 +15,7 @@
 #include "tensegric/coarse_fitter.hpp"
 #include "tensegric/fit_messages.hpp"
 #include "tensegric/garment_fitter.hpp"
+#include "tensegric/heard_garments.hpp"
 
 namespace tensegric_fit::node {
 
@@ -33,7 +34,7 @@ class TensegricHandler {
     TriangleMesh::ConstPtr body;
     GarmentRequest request;
     int rest;                    ///< as GarmentFitter::fit
-    std::string taken_off = {};  ///< garment of another body that `request` takes the place of, else empty
+    std::string taken_off = {};  ///< garment that `request` takes the place of and why, in words, else empty
   };
   std::optional<Input> add(const ControlMesh::ConstPtr& control);
   /// Nothing waits for it: fits that are asked for later have their first answers on it.
@@ -41,7 +42,8 @@ class TensegricHandler {
   std::optional<Input> add(const Landmarks::ConstPtr& landmarks);
   std::optional<Input> add(const TriangleMesh::ConstPtr& body);
 
-  /// A garment with lines by points is of the newest body: on the next the first garment takes its place.
+  /// A garment with lines by points is of the newest body: on the next the first garment takes its place, as
+  /// it does of one that came before any control mesh and names what this one lacks.
   /// A message with a stamp that the same publisher sent last is one that it latched: nothing comes of it.
   /// \throw Refusal unknown_line, bad_garment, bad_option: the garment worn before stays
   std::optional<Input> put_on(const Garment& garment, const std::string& publisher = "");
@@ -54,6 +56,8 @@ class TensegricHandler {
   std::string outlook() const;
   /// The garment worn, as the parameter `worn` of a node that is started again.
   std::string kept() const;
+  /// Which messages were heard, as its parameter `heard`: says nothing of a body, and outlives `forget`.
+  std::string heard() const { return heard_.text(); }
   bool needs_landmarks() const;
 
   // What goes out, for one thread, which may be another.
@@ -78,7 +82,7 @@ class TensegricHandler {
     tensegric::FitterOptions fitter;
     double progress_period = 0.05;  ///< seconds
     std::string garment = "B1";     ///< worn until another is asked for, and after a reset
-    std::string kept;               ///< what it wore when it ended, where it was started again
+    std::string kept, heard;        ///< what it wore and had heard when it ended, where it was started again
     std::string garment_directory;
   };
   static Setup setup_from(Parameters& parameters);
@@ -87,6 +91,7 @@ class TensegricHandler {
   std::optional<Input> wear(GarmentRequest request);
   void check(const tensegric::Garment& garment) const;
   std::optional<Input> newly_complete();
+  std::string unwearable() const;
   bool complete() const;
   Input input() const;
   std::optional<FitState> first_answer(const Input& input, const FitName& name,
@@ -95,6 +100,7 @@ class TensegricHandler {
   const Setup setup_;
   const GarmentRequest first_;
   GarmentRequest worn_;
+  HeardGarments heard_;
   ControlMesh::ConstPtr control_, coarse_;  // newest of each
   Landmarks::ConstPtr landmarks_;
   TriangleMesh::ConstPtr body_;

@@ -57,9 +57,7 @@ class TensegricNode {
     if (input && !input->taken_off.empty()) {
       stage_.drop("",  // it is no fault of this scan
                   geometry::Refusal(geometry::refusal::kBadGarment,
-                                    "garment '" + input->taken_off +
-                                        "' has lines by points, which lie on the body of an earlier scan; '" +
-                                        input->request.garment.name + "' is worn"));
+                                    input->taken_off + "; '" + input->request.garment.name + "' is worn"));
       announce();
       keep();
     }
@@ -72,6 +70,7 @@ class TensegricNode {
       put_on(handler_.put_on(*event.getMessage(), event.getPublisherName()));
       announce();  // for late joiners: who asked for it may be gone by then
     } catch (const geometry::Refusal& refusal) {
+      keep();                    // that it was heard
       stage_.drop("", refusal);  // the fit of the garment before stands
     }
   }
@@ -108,7 +107,11 @@ class TensegricNode {
     keep();
   }
 
-  void keep() { set_parameter(private_node_, "worn", handler_.kept()); }  // for the next life of this node
+  // For the next life of this node.
+  void keep() {
+    set_parameter(private_node_, "worn", handler_.kept());
+    set_parameter(private_node_, "heard", handler_.heard());
+  }
 
   void announce() {
     std_msgs::Header header;

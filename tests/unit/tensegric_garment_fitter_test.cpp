@@ -81,7 +81,8 @@ TEST(CoarseFitterTest, AfterARefusedMeshThereIsNoAnswer) {
   const geometry::ControlMesh fine = bust_mesh(shape);
   CoarseFitter fitter(FitterOptions(), fit::bind_body);
   const auto answer = [&] {
-    return fitter.fit(chest(0.95), SolverName::equilibrium, 0, [] { return true; });
+    return fitter.fit(chest(0.95), build_model(fine, {}).newtons(), SolverName::equilibrium, 0,
+                      [] { return true; });
   };
   EXPECT_FALSE(answer());
   fitter.take(coarse, fine, nullptr, nullptr);

@@ -12,6 +12,7 @@
 #include "tensegric/band_length.hpp"
 #include "tensegric/members.hpp"
 #include "tensegric/prestress.hpp"
+#include "tensegric/problem.hpp"
 #include "tensegric/region_volume.hpp"
 #include "tensegric/tension_law.hpp"
 #include "tensegric_bust.hpp"
@@ -298,6 +299,26 @@ TEST(Band, ARatioOrATensionLimitThatIsNotPositiveIsRefused) {
     EXPECT_EQ(code(ratio, 1), "bad_garment") << ratio;
   for (const double limit : {-1.0, static_cast<double>(NAN)})
     EXPECT_EQ(code(0.9, limit), "bad_garment") << limit;
+}
+
+// What no garment pulls is so many newtons, whatever the mesh.
+TEST(Band, WithoutALimitItGivesWayAtTheSameNewtonsOnEveryMesh) {
+  BustShape finer;
+  finer.columns *= 2;
+  finer.rows *= 2;
+  std::vector<double> pseudo;
+  for (const geometry::ControlMesh& mesh : {bust_mesh(), bust_mesh(finer)}) {
+    const Model model = build_model(mesh, {});
+    const SolverOptions options;
+    const Problem problem = lay_garment(model, chest(0.9), options);
+    pseudo.push_back(hold_limit(problem, problem.bands[0]));
+    EXPECT_NEAR(pseudo.back() * model.newtons(), 175, 1e-9);
+    Garment limited = chest(0.9);
+    limited.lines[0].tension_limit = 3;
+    const Problem with_limit = lay_garment(model, limited, options);
+    EXPECT_EQ(hold_limit(with_limit, with_limit.bands[0]), 3);
+  }
+  EXPECT_GT(pseudo[1], 1.5 * pseudo[0]);
 }
 
 TEST(Law, TableIsLinearInBetweenAndGoesOn) {
