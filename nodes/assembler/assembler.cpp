@@ -50,7 +50,7 @@ PointCloud in_booth(const PointCloud& seen, const Isometry3d& booth_from_sensor)
 }  // namespace
 
 Assembly assemble(const Capture& capture, const std::vector<Isometry3d>& booth_from_sensor,
-                  const AssemblerOptions& options) {
+                  const AssemblerOptions& options, const std::vector<SharedFrame>& shared) {
   check_columns(capture.clouds.size(), options.sensors_per_column);
   Assembly assembly;
   // 1. Columns in the booth's frame, with normals.
@@ -60,20 +60,28 @@ Assembly assemble(const Capture& capture, const std::vector<Isometry3d>& booth_f
       if (capture.clouds[sensor])
         clouds[sensor] = in_booth(capture.clouds[sensor]->cloud, booth_from_sensor[sensor]);
   });
+  std::vector<bool> lost(clouds.size());  // where the sensor stood
+  for (const SharedFrame& frame : shared)
+    for (const int sensor : frame.sensors) lost[sensor] = true;
   std::vector<PointCloud> columns(clouds.size() / options.sensors_per_column);
+  std::vector<bool> signless(columns.size());
   for (std::size_t sensor = 0; sensor < clouds.size(); ++sensor) {
-    geometry::append(columns[sensor / options.sensors_per_column], clouds[sensor]);
+    const std::size_t column = sensor / options.sensors_per_column;
+    geometry::append(columns[column], clouds[sensor]);
+    if (lost[sensor]) signless[column] = true;
     assembly.cloud.sensor.insert(assembly.cloud.sensor.end(), clouds[sensor].points.size(),
                                  static_cast<int>(sensor));
   }
   // 2. Their corrections.
   if (options.refine) {
-    assembly.registration = register_columns(columns, options.registration);
+    assembly.registration = register_columns(columns, options.registration, signless);
     for (std::size_t c = 0; c < columns.size(); ++c)
       geometry::move(columns[c], assembly.registration->corrections[c]);
   }
-  // 3. One cloud.
+  // 3. One cloud. A normal that may point into the body is worse than none.
   for (const PointCloud& column : columns) geometry::append(assembly.cloud, column);
+  for (std::size_t i = 0; i < assembly.cloud.normals.size(); ++i)
+    if (lost[assembly.cloud.sensor[i]]) assembly.cloud.normals[i].setZero();
   return assembly;
 }
 

@@ -7,6 +7,7 @@
 
 #include "assembler/capture_join.hpp"
 #include "assembler/registration.hpp"
+#include "assembler/shared_frames.hpp"
 
 namespace tensegric_fit::assembler {
 
@@ -18,14 +19,16 @@ struct AssemblerOptions {
 };
 
 struct Assembly {
-  geometry::PointCloud cloud;                ///< in the booth's frame, each normal towards its own sensor
+  /// In the booth's frame, each normal towards its own sensor; zero where it is unknown where that stood.
+  geometry::PointCloud cloud;
   std::optional<Registration> registration;  ///< one correction per column; none where not asked for
 };
 
 /// Brings the clouds of a capture into the booth's frame. `booth_from_sensor` has one transform per sensor;
-/// those of missing sensors are not looked at. Points that are not finite are left out. \throw Refusal
-/// bad_option: the sensors are not whole columns, or an option of register_columns
+/// those of missing sensors are not looked at. Where the sensors of `shared` stood is unknown. Points that
+/// are not finite are left out. \throw Refusal bad_option: the sensors are not whole columns, or an option of
+/// register_columns
 Assembly assemble(const Capture& capture, const std::vector<Eigen::Isometry3d>& booth_from_sensor,
-                  const AssemblerOptions& options);
+                  const AssemblerOptions& options, const std::vector<SharedFrame>& shared = {});
 
 }  // namespace tensegric_fit::assembler

@@ -96,11 +96,14 @@ AssemblerHandler::Output AssemblerHandler::handle(const assembler::Capture& capt
   for (std::size_t sensor = 0; sensor < capture.clouds.size(); ++sensor)
     if (capture.clouds[sensor])
       booth_from_sensor[sensor] = pose_of(static_cast<int>(sensor), *capture.clouds[sensor], transforms);
-  const assembler::Assembly assembly = assembler::assemble(capture, booth_from_sensor, setup_.assembler);
+  const std::vector<assembler::SharedFrame> shared = assembler::shared_frames(capture, setup_.frame_id);
+  const assembler::Assembly assembly =
+      assembler::assemble(capture, booth_from_sensor, setup_.assembler, shared);
   std_msgs::Header header;
   header.stamp = time_of(capture.first);
   header.frame_id = setup_.frame_id;
   Output output;
+  output.warning = assembler::warning_of(shared, setup_.sensors);
   output.scan = boost::make_shared<sensor_msgs::PointCloud2>(to_message(header, assembly));
   output.facts = {{"scan", tag_of(*output.scan).scan_id}, {"points", std::to_string(output.scan->width)}};
   if (const auto& registration = assembly.registration) {

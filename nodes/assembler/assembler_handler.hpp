@@ -39,6 +39,7 @@ class AssemblerHandler {
   struct Output {
     sensor_msgs::PointCloud2::ConstPtr scan;
     Facts facts;
+    std::string warning;  ///< why there are normals left out; empty where there are none
   };
   /// `transforms` know where the sensors stood. \throw Refusal no_transform naming the sensor's topic; as
   /// assembler::assemble

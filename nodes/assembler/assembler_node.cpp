@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <memory>
 #include <mutex>
 
 #include "assembler/assembler_handler.hpp"
+#include "assembler/capture_queue.hpp"
 #include "ros/run_node.hpp"
 #include "ros/scan_tag.hpp"
 #include "ros/stage.hpp"
@@ -18,6 +20,18 @@ namespace refusal = geometry::refusal;
 /// Before it is assembled, a scan is known by its stamp.
 std::string id_of(std::uint64_t stamp) {
   return fmt::format("{}.{:09}", stamp / 1000000000, stamp % 1000000000);
+}
+
+/// What is to be said of a scan that came out.
+std::string warning_of(const assembler::CaptureTurn& turn, const AssemblerHandler::Output& output) {
+  std::vector<std::string> parts;
+  if (!turn.warning.empty()) parts.push_back(turn.warning);
+  if (turn.left_out > 0)
+    parts.push_back(
+        fmt::format("sensors send faster than a scan is assembled: {} left out",
+                    turn.left_out == 1 ? "1 capture was" : fmt::format("{} captures were", turn.left_out)));
+  if (!output.warning.empty()) parts.push_back(output.warning);
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 class AssemblerNode {
@@ -68,27 +82,39 @@ class AssemblerNode {
   }
 
   void hand_on() {
-    const AssemblerHandler::Setup& setup = handler_.setup();
     while (const std::optional<assembler::Capture> capture = handler_.next(ros::SteadyTime::now().toSec())) {
-      const std::string scan_id = id_of(capture->first);
-      std::vector<std::string> missing;
-      for (int sensor : capture->missing()) missing.push_back(setup.sensors[sensor]);
-      const std::size_t came = setup.sensors.size() - missing.size();
-      const std::string warning = missing.empty()
-                                      ? ""
-                                      : fmt::format("{} of {} sensors came in time; missing: {}", came,
-                                                    setup.sensors.size(), fmt::join(missing, ", "));
-      if (static_cast<int>(came) < setup.min_sensors) {
-        stage_.refuse(scan_id, Refusal(refusal::kMissingSensor, warning));
-        continue;
-      }
-      stage_.begin(scan_id);
-      stage_.post(scan_id, [this, capture, warning]() -> Stage::Result {
-        wait_for_transforms(*capture);
-        const AssemblerHandler::Output output = handler_.handle(*capture, transforms_);
-        return {[this, output] { publish(output.scan); }, output.facts, warning};
-      });
+      take(*capture);
+      start_next();
     }
+    start_next();  // what waited while another was assembled
+  }
+
+  void take(const assembler::Capture& capture) {
+    const AssemblerHandler::Setup& setup = handler_.setup();
+    std::vector<std::string> missing;
+    for (int sensor : capture.missing()) missing.push_back(setup.sensors[sensor]);
+    const std::size_t came = setup.sensors.size() - missing.size();
+    const std::string warning = missing.empty()
+                                    ? ""
+                                    : fmt::format("{} of {} sensors came in time; missing: {}", came,
+                                                  setup.sensors.size(), fmt::join(missing, ", "));
+    if (static_cast<int>(came) < setup.min_sensors)
+      stage_.refuse(id_of(capture.first), Refusal(refusal::kMissingSensor, warning));
+    else
+      queue_.put(capture, warning);
+  }
+
+  /// The work holds the turn, whatever its end: the stage lets go of both once it has published or refused.
+  void start_next() {
+    const std::shared_ptr<const assembler::CaptureTurn> turn = queue_.next();
+    if (!turn) return;
+    const std::string scan_id = id_of(turn->capture.first);
+    stage_.begin(scan_id);
+    stage_.post(scan_id, [this, turn]() -> Stage::Result {
+      wait_for_transforms(turn->capture);
+      const AssemblerHandler::Output output = handler_.handle(turn->capture, transforms_);
+      return {[this, output] { publish(output.scan); }, output.facts, warning_of(*turn, output)};
+    });
   }
 
   /// They can come after the clouds. By a clock of its own: a recording's can stand still, the wall's jump.
@@ -103,6 +129,7 @@ class AssemblerNode {
 
   ros::NodeHandle node_;
   AssemblerHandler handler_;
+  assembler::CaptureQueue queue_;
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_;
   std::mutex publishing_;  // guards the next two

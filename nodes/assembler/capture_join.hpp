@@ -12,7 +12,8 @@
 
 namespace tensegric_fit::assembler {
 
-/// What one sensor sent: points in its own frame, the origin of which is its viewpoint.
+/// What one sensor sent: points in its own frame, the origin of which is its viewpoint, unless others are in
+/// it, too (shared_frames.hpp).
 struct SensorCloud {
   std::uint64_t stamp;  ///< ns
   std::string frame_id;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
+#include "assembler/column_pairs.hpp"
 #include "geometry/enum_words.hpp"
 #include "geometry/parallel_for.hpp"
 #include "geometry/percentile.hpp"
@@ -22,7 +24,6 @@ using geometry::SmallMotion;
 
 constexpr int kSteps = 20;
 constexpr double kStill = 1e-5;        // m, of the largest motion in a step
-constexpr int kSearches = 60000;       // in a step; shared by all pairs of columns
 constexpr int kFewestOfPair = 100;     // matches; a pair with fewer does not overlap
 constexpr double kReach = 0.010;       // m, between the two points of a match
 constexpr double kSameSide = 0.8;      // cosine between their normals
@@ -53,8 +54,12 @@ struct Pair {
 
 class Columns {
  public:
-  explicit Columns(const std::vector<PointCloud>& columns)
-      : columns_(columns), motion_(columns.size(), Isometry3d::Identity()), centre_(Vector3d::Zero()) {
+  Columns(const std::vector<PointCloud>& columns, std::vector<bool> signless)
+      : columns_(columns),
+        signless_(std::move(signless)),
+        motion_(columns.size(), Isometry3d::Identity()),
+        centre_(Vector3d::Zero()) {
+    signless_.resize(columns.size());
     std::size_t count = 0;
     for (const PointCloud& column : columns) {
       trees_.push_back(column.points.empty() ? nullptr : std::make_unique<PointTree>(column.points));
@@ -113,13 +118,10 @@ class Columns {
 
  private:
   void find_pairs() {
-    const int count = static_cast<int>(columns_.size());
-    for (int a = 0; a < count; ++a)
-      for (int b = 0; b < count; ++b)
-        if (a != b && trees_[a] && trees_[b]) pairs_.push_back({a, b, {}});
-    const std::size_t most = std::max<std::size_t>(400, kSearches / std::max<std::size_t>(1, pairs_.size()));
+    const ColumnPairs near = column_pairs(columns_, kReach);
+    for (const auto& [a, b] : near.pairs) pairs_.push_back({a, b, {}});
     geometry::parallel_for(pairs_.size(), [&](std::size_t begin, std::size_t end, int) {
-      for (std::size_t p = begin; p < end; ++p) choose_points(pairs_[p], most);
+      for (std::size_t p = begin; p < end; ++p) choose_points(pairs_[p], near.searches);
     });
     pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(),
                                 [](const Pair& pair) { return pair.points.size() < kFewestOfPair; }),
@@ -155,7 +157,9 @@ class Columns {
     const Isometry3d &by = motion_[pair.a], &back = motion_[pair.b];
     const Vector3d p = by * from.points[i], normal_p = by.linear() * from.normals[i];
     const int nearest = trees_[pair.b]->nearest(back.inverse() * p);
-    const Vector3d q = back * to.points[nearest], normal_q = back.linear() * to.normals[nearest];
+    const Vector3d q = back * to.points[nearest];
+    Vector3d normal_q = back.linear() * to.normals[nearest];
+    if ((signless_[pair.a] || signless_[pair.b]) && normal_p.dot(normal_q) < 0) normal_q = -normal_q;
     if ((p - q).squaredNorm() > kReach * kReach || normal_p.dot(normal_q) < kSameSide) return false;
     match = {pair.a, pair.b, p, q, (normal_p + normal_q).normalized(), 0};
     match.residual = match.normal.dot(p - q);
@@ -180,6 +184,7 @@ class Columns {
   }
 
   const std::vector<PointCloud>& columns_;
+  std::vector<bool> signless_;
   std::vector<std::unique_ptr<PointTree>> trees_;
   std::vector<Isometry3d> motion_;
   Vector3d centre_;
@@ -194,12 +199,13 @@ std::string to_string(RegistrationStatus status) {
   return kWords.of(status);
 }
 
-Registration register_columns(const std::vector<PointCloud>& columns, const RegistrationOptions& options) {
+Registration register_columns(const std::vector<PointCloud>& columns, const RegistrationOptions& options,
+                              const std::vector<bool>& signless) {
   geometry::check_option("max_shift", options.max_shift, kMaxShift);
   geometry::check_option("max_turn", options.max_turn, kMaxTurn);
   Registration result;
   result.corrections.assign(columns.size(), Isometry3d::Identity());
-  Columns moving(columns);
+  Columns moving(columns, signless);
   if (!moving.overlap()) return result;
   result.residual_before = result.residual_after = moving.residual();
   for (int step = 0; step < kSteps; ++step)

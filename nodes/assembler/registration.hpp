@@ -40,9 +40,9 @@ struct Registration {
 
 /// Symmetric point-to-plane ICP (Rusinkiewicz 2019) over all pairs of columns at once: each step solves one
 /// system for the motions of all columns. Redescending weights leave out what moved between two columns.
-/// Columns are clouds in one frame, with unit normals; one may be empty. \throw Refusal bad_option naming the
-/// option and its range
+/// Columns are clouds in one frame, with unit normals; one may be empty. `signless`: columns whose normals
+/// may point either way; empty: none. \throw Refusal bad_option naming the option and its range
 Registration register_columns(const std::vector<geometry::PointCloud>& columns,
-                              const RegistrationOptions& options);
+                              const RegistrationOptions& options, const std::vector<bool>& signless = {});
 
 }  // namespace tensegric_fit::assembler

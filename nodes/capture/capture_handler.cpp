@@ -44,6 +44,8 @@ void CaptureHandler::begin(const CaptureGoal& goal, double now) {
   begun_ = now;
   armed_ = setup_.trigger.empty();
   watch(armed_ ? 0 : capture::kNever);
+  if (armed_)
+    heard_.follow(goal_.sensors, now, *watch_);  // what came before a trigger was pulled is another's
 }
 
 void CaptureHandler::stop() {
@@ -71,17 +73,19 @@ void CaptureHandler::watch(std::uint64_t not_before) {
 }
 
 void CaptureHandler::add(const std::string& sensor, const sensor_msgs::PointCloud2& cloud) {
-  if (watch_) watch_->add_cloud(sensor, cloud.header.stamp.toNSec());
+  const std::uint64_t stamp = cloud.header.stamp.toNSec();
+  heard_.add(sensor, stamp);
+  if (watch_) watch_->add_cloud(sensor, stamp);
 }
 
-void CaptureHandler::add(const sensor_msgs::PointCloud2& scan) {
+void CaptureHandler::add(const sensor_msgs::PointCloud2& scan, double now) {
   const std::string scan_id = tag_of(scan).scan_id;
   if (std::find(seen_.begin(), seen_.end(), scan_id) != seen_.end())
     return;  // a node sends its last one again
   seen_.push_back(scan_id);
   if (seen_.size() > kRemembered) seen_.pop_front();
   if (!watch_) return;
-  watch_->add_scan(scan_id, scan.header.stamp.toNSec());
+  watch_->add_scan(scan_id, scan.header.stamp.toNSec(), now);
   if (watch_->scan_id().empty()) return;
   for (auto it = landmarks_.begin(); it != landmarks_.end();)
     it = it->first == watch_->scan_id() ? std::next(it) : landmarks_.erase(it);

@@ -9,12 +9,14 @@
 #include <tensegric_fit/DeformedMesh.h>
 
 #include <deque>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "capture/capture_watch.hpp"
+#include "capture/heard_sensors.hpp"
 #include "geometry/slop.hpp"
 #include "ros/parameters.hpp"
 
@@ -46,7 +48,8 @@ class CaptureHandler {
   bool forget(const std::string& scan_id);
 
   void add(const std::string& sensor, const sensor_msgs::PointCloud2& cloud);
-  void add(const sensor_msgs::PointCloud2& scan);
+  /// `now` as for capture::CaptureWatch::add_scan.
+  void add(const sensor_msgs::PointCloud2& scan, double now = std::numeric_limits<double>::infinity());
   void add(const Landmarks::ConstPtr& landmarks);
   void add(const DeformedMesh& deformed);
   void add(const diagnostic_msgs::DiagnosticArray& message, double now);
@@ -71,6 +74,7 @@ class CaptureHandler {
   const Setup setup_;
   const std::string name_space_;
   capture::StageBoard board_;
+  capture::HeardSensors heard_;
   std::deque<std::string> seen_;  // scans
 
   // of the current goal

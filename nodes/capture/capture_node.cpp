@@ -21,9 +21,8 @@ namespace {
 
 using sensor_msgs::PointCloud2;
 
-constexpr double kLatched = 1;     // s until a node that starts has heard what was there before
-constexpr double kConnecting = 2;  // s that sensors may take to be connected to before the trigger is pulled
-constexpr double kTick = 0.1;      // s
+constexpr double kLatched = 1;  // s until a node that starts has heard what was there before
+constexpr double kTick = 0.1;   // s
 
 double now() {
   return ros::SteadyTime::now().toSec();
@@ -131,7 +130,7 @@ class CaptureNode {
   }
 
   void on_scan(const PointCloud2::ConstPtr& scan) {
-    if (!HeldScan::of_process().is_forgotten(tag_of(*scan).scan_id)) handler_.add(*scan);
+    if (!HeldScan::of_process().is_forgotten(tag_of(*scan).scan_id)) handler_.add(*scan, now());
   }
   void on_landmarks(const Landmarks::ConstPtr& landmarks) { handler_.add(landmarks); }
   void on_deformed(const DeformedMesh::ConstPtr& deformed) { handler_.add(*deformed); }
@@ -141,7 +140,9 @@ class CaptureNode {
 
   void pull_trigger() {
     for (const std::string& sensor : goal_->sensors)
-      if (sensors_[sensor].getNumPublishers() == 0 && now() - handler_.begun() < kConnecting) return;
+      if (sensors_[sensor].getNumPublishers() == 0 &&
+          now() - handler_.begun() < capture::HeardSensors::kConnecting)
+        return;
     const std::uint64_t stamp = ros::Time::now().toNSec();
     if (trigger_.pull()) handler_.pulled(stamp);  // else an earlier customer's is still held
   }

@@ -51,7 +51,11 @@ void CaptureWatch::add_cloud(const std::string& sensor, std::uint64_t stamp) {
   clouds_[sensor].push_back(stamp);
 }
 
-void CaptureWatch::add_scan(const std::string& scan_id, std::uint64_t stamp) {
+void CaptureWatch::add_earlier_cloud(const std::string& sensor, std::uint64_t stamp) {
+  if (stamp != 0) earlier_clouds_[sensor].push_back(stamp);  // without a stamp it is of any scan, or none
+}
+
+void CaptureWatch::add_scan(const std::string& scan_id, std::uint64_t stamp, double now) {
   if (is_early(stamp)) return note_early(stamp, kInFlight + 1);
   if (scan_id == scan_id_ || refused_) return;
   if (!scan_id_.empty()) {
@@ -62,6 +66,7 @@ void CaptureWatch::add_scan(const std::string& scan_id, std::uint64_t stamp) {
   }
   scan_id_ = scan_id;
   stamp_ = stamp;
+  came_ = now;
 }
 
 void CaptureWatch::add_refusal(const StageReport& report) {
@@ -75,17 +80,28 @@ void CaptureWatch::add_refusal(const StageReport& report) {
   refused_ = CaptureEnd{report.code, report.last_error};
 }
 
+/// Earlier clouds count for their scan alone: before it came, they may be the customer's before.
+bool CaptureWatch::was_heard(const std::string& sensor) const {
+  if (scan_id_.empty()) return clouds_.count(sensor) != 0;
+  for (const auto* of_sensors : {&clouds_, &earlier_clouds_}) {
+    const auto clouds = of_sensors->find(sensor);
+    if (clouds != of_sensors->end() &&
+        std::any_of(clouds->second.begin(), clouds->second.end(),
+                    [this](std::uint64_t stamp) { return geometry::gap(stamp, stamp_) <= slop_; }))
+      return true;
+  }
+  return false;
+}
+
+bool CaptureWatch::may_have_been_missed(const std::string& sensor) const {
+  const auto connected = connected_.find(sensor);
+  return !scan_id_.empty() && connected != connected_.end() && came_ < connected->second;
+}
+
 std::vector<std::string> CaptureWatch::missing() const {
   std::vector<std::string> names;
-  for (const std::string& sensor : goal_.sensors) {
-    const auto clouds = clouds_.find(sensor);
-    const bool came = clouds != clouds_.end() &&
-                      (scan_id_.empty() ||
-                       std::any_of(clouds->second.begin(), clouds->second.end(), [&](std::uint64_t stamp) {
-                         return geometry::gap(stamp, stamp_) <= slop_;
-                       }));
-    if (!came) names.push_back(sensor);
-  }
+  for (const std::string& sensor : goal_.sensors)
+    if (!was_heard(sensor) && !may_have_been_missed(sensor)) names.push_back(sensor);
   return names;
 }
 
@@ -149,6 +165,10 @@ std::string CaptureWatch::warnings() const {
     if (report != nullptr && report->scan_id == scan_id_ && report->warns)
       words += (words.empty() ? "" : "; ") + report->message;
   }
+  for (const std::string& sensor : goal_.sensors)
+    if (!was_heard(sensor))
+      words += fmt::format("{}{} was connected to as the scan came: whether it is in it is not known",
+                           words.empty() ? "" : "; ", sensor);
   return words;
 }
 

@@ -6,6 +6,7 @@
 
 #include "body_model/model_message.hpp"
 #include "body_model/registration.hpp"
+#include "control_mesh/grid.hpp"
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
 #include "ros/body_messages.hpp"
@@ -47,6 +48,7 @@ ControlMeshHandler::ControlMeshHandler(Parameters parameters) {
     patterns_.push_back(
         control_mesh::load_template(geometry::yaml_file(folder, name, geometry::refusal::kBadTemplate)));
   }
+  control_mesh::check_together(patterns_);
   if (coarse == 0) return;
   if (coarse >= options.control_triangles)
     throw geometry::Refusal(geometry::refusal::kBadOption,
@@ -74,12 +76,12 @@ ControlMeshHandler::Output ControlMeshHandler::handle(const Input& input) const 
   const std::optional<body_model::RegisteredBody> model =
       registered(output.body, filled_in(*mesh), model_message, origin);
 
+  const control_mesh::BodySkin skin(output.body, measures, model ? &*model : nullptr);
   std::vector<geometry::ControlMesh> parts, coarse_parts;
   std::optional<geometry::Refusal> first;
   for (const control_mesh::Template& pattern : patterns_) {
     try {
-      const auto laid = control_mesh::fit_template_for_each(pattern, output.body, measures, options_,
-                                                            model ? &*model : nullptr);
+      const auto laid = control_mesh::fit_template_for_each(pattern, skin, options_);
       parts.push_back(laid.front());
       if (laid.size() > 1) coarse_parts.push_back(laid.back());
     } catch (const geometry::Refusal& refusal) {

@@ -164,6 +164,7 @@ geometry::ControlMesh laid_best(const Template& pattern, const geometry::BodyMea
     try {
       laid.push_back(lay(pattern, measures, skin, model, layout));
     } catch (const Refusal& refusal) {
+      if (refusal.code() == geometry::refusal::kBadTemplate) throw;  // no layout mends that
       if (!refused) refused = refusal;
       continue;
     }
@@ -206,46 +207,61 @@ geometry::ControlMesh refined(const Template& pattern, geometry::ControlMesh con
   return control;
 }
 
-}  // namespace
-
-std::vector<geometry::ControlMesh> fit_template_for_each(const Template& pattern,
-                                                         const geometry::TriangleMesh& body,
-                                                         const geometry::BodyMeasures& measures,
-                                                         const std::vector<Options>& options,
-                                                         const body_model::RegisteredBody* model) {
-  for (const Options& one : options) {
-    geometry::check_option("control_triangles", one.control_triangles, kControlTriangles);
-    geometry::check_option("thickness", one.thickness, kThickness);
-  }
+/// \throw Refusal as BodySkin: nothing that a template could be laid on
+void check_body(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures) {
   geometry::check_mesh(body);
   if (body.triangles.empty()) throw Refusal(refusal::kNotABody, "the body mesh has no triangles");
-
   for (const geometry::Missing& missing :
        measures.missing)  // its landmarks are guesses then, with no skin there
     if (missing.name == "trunk")
       throw Refusal(std::string(refusal::kMissingPart) + ":trunk",
                     "a control mesh lies on the trunk: " + missing.reason);
+}
 
-  if (pattern.needs_model() && !model)
+geometry::TriangleMesh skin_of(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,
+                               const body_model::RegisteredBody* model) {
+  check_body(body, measures);
+  return in_body_frame(model ? without_arms(body, *model, measures) : body, measures.body_from_scan);
+}
+
+void check_options(const std::vector<Options>& options) {
+  for (const Options& one : options) {
+    geometry::check_option("control_triangles", one.control_triangles, kControlTriangles);
+    geometry::check_option("thickness", one.thickness, kThickness);
+  }
+}
+
+}  // namespace
+
+BodySkin::BodySkin(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,
+                   const body_model::RegisteredBody* model)
+    : measures_(measures), skin_(skin_of(body, measures, model)) {
+  if (model) model_.emplace(*model, measures.body_from_scan);
+}
+
+std::vector<geometry::ControlMesh> fit_template_for_each(const Template& pattern, const BodySkin& body,
+                                                         const std::vector<Options>& options) {
+  check_options(options);
+  if (pattern.needs_model() && !body.model())
     throw Refusal(std::string(refusal::kMissingPart) + ":body_model",
                   "the template " + pattern.name +
                       " has nodes on the body model, and this body comes without one: register one to it, "
                       "or use a template that places its nodes by level and angle");
+  const bool on_model = body.model() && (pattern.needs_model() || pattern.may_use_model());
+  if (on_model)  // of all layouts, the first of which may do without
+    for (const TemplateNode& node : pattern.nodes)
+      for (const auto* points : {&node.on_model, &node.or_on_model})
+        body.model()->check(*points, where_of(pattern, node));
 
   // 1. Outer nodes on the skin, evenly spread between those that the template places.
-  const Skin skin(
-      in_body_frame(model ? without_arms(body, *model, measures) : body, measures.body_from_scan));
-  std::optional<ModelSurface> model_surface;
-  if (model && (pattern.needs_model() || pattern.may_use_model()))
-    model_surface.emplace(*model, measures.body_from_scan);
   const geometry::ControlMesh laid =
-      laid_best(pattern, measures, skin, model_surface ? &*model_surface : nullptr);
+      laid_best(pattern, body.measures(), body.skin(), on_model ? body.model() : nullptr);
 
   // 2. As fine as each is to be, back in the scan's frame.
-  const Eigen::Isometry3d scan_from_body = measures.body_from_scan.inverse();
+  const Eigen::Isometry3d scan_from_body = body.measures().body_from_scan.inverse();
   std::vector<geometry::ControlMesh> controls;
   for (const Options& one : options) {
-    controls.push_back(refined(pattern, laid, one, skin));
+    controls.push_back(refined(pattern, laid, one, body.skin()));
     for (Vector3d& p : controls.back().outer) p = scan_from_body * p;
     for (Vector3d& p : controls.back().inner) p = scan_from_body * p;
     geometry::check_control_mesh(controls.back());
@@ -256,7 +272,8 @@ std::vector<geometry::ControlMesh> fit_template_for_each(const Template& pattern
 geometry::ControlMesh fit_template(const Template& pattern, const geometry::TriangleMesh& body,
                                    const geometry::BodyMeasures& measures, const Options& options,
                                    const body_model::RegisteredBody* model) {
-  return fit_template_for_each(pattern, body, measures, {options}, model).front();
+  check_options({options});
+  return fit_template_for_each(pattern, BodySkin(body, measures, model), {options}).front();
 }
 
 }  // namespace tensegric_fit::control_mesh

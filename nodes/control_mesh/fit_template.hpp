@@ -1,9 +1,12 @@
 /// Template + body + landmarks -> control mesh (P1 §3.3, P2 §3).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "body_model/registered_body.hpp"
+#include "control_mesh/model_surface.hpp"
+#include "control_mesh/skin.hpp"
 #include "control_mesh/template.hpp"
 #include "geometry/body_measures.hpp"
 #include "geometry/control_mesh.hpp"
@@ -20,6 +23,26 @@ struct Options {
   double thickness = 1;         ///< of the soft tissue, times the template's (P2 §6)
 };
 
+/// What templates are laid on, in the body frame: made once for all templates of a body.
+class BodySkin {
+ public:
+  /// \param measures must outlive it
+  /// \param model registered to this body, in its frame; null: none, then no node may lie on it, and arms are
+  /// not left out. Must outlive it
+  /// \throw Refusal missing_part:trunk, not_a_body, non_finite, bad_mesh
+  BodySkin(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,
+           const body_model::RegisteredBody* model);
+
+  const geometry::BodyMeasures& measures() const { return measures_; }
+  const Skin& skin() const { return skin_; }
+  const ModelSurface* model() const { return model_ ? &*model_ : nullptr; }  ///< null: none
+
+ private:
+  const geometry::BodyMeasures& measures_;
+  const Skin skin_;
+  std::optional<ModelSurface> model_;
+};
+
 /// Nodes at landmarks and on the rim lie on the skin, the others up to 3 mm off it: so the patch holds as
 /// much as the body below it, within 2 %.
 ///
@@ -31,10 +54,7 @@ geometry::ControlMesh fit_template(const Template& pattern, const geometry::Tria
                                    const body_model::RegisteredBody* model = nullptr);
 
 /// One for each of `options`, all from the same nodes: coarse and fine meshes of one body.
-std::vector<geometry::ControlMesh> fit_template_for_each(const Template& pattern,
-                                                         const geometry::TriangleMesh& body,
-                                                         const geometry::BodyMeasures& measures,
-                                                         const std::vector<Options>& options,
-                                                         const body_model::RegisteredBody* model = nullptr);
+std::vector<geometry::ControlMesh> fit_template_for_each(const Template& pattern, const BodySkin& body,
+                                                         const std::vector<Options>& options);
 
 }  // namespace tensegric_fit::control_mesh

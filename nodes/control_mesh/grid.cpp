@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "geometry/status.hpp"
+
 namespace tensegric_fit::control_mesh {
 namespace {
 
@@ -91,6 +93,28 @@ geometry::ControlMesh grid_of(const Template& pattern) {
       }
     }
   return grid;
+}
+
+std::string where_of(const Template& pattern, const TemplateNode& node) {
+  return "the template " + pattern.name + ", row " + std::to_string(node.row) + ", column " +
+         std::to_string(node.column);
+}
+
+void check_together(const std::vector<Template>& patterns) {
+  constexpr int kLeastHeld = 3;
+  std::vector<geometry::ControlMesh> grids;
+  for (const Template& pattern : patterns) {
+    grids.push_back(grid_of(pattern));
+    const geometry::ControlMesh& grid = grids.back();
+    int held = 0;
+    for (std::size_t i = 0; i < grid.outer.size(); ++i)
+      if (grid.inner_fixed[i] || (grid.outer_fixed[i] && !pattern.bone)) ++held;
+    if (held < kLeastHeld)
+      throw geometry::Refusal(geometry::refusal::kBadTemplate,
+                              "the template " + pattern.name + " holds " + std::to_string(held) +
+                                  " nodes: 'fixed' has to mark three or more");
+  }
+  geometry::joined(grids);
 }
 
 }  // namespace tensegric_fit::control_mesh

@@ -25,4 +25,12 @@ std::string name_on(const std::string& name, Side side);
 /// run counter-clockwise for columns that go from her left over the front.
 geometry::ControlMesh grid_of(const Template& pattern);
 
+/// A node's place in words, for refusals.
+std::string where_of(const Template& pattern, const TemplateNode& node);
+
+/// What must hold of templates that are worn at once, whatever the body.
+/// \throw Refusal bad_template: two have a node, a region or a line of the same name, or one of them holds
+/// fewer than three nodes (with `bone`: three inner ones)
+void check_together(const std::vector<Template>& patterns);
+
 }  // namespace tensegric_fit::control_mesh

@@ -127,7 +127,7 @@ std::vector<double> thickness_of(const CushionRule& rule, const geometry::Contro
   return thickness;
 }
 
-void place_inner_nodes(geometry::ControlMesh& control, std::vector<double> thickness, const Skin& skin) {
+bool place_inner_nodes(geometry::ControlMesh& control, std::vector<double> thickness, const Skin& skin) {
   const std::vector<Vector3d> normals = smooth_normals(control);
   for (std::size_t v = 0; v < thickness.size(); ++v) {
     const Vector3d below = control.outer[v] - std::min(kBelowSkin, kBelowShare * thickness[v]) * normals[v];
@@ -136,21 +136,24 @@ void place_inner_nodes(geometry::ControlMesh& control, std::vector<double> thick
   }
   for (std::size_t v = 0; v < thickness.size(); ++v)
     control.inner[v] = control.outer[v] - thickness[v] * normals[v];
-  thin_folded_units(control);
+  return thin_folded_units(control);
 }
 
-void thin_folded_units(geometry::ControlMesh& control) {
-  for (int round = 0; round < kMostRounds; ++round) {
+bool thin_folded_units(geometry::ControlMesh& control) {
+  for (int round = 0;; ++round) {
     std::vector<char> too_thick(control.outer.size(), 0);
+    bool folded = false;
     for (const Eigen::Vector3i& k : control.triangles) {
       const Vector3d outer =
           geometry::area_vector(control.outer[k[0]], control.outer[k[1]], control.outer[k[2]]);
       const Vector3d inner =
           geometry::area_vector(control.inner[k[0]], control.inner[k[1]], control.inner[k[2]]);
+      folded = folded || inner.dot(outer) < 0;
       if (inner.dot(outer) < kLeastVolumeShare * outer.squaredNorm())
         for (int i = 0; i < 3; ++i) too_thick[k[i]] = 1;
     }
-    if (std::find(too_thick.begin(), too_thick.end(), 1) == too_thick.end()) return;
+    if (round == kMostRounds || std::find(too_thick.begin(), too_thick.end(), 1) == too_thick.end())
+      return !folded;
     for (std::size_t v = 0; v < too_thick.size(); ++v)
       if (too_thick[v]) control.inner[v] = control.outer[v] + kShrink * (control.inner[v] - control.outer[v]);
   }

@@ -10,8 +10,9 @@
 namespace tensegric_fit::control_mesh {
 
 /// Puts inner node i `thickness[i]` below outer node i along the control mesh's normal, less where the body
-/// is thin there or where an inner triangle would fold or shrink to a sliver.
-void place_inner_nodes(geometry::ControlMesh& control, std::vector<double> thickness, const Skin& skin);
+/// is thin there or where an inner triangle would fold or shrink to a sliver. False where some are folded all
+/// the same.
+bool place_inner_nodes(geometry::ControlMesh& control, std::vector<double> thickness, const Skin& skin);
 
 /// Of each node, m. \pre the control mesh has the rule's node and its mirror image
 std::vector<double> thickness_of(const CushionRule& rule, const geometry::ControlMesh& control);
@@ -21,7 +22,8 @@ std::vector<double> thickness_of(const CushionRule& rule, const geometry::Contro
 /// down where less than `least` would be left. Of the depth they take the rule's share, times `scale`.
 void place_on_bone(geometry::ControlMesh& control, const BoneRule& rule, double scale);
 
-/// Brings inner nodes nearer to their outer ones wherever an inner triangle is folded or a sliver.
-void thin_folded_units(geometry::ControlMesh& control);
+/// Brings inner nodes nearer to their outer ones wherever an inner triangle is folded or a sliver. False
+/// where one is folded even at 1.5 % of its thickness: its outer one is a needle.
+bool thin_folded_units(geometry::ControlMesh& control);
 
 }  // namespace tensegric_fit::control_mesh

@@ -4,6 +4,7 @@
 
 #include "control_mesh/grid.hpp"
 #include "control_mesh/template.hpp"
+#include "geometry/body_measures.hpp"
 #include "geometry/checked_yaml.hpp"
 
 namespace tensegric_fit::control_mesh {
@@ -16,6 +17,7 @@ using geometry::Refusal;
 using geometry::required;
 constexpr const char* kCode = geometry::refusal::kBadTemplate;
 constexpr int kMostRows = 100;
+constexpr int kMostRegions = 64, kMostLines = 1000, kMostStops = 1000;
 constexpr double kThinnestTissue = 0.001, kThickestTissue = 0.2;  // m
 constexpr double kLeastDepthShare = 0.1;                          // of the way to bone
 constexpr int kMostVertices = 1 << 16;                            // of a model file: its quads are uint16
@@ -30,29 +32,59 @@ int whole_number(const YAML::Node& map, const char* key, int low, int high, cons
   return required<int>(map, key, where, kCode);
 }
 
+/// A slip in a name would look like a landmark that is missing on every body.
+void check_landmark(const std::string& name, const std::string& key, const std::string& where) {
+  if (!geometry::is_landmark(name))
+    throw Refusal(kCode, where + ": '" + key + "' has '" + name + "', which is the name of no landmark");
+}
+
+std::string landmark_in(const YAML::Node& map, const char* key, const std::string& where) {
+  const auto name = required<std::string>(map, key, where, kCode);
+  check_landmark(name, key, where);
+  return name;
+}
+
+/// What levels and angles have in common.
 Reference reference_from(const YAML::Node& map, double most_offset, const std::string& where) {
-  check_keys(map, {"landmark", "between", "at", "offset", "below", "by"}, where, kCode);
   Reference reference;
   if (map["between"]) {
     const auto ends = required<std::vector<std::string>>(map, "between", where, kCode);
     if (ends.size() != 2 || map["landmark"])
       throw Refusal(kCode, where + ": give one 'landmark', or 'between' with two landmarks and 'at'");
+    for (const std::string& end : ends) check_landmark(end, "between", where);
     reference.landmark = ends[0];
     reference.towards = ends[1];
     reference.at = number_in(map, "at", -2, 3, where, kCode);
   } else {
-    reference.landmark = required<std::string>(map, "landmark", where, kCode);
+    reference.landmark = landmark_in(map, "landmark", where);
     if (map["at"]) throw Refusal(kCode, where + ": 'at' needs 'between'");
   }
   if (map["offset"]) reference.offset = number_in(map, "offset", -most_offset, most_offset, where, kCode);
-  if (map["below"]) reference.below = required<std::string>(map, "below", where, kCode);
-  if (map["below"] || map["by"]) reference.by = number_in(map, "by", 0, 0.5, where, kCode);
   return reference;
+}
+
+Reference level_from(const YAML::Node& map, const std::string& where) {
+  check_keys(map, {"landmark", "between", "at", "offset", "below", "by"}, where, kCode);
+  Reference level = reference_from(map, 0.5, where);
+  if (map["by"] && !map["below"]) throw Refusal(kCode, where + ": 'by' needs 'below'");
+  if (!map["below"]) return level;
+  level.below = landmark_in(map, "below", where);
+  level.by = number_in(map, "by", 0, 0.5, where, kCode);
+  return level;
+}
+
+Reference angle_from(const YAML::Node& map, bool on_middle, const std::string& where) {
+  check_keys(map, {"landmark", "between", "at", "offset"}, where, kCode);
+  Reference angle = reference_from(map, 180, where);
+  if (on_middle && angle.offset != 0)
+    throw Refusal(kCode, where + ": 'offset' goes to either side alike: none on the middle column");
+  return angle;
 }
 
 std::vector<std::string> axis_from(const YAML::Node& map, const std::string& where) {
   const auto axis = required<std::vector<std::string>>(map, "axis", where, kCode);
   if (axis.empty()) throw Refusal(kCode, where + ": 'axis' must name a landmark");
+  for (const std::string& landmark : axis) check_landmark(landmark, "axis", where);
   return axis;
 }
 
@@ -113,14 +145,14 @@ TemplateNode node_from(const YAML::Node& map, const Template& pattern, const std
       if (map[other]) throw Refusal(kCode, where + ": 'on_model' excludes '" + other + "'");
   } else if (map["landmark"]) {
     node.placing = TemplateNode::Placing::at_landmark;
-    node.landmark = required<std::string>(map, "landmark", where, kCode);
+    node.landmark = landmark_in(map, "landmark", where);
     if (map["level"] || map["angle"])
       throw Refusal(kCode, where + ": 'landmark' excludes 'level' and 'angle'");
   } else if (map["level"] || map["angle"]) {
     node.placing = TemplateNode::Placing::level_and_angle;
     if (!map["level"] || !map["angle"]) throw Refusal(kCode, where + ": 'level' and 'angle' go together");
-    node.level = reference_from(map["level"], 0.5, where + ", level");
-    node.angle = reference_from(map["angle"], 180, where + ", angle");
+    node.level = level_from(map["level"], where + ", level");
+    node.angle = angle_from(map["angle"], on_middle, where + ", angle");
   } else if (node.name.empty() && !map["or_on_model"]) {
     throw Refusal(kCode, where + ": neither a 'name' nor a place");
   }
@@ -205,25 +237,39 @@ TemplateRegion region_from(const YAML::Node& map, const Template& pattern, const
   return {required<std::string>(map, "name", where, kCode), rows[0], rows[1], columns[0], columns[1]};
 }
 
-YAML::Node list_of(const YAML::Node& root, const char* key, const std::string& path) {
+YAML::Node list_of(const YAML::Node& root, const char* key, int most, const std::string& path) {
   if (!root[key] || !root[key].IsSequence() || root[key].size() == 0)
     throw Refusal(kCode, path + ": '" + key + "' must be a list with something in it");
+  if (root[key].size() > static_cast<std::size_t>(most))
+    throw Refusal(kCode, path + ": '" + key + "' must have " + std::to_string(most) + " entries at most");
   return root[key];
 }
 
-/// The drawn half's nodes along a row (one row, all columns) or a column must hang together.
+/// Cells hang together along edges: one run of them in each row and each column, each row's over the next
+/// one's.
 void check_shape(const Template& pattern, const std::string& path) {
-  const auto check = [&](int first, int last, const auto& node_of) {
+  const int rows = pattern.rows - 1, columns = pattern.middle();
+  const auto drawn = [&](int row, int column) { return pattern.diagonals[row][column] != ' '; };
+  const auto one_run = [](int count, const auto& is_cell) {
     int runs = 0;
-    for (int i = first; i <= last; ++i)
-      if (node_of(i) >= 0 && (i == first || node_of(i - 1) < 0)) ++runs;
-    if (runs != 1)
-      throw Refusal(kCode, path + ": 'diagonals' must leave each row and each column one piece of cells");
+    for (int i = 0; i < count; ++i)
+      if (is_cell(i) && (i == 0 || !is_cell(i - 1))) ++runs;
+    return runs == 1;
   };
-  for (int row = 0; row < pattern.rows; ++row)
-    check(0, pattern.middle(), [&](int column) { return node_at(pattern, row, column, Side::left); });
-  for (int column = 0; column <= pattern.middle(); ++column)
-    check(0, pattern.rows - 1, [&](int row) { return node_at(pattern, row, column, Side::left); });
+  bool one_piece = true;
+  for (int column = 0; column < columns; ++column)
+    one_piece = one_piece && one_run(rows, [&](int row) { return drawn(row, column); });
+  for (int row = 0; row < rows; ++row) {
+    one_piece = one_piece && one_run(columns, [&](int column) { return drawn(row, column); });
+    bool meets_next = row + 1 == rows;
+    for (int column = 0; column < columns && !meets_next; ++column)
+      meets_next = drawn(row, column) && drawn(row + 1, column);
+    one_piece = one_piece && meets_next;
+  }
+  if (!one_piece)
+    throw Refusal(kCode, path +
+                             ": 'diagonals' must leave each row and each column one piece of cells, and each "
+                             "row an edge with the next one");
 }
 
 /// Every node must be reachable: each column has both ends placed, or in a row whose own ends are, and no
@@ -279,6 +325,9 @@ void check_lines(const Template& pattern, const std::string& path) {
   for (const TemplateLine& line : pattern.lines) {
     if (!lines.insert(line.name).second)
       throw Refusal(kCode, path + ": 'lines' has the name '" + line.name + "' twice");
+    if (line.through.size() > static_cast<std::size_t>(kMostStops))
+      throw Refusal(kCode, path + ": line '" + line.name + "' must have " + std::to_string(kMostStops) +
+                               " nodes in 'through' at most");
     if (line.through.size() < 2)
       throw Refusal(kCode, path + ": line '" + line.name + "' needs two nodes in 'through'");
     for (const std::string& stop : line.through)
@@ -311,7 +360,7 @@ Template load_template(const std::string& path) {
   Template pattern;
   pattern.name = required<std::string>(root, "name", path, kCode);
   pattern.axis = axis_from(root, path);
-  if (root["axis_foot"]) pattern.axis_foot = required<std::string>(root, "axis_foot", path, kCode);
+  if (root["axis_foot"]) pattern.axis_foot = landmark_in(root, "axis_foot", path);
   pattern.rows = whole_number(root, "rows", 2, kMostRows, path);
   pattern.columns = whole_number(root, "columns", 3, kMostRows, path);
   if (pattern.columns % 2 == 0)
@@ -320,7 +369,7 @@ Template load_template(const std::string& path) {
   pattern.diagonals = picture(root, "diagonals", pattern.rows - 1, pattern.middle(), "\\/ ", path);
   pattern.numbers = number_nodes(pattern);
   check_shape(pattern, path);
-  for (const YAML::Node& node : list_of(root, "nodes", path))
+  for (const YAML::Node& node : list_of(root, "nodes", kMostRows * kMostRows, path))
     pattern.nodes.push_back(
         node_from(node, pattern, path + ", node " + std::to_string(pattern.nodes.size() + 1)));
   check_nodes(pattern, path);
@@ -334,11 +383,11 @@ Template load_template(const std::string& path) {
     pattern.cushion = cushion_from(root["cushion"], pattern, path + ": cushion");
   else
     pattern.thickness = thickness_from(root, pattern, path);
-  for (const YAML::Node& region : list_of(root, "regions", path))
+  for (const YAML::Node& region : list_of(root, "regions", kMostRegions, path))
     pattern.regions.push_back(
         region_from(region, pattern, path + ", region " + std::to_string(pattern.regions.size() + 1)));
   check_regions(pattern, path);
-  for (const YAML::Node& line : list_of(root, "lines", path)) {
+  for (const YAML::Node& line : list_of(root, "lines", kMostLines, path)) {
     const std::string where = path + ", line " + std::to_string(pattern.lines.size() + 1);
     check_keys(line, {"name", "through"}, where, kCode);
     pattern.lines.push_back({required<std::string>(line, "name", where, kCode),

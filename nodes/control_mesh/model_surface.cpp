@@ -57,6 +57,13 @@ ModelSurface::Place ModelSurface::place(const std::vector<ModelPoint>& points, S
   return place;
 }
 
+void ModelSurface::check(const std::vector<ModelPoint>& points, const std::string& where) const {
+  for (const ModelPoint& point : points) {
+    vertices_of(point, Side::left, where);
+    if (!point.name.empty()) vertices_of(point, Side::right, where);  // a vertex has its mirror image
+  }
+}
+
 bool ModelSurface::on_breast(const Vector3d& point, const Vector3d& normal) const {
   const Eigen::Isometry3d scan_from_body = body_from_scan_.inverse();
   const int vertex = tree_.nearest(scan_from_body * point, scan_from_body.linear() * normal);

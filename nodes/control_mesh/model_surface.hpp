@@ -25,6 +25,9 @@ class ModelSurface {
   /// \throw Refusal bad_template: a vertex or a name that the model does not have; `where` is said first
   Place place(const std::vector<ModelPoint>& points, Side side, const std::string& where) const;
 
+  /// Of both sides. \throw Refusal as place
+  void check(const std::vector<ModelPoint>& points, const std::string& where) const;
+
   /// Is the skin there, which faces along `normal`, part of a breast?
   bool on_breast(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
 

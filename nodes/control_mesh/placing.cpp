@@ -125,8 +125,7 @@ class Placer {
   /// On the skin over or under the model's: along the model's normal, so that a fold's other side stays out.
   Vector3d on_model(const TemplateNode& node, const std::vector<ModelPoint>& points, Side first,
                     Side second) const {
-    const std::string where = "the template " + pattern_.name + ", row " + std::to_string(node.row) +
-                              ", column " + std::to_string(node.column);
+    const std::string where = where_of(pattern_, node);
     const ModelSurface::Place a = model_->place(points, first, where),
                               b = model_->place(points, second, where);
     const Vector3d middle = 0.5 * (a.point + b.point);

@@ -1,5 +1,7 @@
 #include "control_mesh/shape_control.hpp"
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <numeric>
 
 #include "control_mesh/inner_nodes.hpp"
@@ -14,6 +16,7 @@ namespace {
 using geometry::Refusal;
 constexpr const char* kBadShape = geometry::refusal::kBadTemplate;
 constexpr double kShapeThickness = 0.5;  // of the mean edge
+constexpr double kNoVolume = 1e-9;       // of its size cubed: a piece of less is flat, and has no inside
 
 Eigen::Vector3d point_at(const YAML::Node& map, const char* key, const std::string& where) {
   const auto xyz = geometry::required<std::vector<double>>(map, key, where, kBadShape);
@@ -28,12 +31,58 @@ double mean_edge(const geometry::TriangleMesh& mesh) {
   return sum / static_cast<double>(edges.size());
 }
 
+// How often a closed mesh goes round a point: its solid angle over that of a sphere (van Oosterom, Strackee
+// 1983). 1 inside, 0 outside.
+double turns_round(const geometry::TriangleMesh& mesh, const Eigen::Vector3d& point) {
+  double sum = 0;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    const Eigen::Vector3d a = mesh.vertices[t[0]] - point, b = mesh.vertices[t[1]] - point,
+                          c = mesh.vertices[t[2]] - point;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum / (2 * M_PI);
+}
+
+std::vector<geometry::TriangleMesh> closed_pieces(const geometry::TriangleMesh& mesh) {
+  std::vector<std::vector<int>> triangles;  // of each piece
+  const std::vector<int> piece_of = geometry::components_of(mesh);
+  for (std::size_t t = 0; t < piece_of.size(); ++t) {
+    const std::size_t piece = piece_of[t];
+    if (piece == triangles.size()) triangles.emplace_back();
+    triangles[piece].push_back(static_cast<int>(t));
+  }
+  std::vector<geometry::TriangleMesh> pieces;
+  for (const std::vector<int>& of_piece : triangles) {
+    geometry::TriangleMesh piece = geometry::submesh(mesh, of_piece);
+    if (geometry::is_closed(piece)) pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+bool has_negative_volume(const geometry::TriangleMesh& piece) {
+  const auto box = geometry::bounding_box(piece.vertices);
+  return geometry::cone_volume(piece.vertices, piece.triangles, piece.vertices.front()) <
+         -kNoVolume * std::pow((box[1] - box[0]).norm(), 3);
+}
+
 void check_outside(const geometry::TriangleMesh& mesh) {
   geometry::check_mesh(mesh);
   if (mesh.triangles.empty()) throw Refusal(geometry::refusal::kBadMesh, "the shape has no triangles");
   if (geometry::is_closed(mesh) && geometry::cone_volume(mesh.vertices, mesh.triangles) <= 0)
     throw Refusal(geometry::refusal::kBadMesh,
                   "the shape is inside out: its triangles must run counter-clockwise from outside");
+  const std::vector<geometry::TriangleMesh> pieces = closed_pieces(mesh);
+  for (const geometry::TriangleMesh& piece : pieces) {
+    if (!has_negative_volume(piece)) continue;
+    double turns = 0;
+    for (const geometry::TriangleMesh& other : pieces)
+      if (&other != &piece) turns += turns_round(other, piece.vertices.front());
+    if (turns < 0.5)
+      throw Refusal(geometry::refusal::kBadMesh,
+                    "a piece of the shape is inside out, and is no hollow of another one: its triangles must "
+                    "run counter-clockwise from outside");
+  }
 }
 
 // One region a piece. \throw Refusal bad_template: a piece that nothing holds
@@ -102,7 +151,10 @@ geometry::ControlMesh control_from_shape(const geometry::TriangleMesh& mesh, con
   add_regions(mesh, control);
   geometry::check_control_mesh(control);
   const double thickness = fixing.thickness > 0 ? fixing.thickness : kShapeThickness * mean_edge(mesh);
-  place_inner_nodes(control, std::vector<double>(count, thickness), Skin(mesh));
+  if (!place_inner_nodes(control, std::vector<double>(count, thickness), Skin(mesh)))
+    throw Refusal(kBadShape,
+                  "inner nodes cross each other below triangles of the control mesh that are narrow for its "
+                  "'thickness': make it less, or those triangles wider");
   return control;
 }
 

@@ -27,8 +27,9 @@ ShapeFixing load_shape_fixing(const std::string& path);
 
 /// The mesh itself as control mesh. Inner nodes lie below along the normal, less deep where the shape is
 /// thin, so that they never come out on its other side. One volume region a piece, "shape", "shape_2" and so
-/// on: a piece does not pay for another's volume. \throw Refusal bad_mesh; bad_template: a fixed node that
-/// the mesh does not have, a piece with fewer than three fixed nodes
+/// on: a piece does not pay for another's volume. \throw Refusal bad_mesh, also for a piece that is inside
+/// out and no hollow of another one; bad_template: a fixed node that the mesh does not have, a piece with
+/// fewer than three fixed nodes, units that stay folded however thin they are made
 geometry::ControlMesh control_from_shape(const geometry::TriangleMesh& mesh, const ShapeFixing& fixing);
 
 /// The same for the shape simplified to `triangles` triangles (P1 Fig. 3 b). \throw Refusal as above;

@@ -15,6 +15,8 @@ namespace {
 using Eigen::Vector3d;
 constexpr double kCell = 0.02;                     // m; a few body triangles (about 7 mm) a cell
 constexpr int kLeastCells = 20, kMostCells = 200;  // along the longest axis, whatever the mesh's size
+// Cells of the grid, and triangles in cells, at most; bodies have fewer. Else cells are wider.
+constexpr double kLeastRoom = 1 << 18, kRoomPerTriangle = 8, kWider = 1.25;
 constexpr double kOnEdge = 1e-9;  // barycentric: a ray in the plane of symmetry runs exactly along edges
 constexpr double kOnLoop = 1e-6;  // m; a point of the skin lies on a section through it
 constexpr double kAside = 0.06;   // m; how far the way between two nodes swings out of their box
@@ -78,23 +80,52 @@ Skin::Skin(geometry::TriangleMesh surface)
     : surface_(std::move(surface)),
       normals_(geometry::vertex_normals(surface_.vertices, surface_.triangles)),
       tree_(surface_) {
-  const auto box = geometry::bounding_box(surface_.vertices);
-  corner_ = box[0];
-  const double size = (box[1] - box[0]).maxCoeff();
+  // Of its triangles alone: a vertex of none may lie anywhere.
+  Vector3d low = Vector3d::Constant(kFar), high = -low;
+  for (const Eigen::Vector3i& k : surface_.triangles)
+    for (int i = 0; i < 3; ++i) {
+      low = low.cwiseMin(surface_.vertices[k[i]]);
+      high = high.cwiseMax(surface_.vertices[k[i]]);
+    }
+  corner_ = low;
+  const double size = (high - low).maxCoeff();
   if (!(size > 0)) throw geometry::Refusal(geometry::refusal::kBadMesh, "the surface has no extent");
   cell_ = std::clamp(kCell, size / kMostCells, size / kLeastCells);
-  cells_ = ((box[1] - box[0]) / cell_).array().floor().cast<int>() + 1;
-  triangles_in_.resize(static_cast<std::size_t>(cells_.x()) * cells_.y() * cells_.z());
-  for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
-    const Eigen::Vector3i& k = surface_.triangles[t];
-    const Vector3d &a = surface_.vertices[k[0]], &b = surface_.vertices[k[1]], &c = surface_.vertices[k[2]];
-    const Eigen::Vector3i low = cell_of(a.cwiseMin(b).cwiseMin(c)), high = cell_of(a.cwiseMax(b).cwiseMax(c));
-    for (int z = low.z(); z <= high.z(); ++z)
-      for (int y = low.y(); y <= high.y(); ++y)
-        for (int x = low.x(); x <= high.x(); ++x)
-          triangles_in_[(static_cast<std::size_t>(z) * cells_.y() + y) * cells_.x() + x].push_back(
-              static_cast<int>(t));
+  const auto divide = [&] { cells_ = ((high - low) / cell_).array().floor().cast<int>() + 1; };
+  for (divide(); !has_room(); divide()) cell_ *= kWider;
+
+  // Twice over all triangles and the cells that they touch: first to count, then to fill.
+  const auto for_all = [&](const auto& visit) {
+    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+      const auto [first, last] = cells_of(surface_.triangles[t]);
+      for (int z = first.z(); z <= last.z(); ++z)
+        for (int y = first.y(); y <= last.y(); ++y)
+          for (int x = first.x(); x <= last.x(); ++x) visit(static_cast<int>(t), number(x, y, z));
+    }
+  };
+  starts_.assign(static_cast<std::size_t>(cells_.prod()) + 1, 0);
+  for_all([&](int, int cell) { ++starts_[cell + 1]; });
+  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+  entries_.resize(static_cast<std::size_t>(starts_.back()));
+  std::vector<int> filled(starts_.begin(), starts_.end() - 1);
+  for_all([&](int t, int cell) { entries_[filled[cell]++] = t; });
+}
+
+bool Skin::has_room() const {
+  const double room = std::max(kLeastRoom, kRoomPerTriangle * static_cast<double>(surface_.triangles.size()));
+  if (cells_.cast<double>().prod() > room) return false;
+  double entries = 0;
+  for (std::size_t t = 0; t < surface_.triangles.size() && entries <= room; ++t) {
+    const auto [first, last] = cells_of(surface_.triangles[t]);
+    entries += ((last - first).array() + 1).cast<double>().prod();
   }
+  return entries <= room;
+}
+
+std::array<Eigen::Vector3i, 2> Skin::cells_of(const Eigen::Vector3i& triangle) const {
+  const Vector3d &a = surface_.vertices[triangle[0]], &b = surface_.vertices[triangle[1]],
+                 &c = surface_.vertices[triangle[2]];
+  return {cell_of(a.cwiseMin(b).cwiseMin(c)), cell_of(a.cwiseMax(b).cwiseMax(c))};
 }
 
 Eigen::Vector3i Skin::cell_of(const Vector3d& point) const {
@@ -108,18 +139,12 @@ std::vector<int> Skin::triangles_near(const Vector3d& low, const Vector3d& high)
   for (int z = first.z(); z <= last.z(); ++z)
     for (int y = first.y(); y <= last.y(); ++y)
       for (int x = first.x(); x <= last.x(); ++x) {
-        const auto& here = triangles_in_[(static_cast<std::size_t>(z) * cells_.y() + y) * cells_.x() + x];
-        found.insert(found.end(), here.begin(), here.end());
+        const int cell = number(x, y, z);
+        found.insert(found.end(), entries_.begin() + starts_[cell], entries_.begin() + starts_[cell + 1]);
       }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
-}
-
-geometry::TriangleMesh Skin::part_near(const Vector3d& low, const Vector3d& high) const {
-  std::vector<char> keep(surface_.triangles.size(), 0);
-  for (int t : triangles_near(low, high)) keep[t] = 1;
-  return geometry::submesh(surface_, keep);
 }
 
 std::optional<Vector3d> Skin::first_exit(const Vector3d& from, const Vector3d& direction,
@@ -169,8 +194,8 @@ std::vector<Vector3d> Skin::between(const Vector3d& a, const Vector3d& b, int co
                  normal = across - across.dot(way_straight) * way_straight;
   std::vector<Vector3d> way;
   if (normal.norm() > 0) {
-    const geometry::TriangleMesh part =
-        part_near(a.cwiseMin(b).array() - kAside, a.cwiseMax(b).array() + kAside);
+    const geometry::TriangleMesh part = geometry::submesh(
+        surface_, triangles_near(a.cwiseMin(b).array() - kAside, a.cwiseMax(b).array() + kAside));
     for (const geometry::SectionLoop& loop : geometry::plane_section(part, a, normal.normalized())) {
       const PlaceOnLoop at_a = place_on(loop, a), at_b = place_on(loop, b);
       if (at_a.distance > kOnLoop || at_b.distance > kOnLoop) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -41,8 +42,11 @@ class Skin {
  private:
   /// Triangles whose cells touch the box, ascending.
   std::vector<int> triangles_near(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
-  geometry::TriangleMesh part_near(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
   Eigen::Vector3i cell_of(const Eigen::Vector3d& point) const;
+  /// First and last cell of the box round a triangle.
+  std::array<Eigen::Vector3i, 2> cells_of(const Eigen::Vector3i& triangle) const;
+  int number(int x, int y, int z) const { return (z * cells_.y() + y) * cells_.x() + x; }
+  bool has_room() const;  ///< are there few enough cells, and triangles in them?
 
   geometry::TriangleMesh surface_;
   std::vector<Eigen::Vector3d> normals_;  // of its vertices
@@ -50,7 +54,8 @@ class Skin {
   Eigen::Vector3d corner_;
   double cell_;  // m
   Eigen::Vector3i cells_;
-  std::vector<std::vector<int>> triangles_in_;
+  std::vector<int> starts_;  // of cell i: entries_[starts_[i]] to entries_[starts_[i + 1]]
+  std::vector<int> entries_;
 };
 
 }  // namespace tensegric_fit::control_mesh

@@ -97,20 +97,31 @@ std::optional<CorrelationHandler::Input> CorrelationHandler::input() const {
   return Input{*fit_, *worn_};
 }
 
+CorrelationHandler::WornBody CorrelationHandler::measured(const Worn& worn) const {
+  try {
+    return {worn.tag.scan_id, measure_(cloud_in(*worn.points)), std::nullopt};
+  } catch (const geometry::Refusal& refusal) {
+    if (refusal.code() == geometry::refusal::kSurfaceFailed) throw;  // the machine's fault: may go next time
+    return {worn.tag.scan_id, {}, refusal};
+  }
+}
+
 CorrelationHandler::Output CorrelationHandler::handle(const Input& input) {
   const auto& [deformed, body, landmarks, control] = input.fit;
   if (!body_ || body_->scan_id != input.worn.tag.scan_id) {
     body_.reset();
-    body_ = {input.worn.tag.scan_id, measure_(cloud_in(*input.worn.points))};
+    body_ = measured(input.worn);
   }
+  if (body_->refused) throw geometry::Refusal(*body_->refused);
   const MeasuredScan& worn = body_->scan;
   const geometry::TriangleMesh rest = mesh_in(*body);
+  const std::vector<char> filled = filled_in(*body);
   const geometry::ControlMesh outer = control_in(*control);
   const geometry::BodyMeasures measures = measures_in(*landmarks);
   const std::vector<Eigen::Vector3d> vertices = points_in(deformed->vertices);
   const geometry::TriangleMesh nodes{outer.outer, outer.triangles};
   const correlation::Correlation result = correlation::correlate(
-      {rest, vertices, nodes, measures}, {worn.mesh, worn.filled, worn.measures}, options_);
+      {rest, vertices, nodes, measures, filled}, {worn.mesh, worn.filled, worn.measures}, options_);
 
   Output output;
   output.correlation = to_message(*deformed, body_->scan_id, options_.thickness, result);

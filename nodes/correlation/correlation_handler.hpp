@@ -17,6 +17,7 @@
 #include "correlation/correlate.hpp"
 #include "geometry/body_measures.hpp"
 #include "geometry/point_cloud.hpp"
+#include "geometry/status.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "ros/facts.hpp"
 #include "ros/parameters.hpp"
@@ -76,7 +77,8 @@ class CorrelationHandler {
     Facts facts;
     std::string warning;  ///< empty where there is nothing to be said
   };
-  /// For one thread, which need not be that of add(). \throw Refusal as MeasureScan and correlate
+  /// For one thread, which need not be that of add(). \throw Refusal as MeasureScan, which is not asked again
+  /// about a scan that it refused, and correlate
   Output handle(const Input& input);
 
  private:
@@ -95,7 +97,9 @@ class CorrelationHandler {
   struct WornBody {
     std::string scan_id;
     MeasuredScan scan;
+    std::optional<geometry::Refusal> refused;  // in place of the scan
   };
+  WornBody measured(const Worn& worn) const;
   std::optional<WornBody> body_;  // of the newest worn scan; for the thread of handle()
 };
 

@@ -46,7 +46,7 @@ DistanceMap distance_map(const SimulatedBody& body, const std::vector<SkinPart>&
   DistanceMap map{std::vector<double>(parts.size(), 0.0), std::vector<char>(parts.size(), 0)};
   geometry::parallel_for(parts.size(), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t v = begin; v < end; ++v) {
-      if (parts[v] == SkinPart::mobile) continue;
+      if (parts[v] == SkinPart::mobile || !body.is_seen(v)) continue;
       const double out = parts[v] == SkinPart::covered ? thickness : 0;
       const Vector3d from = worn_from_simulated * Vector3d(body.deformed[v] + out * normals[v]);
       const SeenSurface::Place place = worn.nearest(from);

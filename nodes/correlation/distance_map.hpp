@@ -12,7 +12,8 @@ namespace tensegric_fit::correlation {
 /// One value per vertex of the simulated body.
 struct DistanceMap {
   std::vector<double> distance;  ///< m; positive: the worn surface lies outside; 0 where nothing is compared
-  std::vector<char> compared;    ///< 0: a mobile part, or the worn scan saw no skin there that faces alike
+  /// 0: a mobile part, or either scan saw no skin there, or the worn one none that faces alike
+  std::vector<char> compared;
 };
 
 inline constexpr double kFarthest = 0.10;  ///< m; what lies farther off is another part of the body

@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+#include "correlation/find_measure.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::correlation {
@@ -71,10 +72,11 @@ std::optional<double> residual_of(const Alignment& alignment) {
 // The lesser of the two girths; 0 where neither was measured on both.
 double growth_of(const BodyMeasures& body, const BodyMeasures& worn) {
   std::vector<double> growth;
-  for (const char* name : {"underbust", "waist"})
-    for (const geometry::Measure& before : body.girths)
-      for (const geometry::Measure& after : worn.girths)
-        if (before.name == name && after.name == name) growth.push_back(after.metres - before.metres);
+  for (const char* name : {"underbust", "waist"}) {
+    const geometry::Measure *before = find_measure(body.girths, name),
+                            *after = find_measure(worn.girths, name);
+    if (before != nullptr && after != nullptr) growth.push_back(after->metres - before->metres);
+  }
   return growth.empty() ? 0 : *std::min_element(growth.begin(), growth.end());
 }
 
@@ -112,7 +114,12 @@ Likeness likeness_of(const SimulatedBody& body, const std::vector<SkinPart>& par
 
   Likeness likeness;
   likeness.still = alignment.residual;
-  likeness.stature = worn.measures.height("stature") - body.measures.height("stature");
+  const geometry::Measure *before = find_measure(body.measures.heights, "stature"),
+                          *after = find_measure(worn.measures.heights, "stature");
+  if (before != nullptr && after != nullptr) {
+    likeness.stature = after->metres - before->metres;
+    likeness.stature_half_width = std::hypot(before->half_width, after->half_width);
+  }
   likeness.chest = residual_of(chest);
   likeness.pelvis = residual_of(pelvis);
   if (left && right) likeness.shanks = std::max(*left, *right);
@@ -131,7 +138,9 @@ void check_same(const Likeness& likeness) {
   if (!likeness.chest && !likeness.pelvis)
     throw Refusal(refusal::kTooFewData,
                   "neither chest nor pelvis shows enough skin beside the garment to recognise the body");
-  const bool as_tall = std::abs(likeness.stature) <= kSameStature;
+  // Over a cropped face or hidden feet the model guesses it; unknown counts as alike.
+  const double same_stature = std::max(kSameStature, likeness.stature_half_width);
+  const bool as_tall = !(std::abs(likeness.stature) > same_stature);
   if (as_tall && likeness.shanks && *likeness.shanks <= kSameShank && likeness.growth >= kCoat)
     throw Refusal(
         refusal::kCoatOn,
@@ -158,7 +167,7 @@ void check_same(const Likeness& likeness) {
         refusal::kOtherPerson,
         fmt::format("her stature is {:+.0f} mm off, more than {:.0f} mm: the worn scan is of somebody "
                     "else",
-                    1e3 * likeness.stature, 1e3 * kSameStature));
+                    1e3 * likeness.stature, 1e3 * same_stature));
   if (likeness.still > kSameStill)
     throw Refusal(
         refusal::kOtherPerson,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -21,8 +22,10 @@ struct WornBody {
 /// What ought to be the same in both scans. Pieces (see Pieces) are each aligned by themselves; nothing where
 /// too little of one can be seen, or a landmark was not found.
 struct Likeness {
-  double still = 0;                             ///< m; Alignment::residual of all still skin
-  double stature = 0;                           ///< m; worn less simulated
+  double still = 0;  ///< m; Alignment::residual of all still skin
+  /// m; worn less simulated; NaN where either was not found
+  double stature = std::numeric_limits<double>::quiet_NaN();
+  double stature_half_width = 0;                ///< m, of that difference, 95 %
   std::optional<double> chest, pelvis, shanks;  ///< m; residuals of the pieces, of the worse shank
   std::optional<double> bend;                   ///< radians that the chest has turned against the pelvis
   std::optional<double> left_arm, right_arm;    ///< radians that an upper arm points another way
@@ -34,7 +37,7 @@ struct Likeness {
 inline constexpr double kSamePiece = 0.003;    ///< m
 inline constexpr double kSameShank = 0.0015;   ///< m
 inline constexpr double kSameStill = 0.004;    ///< m
-inline constexpr double kSameStature = 0.020;  ///< m
+inline constexpr double kSameStature = 0.020;  ///< m; its half-width where that is more
 inline constexpr double kSameBend = 4 * 3.14159265358979323846 / 180;
 inline constexpr double kSameArm = 15 * 3.14159265358979323846 / 180;
 inline constexpr double kCoat = 0.05;  ///< m of girth: 8 mm of cloth all round

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include "correlation/find_measure.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
 #include "geometry/surface_tree.hpp"
@@ -79,6 +81,12 @@ struct Trunk {
   double left, right, low, high;
 };
 
+// NaN where it was not found: no skin lies above it, and none below.
+double level_in(const geometry::BodyMeasures& measures, const char* name) {
+  const geometry::Measure* level = find_measure(measures.heights, name);
+  return level == nullptr ? std::numeric_limits<double>::quiet_NaN() : level->metres;
+}
+
 }  // namespace
 
 void check(const SimulatedBody& body) {
@@ -93,6 +101,9 @@ void check(const SimulatedBody& body) {
                     body.rest.vertices.size(), body.deformed.size()));
   if (!std::all_of(body.deformed.begin(), body.deformed.end(), [](const auto& p) { return p.allFinite(); }))
     throw geometry::Refusal(geometry::refusal::kNonFinite, "the deformed body is not finite everywhere");
+  if (!body.filled.empty() && body.filled.size() != body.rest.vertices.size())
+    throw geometry::Refusal(geometry::refusal::kBadMesh,
+                            "filled holes of the body before need one flag per vertex");
 }
 
 std::vector<SkinPart> parts_of(const SimulatedBody& body) {
@@ -111,8 +122,12 @@ std::vector<SkinPart> parts_of(const SimulatedBody& body) {
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     if (covered[v] != 0)
       parts[v] = SkinPart::covered;
-    else if (trunk.holds(body.measures.body_from_scan * vertices[v]))
-      parts[v] = near.distance(vertices[v]) < kSurroundings ? SkinPart::surroundings : SkinPart::still;
+    else if (!trunk.holds(body.measures.body_from_scan * vertices[v]))
+      continue;
+    else if (near.distance(vertices[v]) < kSurroundings)
+      parts[v] = SkinPart::surroundings;
+    else if (body.is_seen(v))
+      parts[v] = SkinPart::still;
   }
   return parts;
 }
@@ -120,11 +135,11 @@ std::vector<SkinPart> parts_of(const SimulatedBody& body) {
 Pieces pieces_of(const SimulatedBody& body, const std::vector<SkinPart>& parts) {
   const geometry::BodyMeasures& measures = body.measures;
   const Trunk trunk(measures);
-  const double crotch = measures.height("crotch"), underbust = measures.height("underbust"),
-               hip = measures.height("hip");
+  const double crotch = measures.height("crotch"), underbust = level_in(measures, "underbust"),
+               hip = level_in(measures, "hip");
   Pieces pieces;
   for (std::size_t v = 0; v < parts.size(); ++v) {
-    if (parts[v] == SkinPart::covered || parts[v] == SkinPart::surroundings) continue;
+    if (parts[v] == SkinPart::covered || parts[v] == SkinPart::surroundings || !body.is_seen(v)) continue;
     const Vector3d p = measures.body_from_scan * body.rest.vertices[v];
     const int vertex = static_cast<int>(v);
     const bool inwards = p.y() < trunk.left && p.y() > trunk.right;

@@ -3,6 +3,7 @@
 #include <future>
 
 #include "body_model/registration.hpp"
+#include "control_mesh/grid.hpp"
 #include "control_mesh/shape_control.hpp"
 #include "fit/tissue_file.hpp"
 #include "geometry/ply.hpp"
@@ -104,6 +105,7 @@ class Computation {
     for (const std::string& region : garment.regions)
       templates_.push_back(
           control_mesh::load_template(geometry::yaml_file(folder, region, geometry::refusal::kBadGarment)));
+    control_mesh::check_together(templates_);
   }
 
   // In the unit and axes of the mesh.

@@ -16,6 +16,10 @@ std::string why_missing(const std::vector<Missing>& missing, const std::string& 
 
 }  // namespace
 
+bool is_landmark(const std::string& name) {
+  return std::find(kLandmarkNames.begin(), kLandmarkNames.end(), name) != kLandmarkNames.end();
+}
+
 const Landmark* BodyMeasures::find_landmark(const std::string& name) const {
   const auto found =
       std::find_if(landmarks.begin(), landmarks.end(), [&name](const Landmark& l) { return l.name == name; });

@@ -2,15 +2,24 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <string>
 #include <vector>
 
 namespace tensegric_fit::geometry {
 
+/// Names of all landmarks that a body may have.
+inline constexpr std::array kLandmarkNames{
+    "bust_point_L", "bust_point_R", "underbust_L",  "underbust_R", "shoulder_L",     "shoulder_R",
+    "neck_front",   "neck_back",    "neck_side_L",  "neck_side_R", "axilla_L",       "axilla_R",
+    "crotch",       "navel",        "buttock_L",    "buttock_R",   "gluteal_fold_L", "gluteal_fold_R",
+    "hip_side_L",   "hip_side_R",   "waist_side_L", "waist_side_R"};
+
+/// Is it one of kLandmarkNames?
+bool is_landmark(const std::string& name);
+
 /// A point on the body, in the scan's frame, metres. Confidence 0 to 1; `reason` says why when it is below
-/// 0.5. Names: bust_point_L, bust_point_R, underbust_L, underbust_R, shoulder_L, shoulder_R, neck_front,
-/// neck_back, neck_side_L, neck_side_R, axilla_L, axilla_R, crotch, navel, buttock_L, buttock_R,
-/// gluteal_fold_L, gluteal_fold_R, hip_side_L, hip_side_R, waist_side_L, waist_side_R.
+/// 0.5. Its name is one of kLandmarkNames.
 struct Landmark {
   std::string name;
   Eigen::Vector3d position;

@@ -1,8 +1,11 @@
 #include "geometry/checked_yaml.hpp"
 
+#include <yaml-cpp/eventhandler.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <string_view>
 
@@ -31,6 +34,32 @@ class NodeCount {
   int count_ = 0;
 };
 
+/// Reads over a document.
+struct PassedOver : YAML::EventHandler {
+  using Mark = YAML::Mark;
+  using Anchor = YAML::anchor_t;
+  using Style = YAML::EmitterStyle::value;
+
+  void OnDocumentStart(const Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const Mark&, Anchor) override {}
+  void OnAlias(const Mark&, Anchor) override {}
+  void OnScalar(const Mark&, const std::string&, Anchor, const std::string&) override {}
+  void OnSequenceStart(const Mark&, const std::string&, Anchor, Style) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const Mark&, const std::string&, Anchor, Style) override {}
+  void OnMapEnd() override {}
+};
+
+/// Is there anything behind the first document? LoadFile does not look, and LoadAllFromFile may never end: of
+/// "{a: 1}," it makes one document after the other.
+bool goes_on(const std::string& path) {
+  std::ifstream file(path);
+  YAML::Parser parser(file);
+  PassedOver first, second;
+  return parser.HandleNextDocument(first) && parser.HandleNextDocument(second);
+}
+
 }  // namespace
 
 YAML::Node load_yaml_map(const std::string& path, const std::string& code) {
@@ -43,6 +72,7 @@ YAML::Node load_yaml_map(const std::string& path, const std::string& code) {
     root = YAML::LoadFile(path);
     if (NodeCount().is_too_much(root))
       throw Refusal(code, path + ": has more than a million entries, or is nested too deeply");
+    if (goes_on(path)) throw Refusal(code, path + ": has a second YAML document, which nothing reads");
   } catch (const YAML::BadFile&) {
     throw Refusal(code, path + ": cannot be read");
   } catch (const YAML::Exception& error) {

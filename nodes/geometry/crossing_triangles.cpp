@@ -16,6 +16,8 @@ using Eigen::Array3i;
 using Eigen::Vector3d;
 
 constexpr double kMostCells = 8;  // of a grid, per triangle in it: cells that are mostly empty take time, too
+// Of triangles in cells: a few that are much larger than the others would each lie in most cells.
+constexpr double kMostEntries = 16;
 
 // Six times the volume of the tetrahedron, positive where d is on the side that sees a, b, c
 // counter-clockwise.
@@ -70,8 +72,11 @@ class Grid {
     const Array3d extent = whole_.high - whole_.low;
     const double most = kMostCells * count;
     cell_ = std::max({size / count, extent.maxCoeff() / most, std::numeric_limits<double>::min()});
-    while (((extent / cell_).floor() + 1).prod() > most) cell_ *= 1.5;  // ends at one cell at the latest
-    counts_ = (extent / cell_).floor().cast<int>() + 1;
+    const auto divide = [&] {
+      while (((extent / cell_).floor() + 1).prod() > most) cell_ *= 1.5;  // ends at one cell at the latest
+      counts_ = (extent / cell_).floor().cast<int>() + 1;
+    };
+    for (divide(); has_more_entries(boxes, is_looked_at, kMostEntries * count); divide()) cell_ *= 1.5;
     starts_.assign(static_cast<std::size_t>(counts_.prod()) + 1, 0);
     // Twice over all boxes: first to count, then to fill.
     const auto for_all = [&](const auto& visit) {
@@ -110,6 +115,15 @@ class Grid {
     return ((point - whole_.low) / cell_).floor().max(0.0).min((counts_ - 1).cast<double>()).cast<int>();
   }
   int number(const Array3i& at) const { return (at[2] * counts_[1] + at[1]) * counts_[0] + at[0]; }
+
+  bool has_more_entries(const std::vector<Box>& boxes, const std::vector<char>& is_looked_at,
+                        double most) const {
+    double entries = 0;
+    for (std::size_t i = 0; i < boxes.size() && entries <= most; ++i)
+      if (is_looked_at[i])
+        entries += (at_cell(boxes[i].high) - at_cell(boxes[i].low) + 1).cast<double>().prod();
+    return entries > most;
+  }
 
   template <typename Visit>
   void for_cells(const Box& box, const Visit& visit) const {

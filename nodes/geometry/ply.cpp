@@ -29,7 +29,7 @@ void read_ply(const std::string& path, pcl::PolygonMesh& mesh) {
   if (result < 0) throw Refusal(refusal::kBrokenFile, path + ": is truncated or is not a PLY file");
 }
 
-TriangleMesh read_ply_mesh(const std::string& path) {
+TriangleMesh read_ply_faces(const std::string& path) {
   pcl::PolygonMesh file;
   read_ply(path, file);
   TriangleMesh mesh;
@@ -39,6 +39,11 @@ TriangleMesh read_ply_mesh(const std::string& path) {
     for (std::size_t k = 2; k < v.size(); ++k)
       mesh.triangles.emplace_back(static_cast<int>(v[0]), static_cast<int>(v[k - 1]), static_cast<int>(v[k]));
   }
+  return mesh;
+}
+
+TriangleMesh read_ply_mesh(const std::string& path) {
+  TriangleMesh mesh = read_ply_faces(path);
   if (mesh.vertices.empty() || mesh.triangles.empty())
     throw Refusal(refusal::kBadMesh, path + ": has no triangles");
   check_mesh(mesh);

@@ -19,8 +19,11 @@ namespace tensegric_fit::geometry {
 /// \throw Refusal broken_file: does not exist, truncated, not PLY
 void read_ply(const std::string& path, pcl::PolygonMesh& mesh);
 
-/// Reads a mesh; faces with more than three corners are fanned. \throw Refusal broken_file, wrong_fields,
-/// bad_mesh
+/// Reads a mesh as it is in the file, unchecked; faces with more than three corners are fanned.
+/// \throw Refusal broken_file, wrong_fields
+TriangleMesh read_ply_faces(const std::string& path);
+
+/// The same, checked. \throw Refusal broken_file, wrong_fields, bad_mesh (no triangles), as check_mesh()
 TriangleMesh read_ply_mesh(const std::string& path);
 
 /// Bodies are written as float32; control meshes as float64, since numerical accuracy is checked on them.

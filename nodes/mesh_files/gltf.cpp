@@ -1,10 +1,12 @@
 // GLB and glTF 2.0: positions and indices of the scene's meshes. Every length is checked against the bytes
 // that are there.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <string_view>
 
@@ -184,9 +186,13 @@ class Reader {
       throw broken("its nodes contain each other or are too many");
     const Json& node = at(array("nodes"), i);
     const Eigen::Affine3d place = parent * placed(node);
-    if (node.contains("mesh") && !is_mark(node))
-      for (const Json& primitive : list(at(array("meshes"), number(node, "mesh")), "primitives"))
+    if (node.contains("mesh") && !is_mark(node)) {
+      const Json& shape = at(array("meshes"), number(node, "mesh"));
+      for (const Json& primitive : list(shape, "primitives")) {
+        check_is_shown(node, shape, primitive);
         add_primitive(primitive, place);
+      }
+    }
     for (const Json& child : list(node, "children")) add_node(index(child), place, depth + 1);
   }
 
@@ -194,6 +200,19 @@ class Reader {
   static bool is_mark(const Json& node) {
     const auto extras = node.find("extras");
     return extras != node.end() && extras->is_object() && extras->value("surface", Json(true)) == Json(false);
+  }
+
+  // A skeleton or weights make another shape of the saved one, and only renderers work out which. That some
+  // skeletons leave it as it is would have to be worked out, too.
+  void check_is_shown(const Json& node, const Json& shape, const Json& primitive) const {
+    const auto attributes = primitive.find("attributes");
+    if (node.contains("skin") && attributes != primitive.end() && attributes->contains("JOINTS_0"))
+      throw broken("is posed by a skeleton: save the posed shape itself");
+    const Json& own = list(node, "weights");
+    const Json& weights = own.empty() ? list(shape, "weights") : own;
+    const auto has_effect = [](const Json& weight) { return weight != Json(0); };
+    if (primitive.contains("targets") && std::any_of(weights.begin(), weights.end(), has_effect))
+      throw broken("is shaped by morph targets: save the shape itself");
   }
 
   void add_primitive(const Json& primitive, const Eigen::Affine3d& place) {
@@ -212,20 +231,29 @@ class Reader {
       std::memcpy(p.data(), points.first + v * points.stride, sizeof(float) * 3);
       mesh_.vertices.emplace_back(place * p.cast<double>());
     }
-    add_triangles(corners_of(primitive, points.count), static_cast<int>(mode), first,
+    add_triangles(corners_of(primitive, points.count, mode), static_cast<int>(mode), first,
                   place.linear().determinant() < 0);
   }
 
-  std::vector<int> corners_of(const Json& primitive, std::size_t points) const {
+  // A strip or a fan has nearly as many triangles as corners.
+  void check_triangles(std::size_t corners, std::size_t mode) const {
+    const std::size_t triangles = mode == kTriangles ? corners / 3 : std::max<std::size_t>(corners, 2) - 2;
+    check_count(0, mesh_.triangles.size() + triangles, path_);
+  }
+
+  std::vector<int> corners_of(const Json& primitive, std::size_t points, std::size_t mode) const {
     std::vector<int> corners;
     if (!primitive.contains("indices")) {
-      for (std::size_t v = 0; v < points; ++v) corners.push_back(static_cast<int>(v));
+      check_triangles(points, mode);
+      corners.resize(points);
+      std::iota(corners.begin(), corners.end(), 0);
       return corners;
     }
     const Accessor indices = accessor(number(primitive, "indices"), "SCALAR");
     const std::size_t size = indices.component == kByte ? 1 : indices.component == kShort ? 2 : 4;
     if (size == 4 && indices.component != kInt) throw broken("its indices are no whole numbers");
-    check_count(0, indices.count / 3, path_);
+    check_triangles(indices.count, mode);
+    corners.reserve(indices.count);
     for (std::size_t i = 0; i < indices.count; ++i) {
       std::uint32_t corner = 0;  // little-endian, as the format and this machine are
       std::memcpy(&corner, indices.first + i * indices.stride, size);
@@ -244,7 +272,6 @@ class Reader {
       if (mirrored != (mode == kStrip && i % 2 == 1)) std::swap(t[1], t[2]);
       mesh_.triangles.emplace_back(t.array() + first);
     }
-    check_count(0, mesh_.triangles.size(), path_);
   }
 
   static constexpr int kMostVisits = 100'000;

@@ -100,9 +100,46 @@ Json json_of(const std::optional<double>& value, const std::optional<Loop>& loop
   return entry;
 }
 
-std::optional<double> vit_value(const MeasureEntry& entry, bool worn) {
-  if (!entry.is_girth && entry.before.name == "neck") return worn ? entry.back_worn : entry.back;
-  return worn ? entry.worn : entry.before.metres;
+/// As .vit has it, before or under the garment.
+std::optional<geometry::Measure> vit_measure(const MeasureEntry& entry, bool worn) {
+  const bool is_back = !entry.is_girth && entry.before.name == "neck";
+  std::optional<geometry::Measure> measure = entry.before;
+  if (is_back) measure = entry.back;
+  if (!measure || !worn) return measure;
+  const std::optional<double>& after = is_back ? entry.back_worn : entry.worn;
+  if (!after) return std::nullopt;
+  measure->metres = *after;
+  return measure;
+}
+
+/// Why not to rely on a figure; "" where it is sure.
+std::string doubt_of(const geometry::Measure& measure) {
+  constexpr double kUnsure = 0.5;  // confidences below come with a reason
+  if (measure.confidence >= kUnsure) return "";
+  std::string text =
+      measure.half_width > 0 ? fmt::format("+- {} mm", std::lround(1000 * measure.half_width)) : "";
+  if (!measure.reason.empty()) text += (text.empty() ? "" : ", ") + measure.reason;
+  return text.empty() ? "unsure" : "unsure: " + text;
+}
+
+/// Text that may come from any publisher as XML: by way of JSON, which replaces what is no UTF-8.
+std::string in_xml(const std::string& text) {
+  const std::string utf8 =
+      Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+  std::string xml;
+  for (const char c : utf8) {
+    if (c == '&')
+      xml += "&amp;";
+    else if (c == '<')
+      xml += "&lt;";
+    else if (c == '>')
+      xml += "&gt;";
+    else if (c == '"')
+      xml += "&quot;";
+    else
+      xml += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return xml;
 }
 
 Json text_or_null(const char* text) {
@@ -127,7 +164,8 @@ std::vector<MeasureEntry> measure_entries(const geometry::TriangleMesh& body,
   const geometry::Landmark* back = measures.find_landmark("neck_back");
   for (MeasureEntry& entry : entries) {
     if (!entry.is_girth && entry.before.name == "neck" && back != nullptr) {
-      entry.back = (place * back->position).z();
+      entry.back = geometry::Measure{back->name, (place * back->position).z(), back->confidence, back->reason,
+                                     back->half_width};
       if (worn != nullptr)
         entry.back_worn = (place * geometry::carried({back->position}, {body, worn->skin}).front()).z();
     }
@@ -167,23 +205,25 @@ std::string measures_text(const std::vector<MeasureEntry>& measures) {
 }
 
 std::string measures_vit(const std::vector<MeasureEntry>& measures, bool worn) {
-  std::string text =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<vit>\n  <!--tensegric_fit-->\n  "
-      "<version>0.3.3</version>\n"
-      "  <read-only>false</read-only>\n  <notes>" +
-      std::string(worn ? "under the garment" : "before the garment") +
-      "</notes>\n  <unit>cm</unit>\n  <pm_system>998</pm_system>\n  <personal>\n    <family-name/>\n    "
-      "<given-name/>\n"
-      "    <birth-date>1900-01-01</birth-date>\n    <gender>female</gender>\n    <email/>\n  </personal>\n"
-      "  <body-measurements>\n";
+  std::string notes = worn ? "under the garment" : "before the garment", lines;
   for (const MeasureEntry& entry : measures) {
     const Standard* standard = standard_of(entry);
-    const std::optional<double> value = vit_value(entry, worn);
-    if (standard == nullptr || *standard->vit == '\0' || !value) continue;
-    text += fmt::format("    <m name=\"{}\" value=\"{:.1f}\" description=\"\" full_name=\"\"/>\n",
-                        standard->vit, 100 * *value);
+    const std::optional<geometry::Measure> measure = vit_measure(entry, worn);
+    if (standard == nullptr || *standard->vit == '\0' || !measure) continue;
+    const std::string doubt = in_xml(doubt_of(*measure));
+    if (!doubt.empty()) notes += fmt::format("\n{}: {}", standard->vit, doubt);
+    lines += fmt::format("    <m name=\"{}\" value=\"{:.1f}\" description=\"{}\" full_name=\"\"/>\n",
+                         standard->vit, 100 * measure->metres, doubt);
   }
-  return text + "  </body-measurements>\n</vit>\n";
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<vit>\n  <!--tensegric_fit-->\n  "
+         "<version>0.3.3</version>\n"
+         "  <read-only>false</read-only>\n  <notes>" +
+         notes +
+         "</notes>\n  <unit>cm</unit>\n  <pm_system>998</pm_system>\n  <personal>\n    <family-name/>\n    "
+         "<given-name/>\n"
+         "    <birth-date>1900-01-01</birth-date>\n    <gender>female</gender>\n    <email/>\n  </personal>\n"
+         "  <body-measurements>\n" +
+         lines + "  </body-measurements>\n</vit>\n";
 }
 
 }  // namespace tensegric_fit::mesh_files

@@ -26,7 +26,8 @@ struct MeasureEntry {
   std::optional<double> worn;
   std::optional<Loop> loop, loop_worn;
   /// Of the neck's height: that of the landmark neck_back, which lies lower and is what pattern tools mean.
-  std::optional<double> back{}, back_worn{};
+  std::optional<geometry::Measure> back{};
+  std::optional<double> back_worn{};
 };
 
 /// A body under a garment. Holds references only. Metres, scan frame.
@@ -42,7 +43,9 @@ std::vector<MeasureEntry> measure_entries(const geometry::TriangleMesh& body,
 /// measures.json, UTF-8 whatever the names hold.
 std::string measures_text(const std::vector<MeasureEntry>& measures);
 
-/// Valentina's individual measurements, cm; what it has no name for is left out.
+/// Valentina's individual measurements, cm; what it has no name for is left out. Figures with a confidence
+/// below 0.5 are described as unsure, and listed in the notes: Valentina does not show descriptions of
+/// measurements that it knows.
 std::string measures_vit(const std::vector<MeasureEntry>& measures, bool worn);
 
 }  // namespace tensegric_fit::mesh_files

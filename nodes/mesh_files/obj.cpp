@@ -12,15 +12,18 @@ namespace {
 namespace refusal = geometry::refusal;
 using geometry::Refusal;
 
-/// Words of a file, line by line; after a backslash at its end a line continues on the next.
+/// Words of a file, line by line; after a backslash at its end a line continues on the next. A comment does
+/// not: the path that it names may end in one.
 class Lines {
  public:
   explicit Lines(std::string_view text) : rest_(text) {}
 
   bool next() {
     if (rest_.empty()) return false;
+    const std::size_t first = rest_.find_first_not_of(" \t\r");
+    const bool is_comment = first != std::string_view::npos && rest_[first] == '#';
     std::size_t end = rest_.find('\n');
-    while (end != std::string_view::npos && end > 0 &&
+    while (!is_comment && end != std::string_view::npos && end > 0 &&
            (rest_[end - 1] == '\\' || (end > 1 && rest_[end - 1] == '\r' && rest_[end - 2] == '\\')))
       end = rest_.find('\n', end + 1);
     line_ = rest_.substr(0, end);
@@ -80,7 +83,7 @@ int index_from(std::string_view word, std::size_t vertices, const Lines& lines, 
 
 geometry::TriangleMesh obj_mesh(const std::string& bytes, const std::string& path) {
   geometry::TriangleMesh mesh;
-  for (Lines lines(bytes); lines.next();) {
+  for (Lines lines(without_mark(bytes)); lines.next();) {
     const std::string_view key = lines.word();
     if (key == "v") mesh.vertices.push_back(vertex_from(lines, path));
     if (key == "f") {

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "geometry/status.hpp"
 #include "mesh_files/formats.hpp"
@@ -51,16 +52,38 @@ std::vector<int> first_in_place(const std::vector<Eigen::Vector3d>& vertices) {
   return first;
 }
 
+// Each vertex is the first one in its place.
+TriangleMesh joined(TriangleMesh mesh, const std::vector<int>& first) {
+  std::vector<Eigen::Vector3i>& triangles = mesh.triangles;
+  for (Eigen::Vector3i& t : triangles) t = Eigen::Vector3i(first[t[0]], first[t[1]], first[t[2]]);
+  const auto lacks_a_corner = [](const Eigen::Vector3i& t) {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  };
+  triangles.erase(std::remove_if(triangles.begin(), triangles.end(), lacks_a_corner), triangles.end());
+  return geometry::submesh(mesh, std::vector<char>(triangles.size(), 1));
+}
+
 }  // namespace
 
-TriangleMesh tidy(const TriangleMesh& mesh) {
+TriangleMesh tidy(TriangleMesh mesh) {
   const std::vector<int> first = first_in_place(mesh.vertices);
-  TriangleMesh joined{mesh.vertices, {}};
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    const Eigen::Vector3i u(first[t[0]], first[t[1]], first[t[2]]);
-    if (u[0] != u[1] && u[1] != u[2] && u[2] != u[0]) joined.triangles.push_back(u);
-  }
-  return geometry::submesh(joined, std::vector<char>(joined.triangles.size(), 1));
+  return joined(std::move(mesh), first);
+}
+
+TriangleMesh checked_and_tidy(TriangleMesh mesh, const std::string& path) {
+  if (!std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const auto& p) { return p.allFinite(); }))
+    throw Refusal(refusal::kNonFinite, path + ": has a coordinate that is not finite");
+  const int count = static_cast<int>(mesh.vertices.size());
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    if (t.minCoeff() < 0 || t.maxCoeff() >= count)
+      throw Refusal(refusal::kBadMesh, path + ": has a face with a vertex that is not there");
+  const std::vector<int> first = first_in_place(mesh.vertices);
+  std::size_t places = 0;
+  for (int v = 0; v < count; ++v) places += first[v] == v ? 1 : 0;
+  check_count(places, mesh.triangles.size(), path);
+  TriangleMesh result = joined(std::move(mesh), first);
+  if (result.triangles.empty()) throw Refusal(refusal::kBadMesh, path + ": has no faces");
+  return result;
 }
 
 std::string ending_of(const std::string& path) {
@@ -90,25 +113,18 @@ TriangleMesh read_mesh(const std::string& path) {
                       : ending == ".stl" ? stl_mesh
                       : ending == ".glb" ? glb_mesh
                                          : gltf_mesh;
-  const TriangleMesh mesh = reader(bytes_of(path), path);
-  if (!std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const auto& p) { return p.allFinite(); }))
-    throw Refusal(refusal::kNonFinite, path + ": has a coordinate that is not finite");
-  const int count = static_cast<int>(mesh.vertices.size());
-  for (const Eigen::Vector3i& t : mesh.triangles)
-    if (t.minCoeff() < 0 || t.maxCoeff() >= count)
-      throw Refusal(refusal::kBadMesh, path + ": has a face with a vertex that is not there");
-  TriangleMesh tidied = tidy(mesh);
-  if (tidied.triangles.empty()) throw Refusal(refusal::kBadMesh, path + ": has no faces");
-  return tidied;
+  TriangleMesh mesh = reader(bytes_of(path), path);  // the file's bytes are not held any longer than this
+  return checked_and_tidy(std::move(mesh), path);
 }
 
 std::vector<Eigen::Vector3d> read_xyz(const std::string& path) {
   const std::string bytes = bytes_of(path);
+  const std::string_view text = without_mark(bytes);
   std::vector<Eigen::Vector3d> points;
   std::size_t number = 0;
-  for (std::size_t start = 0; start < bytes.size(); ++number) {
-    const std::size_t end = std::min(bytes.find('\n', start), bytes.size());
-    std::string_view line(bytes.data() + start, end - start);
+  for (std::size_t start = 0; start < text.size(); ++number) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    std::string_view line = text.substr(start, end - start);
     start = end + 1;
     Eigen::Vector3d p;
     int axis = 0;

@@ -1,4 +1,5 @@
-// STL, binary and ASCII. The file's length says which: binary files often begin with "solid", too.
+// STL, binary and ASCII. The file's length says which: binary files often begin with "solid", too. Each facet
+// has three corners of its own, which read_mesh() joins and counts then: here the facets are counted.
 #include <cstdint>
 #include <cstring>
 #include <string_view>
@@ -19,6 +20,7 @@ geometry::TriangleMesh binary(const std::string& bytes, std::size_t count, const
   check_count(0, count, path);
   geometry::TriangleMesh mesh;
   mesh.vertices.reserve(3 * count);
+  mesh.triangles.reserve(count);
   for (std::size_t f = 0; f < count; ++f) {
     for (int c = 0; c < 3; ++c) {
       Eigen::Vector3f p;
@@ -33,7 +35,7 @@ geometry::TriangleMesh binary(const std::string& bytes, std::size_t count, const
 
 geometry::TriangleMesh ascii(std::string_view rest, const std::string& path) {
   const Refusal broken(refusal::kBrokenFile, path + ": a facet of this ASCII STL has no three corners");
-  constexpr std::string_view kBlank = " \t\r\n";
+  constexpr std::string_view kBlank = " \t\r\n", kCorner = "vertex";
   const auto word = [&]() -> std::string_view {
     const std::size_t start = rest.find_first_not_of(kBlank);
     if (start == std::string_view::npos) return {};
@@ -42,12 +44,19 @@ geometry::TriangleMesh ascii(std::string_view rest, const std::string& path) {
     rest = rest.substr(end);
     return result;
   };
+  std::size_t most = 0;  // corners
+  for (std::size_t at = rest.find(kCorner); at != std::string_view::npos;
+       at = rest.find(kCorner, at + kCorner.size()))
+    ++most;
+  check_count(0, most / 3, path);
   geometry::TriangleMesh mesh;
+  mesh.vertices.reserve(most);
+  mesh.triangles.reserve(most / 3);
   int corners = 0;
   for (std::string_view w = word(); !w.empty(); w = word()) {
     if (w == "endfacet" && corners != 3) throw broken;
     if (w == "facet") corners = 0;
-    if (w != "vertex") continue;
+    if (w != kCorner) continue;
     Eigen::Vector3d p;
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view number = word();
@@ -58,7 +67,6 @@ geometry::TriangleMesh ascii(std::string_view rest, const std::string& path) {
     if (++corners > 3) throw broken;
     const int v = static_cast<int>(mesh.vertices.size());
     if (corners == 3) mesh.triangles.emplace_back(v - 3, v - 2, v - 1);
-    check_count(0, mesh.triangles.size(), path);
   }
   if (mesh.vertices.size() != 3 * mesh.triangles.size()) throw broken;
   return mesh;

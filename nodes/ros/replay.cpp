@@ -37,7 +37,9 @@ Replay::Replay(ros::NodeHandle node, const Options& options)
   worn_in_ = node_.subscribe<Garment>("garment", 10, [this](const Garment::ConstPtr& worn) { worn_ = worn; });
   keep<ControlMesh>("control/mesh", &Answer::control);
   keep<FitState>("control/deformed", &Answer::fit);
+  keep<LineForces>("control/forces", &Answer::forces);
   keep<DeformedMesh>("body/deformed", &Answer::deformed);
+  keep<FitWarnings>("body/warnings", &Answer::said);
   last_stage_ = "tffd";
 }
 
@@ -96,7 +98,7 @@ std::vector<std::string> Replay::wait_for_chain() {
 /// Everything is there, and the last stage has said what it took.
 bool Replay::answered() const {
   if (refused_) return true;
-  const bool fitted = got_.control && got_.fit && got_.deformed;
+  const bool fitted = got_.control && got_.fit && got_.forces && got_.deformed && got_.said;
   if (!got_.model || !got_.body || !got_.landmarks || (!options_.measure_only && !fitted)) return false;
   const auto last = diagnostics_.find(last_stage_);
   return last != diagnostics_.end() && fact(last->second->status.front(), "state") == "done" &&
@@ -119,7 +121,9 @@ void Replay::write_answer(const ros::Time& time, rosbag::Bag& out, bool whole) {
     write(out, "control/mesh", time, got_.control);
   }
   write(out, "control/deformed", time, got_.fit);
+  write(out, "control/forces", time, got_.forces);
   write(out, "body/deformed", time, got_.deformed);
+  write(out, "body/warnings", time, got_.said);
   for (const auto& [stage, message] : diagnostics_) write(out, "/diagnostics", time, message);
 }
 
@@ -152,7 +156,9 @@ bool Replay::send(const Garment& garment, const ros::Time& time, rosbag::Bag& ou
   if (options_.measure_only) return true;  // nothing is asked for, and nothing is lost
   ros::spinOnce();                         // what was said of the garment before
   got_.fit = nullptr;
+  got_.forces = nullptr;
   got_.deformed = nullptr;
+  got_.said = nullptr;
   refused_ = false;
   SetGarment call;
   call.request.garment = garment;

@@ -6,6 +6,7 @@
 #include <rosbag/bag.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tensegric_fit/BodyModel.h>
+#include <tensegric_fit/FitWarnings.h>
 #include <tensegric_fit/Garment.h>
 #include <tensegric_fit/ScanLabel.h>
 #include <tf2_msgs/TFMessage.h>
@@ -43,6 +44,7 @@ class Replay {
  private:
   struct Answer : FittedScan {
     BodyModel::ConstPtr model;
+    FitWarnings::ConstPtr said;  ///< of the fit: `warnings` as they travel
   };
   template <typename Message>
   void keep(const std::string& topic, boost::shared_ptr<const Message> Answer::*slot);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <utility>
 
 #include "geometry/ply.hpp"
 #include "geometry/point_cloud.hpp"
@@ -57,8 +58,15 @@ void take_faces(const std::string& path, const pcl::PolygonMesh& file, int sampl
     }
   }
   if (2 * static_cast<std::size_t>(std::count(used.begin(), used.end(), 1)) < used.size()) return;
-  scan.cloud = message_of(mesh_files::surface_samples(mesh_files::tidy(mesh), samples));
+  scan.cloud = message_of(mesh_files::surface_samples(mesh_files::tidy(std::move(mesh)), samples));
   scan.kind.surface = true;
+}
+
+// A body from PLY as from other formats: faces that share no corners are joined, those without three corners
+// and corners of no face left out. Other shapes stay as they are.
+TriangleMesh ply_mesh(const std::string& path, bool any_shape) {
+  return any_shape ? geometry::read_ply_mesh(path)
+                   : mesh_files::checked_and_tidy(geometry::read_ply_faces(path), path);
 }
 
 // The up of the format's own definition, where it has one.
@@ -150,8 +158,7 @@ TriangleMesh read_body_mesh(const std::string& path, const mesh_files::Asked& as
   mesh_files::check_asked(asked);
   const std::string ending = mesh_files::ending_of(path);
   const bool is_ply = !mesh_files::is_mesh_name(path);
-  TriangleMesh mesh = is_ply ? geometry::read_ply_mesh(path) : mesh_files::read_mesh(path);
-  if (is_ply && !any_shape) mesh = mesh_files::tidy(mesh);  // faces that share no corners, corners of no face
+  TriangleMesh mesh = is_ply ? ply_mesh(path, any_shape) : mesh_files::read_mesh(path);
   mesh_files::Asked wanted = asked;
   if (any_shape && wanted.unit.empty()) wanted.unit = "m";
   if (any_shape && wanted.up.empty()) wanted.up = "z";

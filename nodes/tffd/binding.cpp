@@ -37,6 +37,13 @@ void check_input(const geometry::TriangleMesh& body, const geometry::ControlMesh
     throw Refusal(refusal::kBadMesh, "t-FFD: the control mesh needs one fixed flag per node");
 }
 
+// A control mesh that moves nothing would look like a garment without effect.
+void check_carries(const std::vector<Anchor>& anchors, const std::vector<char>& outer_fixed) {
+  if (anchors.empty() && std::count(outer_fixed.begin(), outer_fixed.end(), 0) > 0)
+    throw Refusal(refusal::kBadMesh,
+                  "the control mesh carries no skin: it lies elsewhere, in another unit, or faces inwards");
+}
+
 double largest_row_sum(const SparseRows& matrix) {
   double largest = 0;
   for (Eigen::Index row = 0; row < matrix.outerSize(); ++row) {
@@ -96,10 +103,12 @@ Binding::Binding(const geometry::TriangleMesh& body, const geometry::ControlMesh
   if (paper) {
     terms_ = paper_terms(vertices_, frames, kernel);
     anchors_ = anchors_of(terms_);
+    check_carries(anchors_, control.outer_fixed);
     weights_.values = paper_values(vertices_, control, frames, terms_);
     return;
   }
   anchors_ = reach_of(body, control, frames, grid, beta);
+  check_carries(anchors_, control.outer_fixed);
   untangle_ = Untangle(body, anchors_);
   const std::vector<Tie> ties = tie_needles(body, anchors_);
   weights_ = standard_weights(body, control, frames, kernel, anchors_, ties);

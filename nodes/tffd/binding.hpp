@@ -16,9 +16,12 @@
 namespace tensegric_fit::tffd {
 
 /// `standard`: W from inner to outer centroid, smooth kernel, no tear at a fixed border: q' = q + M (x - x at
-/// rest) with constant M; affine-exact wherever the share of the motion is 1 (reach.hpp); the absolute
-/// entries of a row of M sum to 3 at most, or to what the best triangle in reach makes of the vertex alone.
-/// `paper`: as published, W the unit normal and a linear kernel; the skin tears where the control mesh ends.
+/// rest) with constant M; affine-exact wherever the share of the motion is 1 (reach.hpp). The absolute
+/// entries of a row of M sum to 3 at most, or to what the best triangle in reach makes of the vertex alone;
+/// of a corner that is tied to a needle's side (needles.hpp) to as much for its height over that side, and as
+/// much for the place on the side: 6 at most, and hardly more than 3, as it is no higher than a twentieth of
+/// the side. `paper`: as published, W the unit normal and a linear kernel; the skin tears where the control
+/// mesh ends.
 enum class Setting { standard, paper };
 
 /// Of the standard setting's evaluation. `fast`: weights and displacements in single precision, within 0.01
@@ -46,7 +49,8 @@ class Binding {
  public:
   /// Uses the control mesh's nodes, triangles and fixed flags.
   /// \throw Refusal bad_option: beta, truncation, or anything but the defaults of precision and truncation in
-  /// the paper's setting, which has no constant M; bad_mesh: no control triangles, a flat one; non_finite
+  /// the paper's setting, which has no constant M; bad_mesh: no control triangles, a flat one, free nodes and
+  /// no skin that they carry, a shape too far off (Kernel::most_entries); non_finite
   Binding(const geometry::TriangleMesh& body, const geometry::ControlMesh& control, const Options& options);
 
   /// Positions of all vertices for the control nodes at `outer` and `inner`: M's, but for corners of needles

@@ -13,15 +13,21 @@ namespace refusal = geometry::refusal;
 
 // Of each body vertex, how much weight each region's nodes have in it; the last column is for nodes outside
 // all regions.
-Eigen::MatrixXd weight_by_region(const Binding& binding, const geometry::ControlMesh& control) {
+SparseRows weight_by_region(const Binding& binding, const geometry::ControlMesh& control) {
   const SparseRows& values = binding.weights().values;
-  const auto regions = static_cast<Eigen::Index>(control.regions.size());
-  Eigen::MatrixXd member = Eigen::MatrixXd::Zero(values.cols(), regions + 1);
-  for (Eigen::Index r = 0; r < regions; ++r)
-    for (const int t : control.regions[static_cast<std::size_t>(r)].triangles)
-      for (const int node : control.triangles[t]) member(node, r) = 1;
-  for (Eigen::Index node = 0; node < member.rows(); ++node)
-    if (member.row(node).maxCoeff() == 0) member(node, regions) = 1;
+  const int regions = static_cast<int>(control.regions.size());
+  std::vector<std::vector<int>> of_node(static_cast<std::size_t>(values.cols()));
+  for (int r = 0; r < regions; ++r)
+    for (const int t : control.regions[r].triangles)
+      for (const int node : control.triangles[t])
+        if (of_node[node].empty() || of_node[node].back() != r) of_node[node].push_back(r);
+  std::vector<Eigen::Triplet<double>> members;
+  for (std::size_t node = 0; node < of_node.size(); ++node) {
+    if (of_node[node].empty()) of_node[node].push_back(regions);
+    for (const int r : of_node[node]) members.emplace_back(static_cast<int>(node), r, 1);
+  }
+  SparseRows member(values.cols(), regions + 1);
+  member.setFromTriplets(members.begin(), members.end());
   return values * member;
 }
 
@@ -30,14 +36,28 @@ Eigen::MatrixXd weight_by_region(const Binding& binding, const geometry::Control
 std::vector<std::vector<Eigen::Vector3i>> carried_triangles(const Binding& binding,
                                                             const std::vector<Eigen::Vector3i>& triangles,
                                                             const geometry::ControlMesh& control) {
-  const Eigen::MatrixXd weights = weight_by_region(binding, control);
+  const SparseRows weights = weight_by_region(binding, control);
+  const int regions = static_cast<int>(control.regions.size());
   std::vector<std::vector<Eigen::Vector3i>> carried(control.regions.size());
+  std::vector<double> sums(control.regions.size() + 1, 0);
   for (const Eigen::Vector3i& t : triangles) {
-    const Eigen::RowVectorXd sum = weights.row(t[0]) + weights.row(t[1]) + weights.row(t[2]);
-    Eigen::Index most;
-    if (!(sum.maxCoeff(&most) > 0)) continue;
-    if (most < static_cast<Eigen::Index>(carried.size()))
-      carried[static_cast<std::size_t>(most)].push_back(t);
+    for (const int v : t)
+      for (SparseRows::InnerIterator weight(weights, v); weight; ++weight)
+        sums[static_cast<std::size_t>(weight.col())] += weight.value();
+    int most = regions;
+    double largest = 0;
+    for (const int v : t)
+      for (SparseRows::InnerIterator weight(weights, v); weight; ++weight) {
+        const int r = static_cast<int>(weight.col());
+        if (sums[r] > largest || (sums[r] == largest && r < most)) {
+          most = r;
+          largest = sums[r];
+        }
+      }
+    for (const int v : t)
+      for (SparseRows::InnerIterator weight(weights, v); weight; ++weight)
+        sums[static_cast<std::size_t>(weight.col())] = 0;
+    if (largest > 0 && most < regions) carried[most].push_back(t);
   }
   return carried;
 }

@@ -86,17 +86,21 @@ std::vector<CarriedPoint> averaged(const std::vector<CarriedPoint>& points, doub
   std::vector<double> at{0};
   for (std::size_t i = 1; i < points.size(); ++i)
     at.push_back(at.back() + (points[i].rest - points[i - 1].rest).norm());
+  // Point j stands for the way from ends[j] to ends[j + 1], from half way before it to half way after it.
+  std::vector<double> ends{0};
+  for (std::size_t i = 1; i < points.size(); ++i) ends.push_back((at[i - 1] + at[i]) / 2);
+  ends.push_back(at.back());
   std::vector<CarriedPoint> result;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double half = std::min({reach, at[i], at.back() - at[i]});
     std::map<int, double> weights;
     Vector3d rest = Vector3d::Zero();
     double sum = 0;
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      // How much of the span from half way before to half way after point j lies within reach.
-      const double low = j == 0 ? at[j] : (at[j - 1] + at[j]) / 2;
-      const double high = j + 1 == points.size() ? at[j] : (at[j] + at[j + 1]) / 2;
-      const double share = std::min(high, at[i] + half) - std::max(low, at[i] - half);
+    const auto first = std::upper_bound(ends.begin() + 1, ends.end(), at[i] - half) - ends.begin() - 1;
+    for (std::size_t j = std::min(static_cast<std::size_t>(first), i);
+         j < points.size() && (j <= i || ends[j] < at[i] + half); ++j) {
+      // How much of that lies within reach.
+      const double share = std::min(ends[j + 1], at[i] + half) - std::max(ends[j], at[i] - half);
       if (!(share > 0) && j != i) continue;
       const double weight = half > 0 ? std::max(share, 0.0) : (j == i ? 1 : 0);
       sum += weight;

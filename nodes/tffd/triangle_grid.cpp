@@ -1,6 +1,7 @@
 #include "tffd/triangle_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +10,8 @@ namespace {
 
 // However unlike in size the triangles are, the grid stays this small.
 constexpr double kMostCells = 200000;
+// Cells, and triangles in cells: equal triangles lie in 200 cells at most, a few far larger ones in all.
+constexpr double kLeastRoom = 4 * kMostCells, kRoomPerTriangle = 512, kWider = 1.25;
 
 struct Sphere {
   Eigen::Vector3d centre;
@@ -39,15 +42,30 @@ TriangleGrid::TriangleGrid(const std::vector<Frame>& frames, double reach) {
   }
   const Eigen::Array3d size = (high - low_).array();
   cell_ = std::max(mean / 2, std::cbrt(size.prod() / kMostCells));
-  counts_ = (size / cell_).floor().cast<int>() + 1;
+  const double room = std::max(kLeastRoom, kRoomPerTriangle * static_cast<double>(frames.size()));
+  // First and last cell of the box round what a triangle reaches.
+  const auto cells_of = [&](const Sphere& sphere) -> std::array<Eigen::Array3i, 2> {
+    const Eigen::Array3d offset = (sphere.centre - low_).array();
+    return {((offset - sphere.radius) / cell_).floor().cast<int>().max(0),
+            ((offset + sphere.radius) / cell_).floor().cast<int>().min(counts_ - 1)};
+  };
+  const auto has_room = [&] {
+    if (((size / cell_).floor() + 1).prod() > room) return false;
+    counts_ = (size / cell_).floor().cast<int>() + 1;
+    double entries = 0;
+    for (std::size_t t = 0; t < frames.size() && entries <= room; ++t) {
+      const auto [first, last] = cells_of(reach_of(frames[t], reach));
+      entries += (last - first + 1).cast<double>().prod();
+    }
+    return entries <= room;
+  };
+  while (!has_room()) cell_ *= kWider;
 
   // Twice over all triangles and the cells that they reach: first to count, then to fill.
   const auto for_each_cell = [&](const auto& visit) {
     for (std::size_t t = 0; t < frames.size(); ++t) {
       const Sphere sphere = reach_of(frames[t], reach);
-      const Eigen::Array3d offset = (sphere.centre - low_).array();
-      const Eigen::Array3i first = ((offset - sphere.radius) / cell_).floor().cast<int>().max(0);
-      const Eigen::Array3i last = ((offset + sphere.radius) / cell_).floor().cast<int>().min(counts_ - 1);
+      const auto [first, last] = cells_of(sphere);
       for (int z = first[2]; z <= last[2]; ++z)
         for (int y = first[1]; y <= last[1]; ++y)
           for (int x = first[0]; x <= last[0]; ++x)

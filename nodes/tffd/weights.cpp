@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+
+#include "geometry/status.hpp"
 
 namespace tensegric_fit::tffd {
 namespace {
@@ -114,6 +117,8 @@ class Row {
     columns_.clear();
   }
 
+  std::size_t entries() const { return columns_.size(); }
+
   // Appends the row, times `factor`, and starts a new one.
   void append_to(SparseRows& matrix, Eigen::Index row, double factor) {
     std::sort(columns_.begin(), columns_.end());
@@ -192,6 +197,7 @@ Weights standard_weights(const geometry::TriangleMesh& body, const geometry::Con
   for (const Tie& tie : ties) tie_of[tie.vertex] = &tie;
   std::vector<Near> near;
   Row nodes(2 * outer), values(outer);
+  std::size_t entries = 0;
   auto anchor = anchors.begin();
   for (Eigen::Index v = 0; v < vertices; ++v) {
     weights.nodes.startVec(v);
@@ -228,6 +234,12 @@ Weights standard_weights(const geometry::TriangleMesh& body, const geometry::Con
     for (const Near& triangle : near)
       for (int j = 0; j < 3 && triangle.k > 0; ++j)
         values.add(control.triangles[triangle.triangle][j], triangle.k * triangle.barycentric[j]);
+    entries += nodes.entries();
+    if (entries > kernel.most_entries)
+      throw geometry::Refusal(geometry::refusal::kBadMesh,
+                              "t-FFD: the shape lies too far off its control mesh, or beta is too large: it "
+                              "would take more than " +
+                                  std::to_string(kernel.most_entries) + " weights");
     nodes.append_to(weights.nodes, v, anchor->share);
     values.append_to(weights.values, v, anchor->share);
     ++anchor;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cstddef>
 #include <vector>
 
 #include "geometry/control_mesh.hpp"
@@ -32,9 +33,12 @@ struct Kernel {
   double beta;
   const TriangleGrid& grid;
   double truncation = 0;
+  /// Of M, 1.6 GB: no body comes near, but all nodes carry a vertex that is far off every triangle.
+  std::size_t most_entries = std::size_t{1} << 27;
 };
 
 /// \pre the frames run from inner to outer centroid
+/// \throw Refusal bad_mesh: M would have more than Kernel::most_entries
 Weights standard_weights(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
                          const std::vector<Frame>& frames, const Kernel& kernel,
                          const std::vector<Anchor>& anchors, const std::vector<Tie>& ties);

@@ -24,7 +24,9 @@ const std::vector<Place>& places() {
                                          {"point bust_point_L", 0.005, {"bust_point_L"}},
                                          {"point bust_point_R", 0.005, {"bust_point_R"}},
                                          {"point axilla_L", 0.010, {"axilla_L"}},
-                                         {"point axilla_R", 0.010, {"axilla_R"}}};
+                                         {"point axilla_R", 0.010, {"axilla_R"}},
+                                         {"point shoulder_L", 0.010, {"shoulder_L"}},
+                                         {"point shoulder_R", 0.010, {"shoulder_R"}}};
   return places;
 }
 

@@ -9,9 +9,9 @@
 
 namespace tensegric_fit::virtual_booth {
 
-/// Names as in virtual_body::Doubts, of points and of the heights that are read off them: those that have a
-/// place from whose neighbourhood no ray returns, as far round as ISO 20685 allows the figure to be off
-/// (heights 4 mm, bust points 5, other points 10).
+/// Names as in virtual_body::Doubts, of bust points, crotch, axillae and shoulders, and of the heights that
+/// are read off points: those that have a place from whose neighbourhood no ray returns, as far round as ISO
+/// 20685 allows the figure to be off (heights 4 mm, bust points 5, other points 10).
 std::vector<std::string> hidden_figures(const virtual_body::VirtualBody& body, const ScannerOptions& options);
 
 /// The body's own doubts, and what this booth cannot see.

@@ -49,7 +49,8 @@ bool is_womans_size(const body_model::Model& model, const virtual_body::ModelBod
   return bust > 0.70 && bust < 1.42;  // m
 }
 
-/// Opens arms and legs step by step until they are clear of each other, or as far as a booth asks for.
+/// Opens arms and legs step by step until they are clear of each other, or as far as a booth asks for: broad
+/// hips may be in the way of arms even then.
 void part_limbs(const body_model::Model& model, virtual_body::ModelBodyParameters& body) {
   constexpr double kStep = 3 * kDegree, kWidestArms = 60 * kDegree, kWidestLegs = 6 * kDegree;
   for (;;) {
@@ -65,6 +66,52 @@ void part_limbs(const body_model::Model& model, virtual_body::ModelBodyParameter
       open(collided.arms[side], body.arms[side], kWidestArms);
     open(collided.legs, body.legs, kWidestLegs);
     if (!moved) return;
+  }
+}
+
+virtual_body::ModelBodyParameters draw_model_body(Draw& draw, const body_model::Model& model) {
+  virtual_body::ModelBodyParameters body;
+  body.shape.resize(model.components());
+  do {  // odd combinations are drawn again
+    for (double& coefficient : body.shape) coefficient = draw.normal_within(2.5);
+    body.stature = random_stature(draw);
+  } while (!is_womans_size(model, body));
+  // Mostly the pose that a booth asks for; one in four holds her arms wider
+  const double arms = draw.chance(0.25) ? draw.between(38, 60) : draw.between(10, 38),
+               elbows = draw.between(5, 35);
+  for (const geometry::Side side : geometry::kSides) {
+    body.arms[side] = std::clamp(arms + 3 * draw.normal_within(2), 10.0, 60.0) * kDegree;
+    body.forwards[side] = 5 * kDegree * draw.normal_within(2);
+    body.elbows[side] = std::clamp(elbows + 4 * draw.normal_within(2), 0.0, 45.0) * kDegree;
+  }
+  body.legs = draw.between(-6, 2) * kDegree;
+  body.lean = (0.5 + 1.5 * draw.normal_within(2.5)) * kDegree;
+  body.bend = 1.2 * kDegree * draw.normal_within(2.5);
+  body.twist = 2 * kDegree * draw.normal_within(2.5);
+  part_limbs(model, body);
+  return body;
+}
+
+struct Woman {
+  virtual_body::ModelBodyParameters parameters;
+  virtual_body::VirtualBody body;
+};
+
+/// The first that the seed draws of whom a body can be made: arms may run into it however wide they are, and
+/// a flat chest has no fold. Only making it shows that.
+Woman random_woman(std::uint64_t seed, const body_model::Model& model, double yaw, double tilt) {
+  constexpr int kMostDraws = 20;
+  Draw draw(seed);
+  for (int count = 1;; ++count) {
+    Woman woman{draw_model_body(draw, model), {}};
+    woman.parameters.yaw = yaw;
+    woman.parameters.tilt = tilt;
+    try {
+      woman.body = virtual_body::make_body(model, woman.parameters);
+      return woman;
+    } catch (const geometry::Refusal&) {
+      if (count == kMostDraws) throw;
+    }
   }
 }
 
@@ -86,34 +133,13 @@ virtual_body::VirtualBody random_customer(Family family, std::uint64_t seed) {
   if (family == Family::implicit) return virtual_body::make_body(random_body(seed));
   constexpr std::uint64_t kOtherStream = 0xb0d7f4a3ull;  // than the shape's
   Draw draw(seed ^ kOtherStream);
-  virtual_body::ModelBodyParameters body = random_model_body(seed, virtual_body::shipped_model());
-  body.yaw = draw.chance(0.5) ? draw.between(-M_PI, M_PI) : 0;
-  body.tilt = draw.chance(0.25) ? draw.between(-0.10, 0.10) : 0;
-  return virtual_body::make_body(virtual_body::shipped_model(), body);
+  const double yaw = draw.chance(0.5) ? draw.between(-M_PI, M_PI) : 0;
+  const double tilt = draw.chance(0.25) ? draw.between(-0.10, 0.10) : 0;
+  return random_woman(seed, virtual_body::shipped_model(), yaw, tilt).body;
 }
 
 virtual_body::ModelBodyParameters random_model_body(std::uint64_t seed, const body_model::Model& model) {
-  Draw draw(seed);
-  virtual_body::ModelBodyParameters body;
-  body.shape.resize(model.components());
-  do {  // odd combinations are drawn again
-    for (double& coefficient : body.shape) coefficient = draw.normal_within(2.5);
-    body.stature = random_stature(draw);
-  } while (!is_womans_size(model, body));
-  // Mostly the pose that a booth asks for; one in four holds her arms wider
-  const double arms = draw.chance(0.25) ? draw.between(38, 60) : draw.between(10, 38),
-               elbows = draw.between(5, 35);
-  for (const geometry::Side side : geometry::kSides) {
-    body.arms[side] = std::clamp(arms + 3 * draw.normal_within(2), 10.0, 60.0) * kDegree;
-    body.forwards[side] = 5 * kDegree * draw.normal_within(2);
-    body.elbows[side] = std::clamp(elbows + 4 * draw.normal_within(2), 0.0, 45.0) * kDegree;
-  }
-  body.legs = draw.between(-6, 2) * kDegree;
-  body.lean = (0.5 + 1.5 * draw.normal_within(2.5)) * kDegree;
-  body.bend = 1.2 * kDegree * draw.normal_within(2.5);
-  body.twist = 2 * kDegree * draw.normal_within(2.5);
-  part_limbs(model, body);
-  return body;
+  return random_woman(seed, model, 0, 0).parameters;
 }
 
 virtual_body::BodyParameters random_body(std::uint64_t seed) {

@@ -17,8 +17,8 @@ const std::vector<std::string>& families();  ///< their names, in the order of t
 /// \throw Refusal bad_option: no such family
 Family family_named(const std::string& name);
 
-/// A customer of that family. Same arguments, same bits. \throw Refusal broken_file: the body model cannot be
-/// read
+/// A customer of that family; of the model's, she whom random_model_body draws. Same arguments, same bits.
+/// \throw Refusal broken_file: the body model cannot be read
 virtual_body::VirtualBody random_customer(Family family, std::uint64_t seed);
 
 /// Implicit. Drawn from the spans of women of 20 to 80: stature 1.50 to 1.80 m, bust girth 0.78 to 1.30 m,
@@ -29,7 +29,7 @@ virtual_body::BodyParameters random_body(std::uint64_t seed);
 /// A woman of the model: shape coefficients from the standard normal distribution, none beyond 2.5;
 /// stature 1.50 to 1.80 m; arms 10 to 60 degrees from hanging, legs slightly apart, wider where limbs would
 /// run into each other; a small lean, bend and twist; not turned or tilted. Same arguments, same woman. The
-/// body can be made.
+/// body can be made: who cannot be is drawn again. \throw Refusal of make_body: none of twenty draws can be
 virtual_body::ModelBodyParameters random_model_body(std::uint64_t seed, const body_model::Model& model);
 
 /// Eight to twelve sensors, 40,000 to 250,000 points; noise 0.5 to 1.5 mm, columns up to about 2 mm off,

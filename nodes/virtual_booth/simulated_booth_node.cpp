@@ -5,6 +5,10 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <optional>
+
+#include "geometry/scan_stamp.hpp"
+#include "geometry/slop.hpp"
 #include "ros/parameters.hpp"
 #include "ros/run_node.hpp"
 #include "virtual_booth/random_body.hpp"
@@ -15,6 +19,7 @@ namespace {
 
 constexpr int kColumns = 4;
 constexpr int kSensors = 12;  // four columns of three, as launch/config/booth.yaml lists them
+constexpr int kMostCameras = 16;
 
 struct Setup {
   virtual_booth::Family family;
@@ -30,8 +35,8 @@ Setup setup_from(Parameters parameters) {
   setup.first = parameters.integer("first_customer", 1, {0, 1000000});
   setup.customers = parameters.integer("customers", 3, {0, 1000000});
   setup.points = parameters.integer("points", 180000, {20000, 2000000});
-  setup.silent = parameters.integer("silent_sensor", -1, {-1, kSensors - 1});
-  setup.cameras = parameters.integer("depth_cameras", 0, {0, 16});
+  setup.silent = parameters.integer("silent_sensor", -1, {-1, kMostCameras - 1});
+  setup.cameras = parameters.integer("depth_cameras", 0, {0, kMostCameras});
   setup.interval = parameters.number("interval", 15, {0, 86400});
   setup.frame_id = parameters.frame("frame_id", "booth");
   setup.sensor_frames = parameters.frame("sensor_frames", "sensor_");
@@ -40,6 +45,10 @@ Setup setup_from(Parameters parameters) {
     throw geometry::Refusal(
         geometry::refusal::kBadOption,
         fmt::format("parameter 'depth_cameras' is {}: they stand on {} columns", setup.cameras, kColumns));
+  if (const int sensors = setup.cameras > 0 ? setup.cameras : kSensors; setup.silent >= sensors)
+    throw geometry::Refusal(
+        geometry::refusal::kBadOption,
+        fmt::format("parameter 'silent_sensor' is {}: there are 0 to {}", setup.silent, sensors - 1));
   return setup;
 }
 
@@ -47,23 +56,41 @@ class SimulatedBooth {
  public:
   SimulatedBooth(ros::NodeHandle node, const ros::NodeHandle& private_node)
       : setup_(setup_from(Parameters(private_node))),
+        node_(node),
         next_(setup_.first),
         poses_(node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true)),
         service_(node.advertiseService("scan", &SimulatedBooth::on_scan, this)) {
-    // latched: an assembler that is started again finds the capture that it was at
-    for (int sensor = 0; setup_.cameras == 0 && sensor < kSensors; ++sensor)
-      sensors_.push_back(
-          node.advertise<sensor_msgs::PointCloud2>(fmt::format("sensors/{}/points", sensor), 1, true));
-    for (int camera = 0; camera < setup_.cameras; ++camera) {
-      sensors_.push_back(
-          node.advertise<sensor_msgs::Image>(fmt::format("cameras/{}/image", camera), 1, true));
-      lenses_.push_back(
-          node.advertise<sensor_msgs::CameraInfo>(fmt::format("cameras/{}/camera_info", camera), 1, true));
-    }
+    advertise();
     clock_ = node.createWallTimer(ros::WallDuration(0.2), [this](const ros::WallTimerEvent&) { go_on(); });
   }
 
+  /// Which customers come, and when, stays as it is.
+  void forget(const ForgetOrder& order, ForgetAnswer& done) {
+    const auto stamp = geometry::stamp_in(order.scan_id);
+    if (!stamp || !latched_ || geometry::gap(*stamp, *latched_) > kOneScan) return;
+    for (std::vector<ros::Publisher>* publishers : {&sensors_, &lenses_}) {
+      for (ros::Publisher& publisher : *publishers) publisher.shutdown();
+      publishers->clear();
+    }
+    advertise();
+    latched_.reset();
+    done.removed = {setup_.cameras > 0 ? "the latched depth images" : "the latched clouds of its sensors"};
+  }
+
  private:
+  /// Latched: an assembler that is started again finds the capture that it was at.
+  void advertise() {
+    for (int sensor = 0; setup_.cameras == 0 && sensor < kSensors; ++sensor)
+      sensors_.push_back(
+          node_.advertise<sensor_msgs::PointCloud2>(fmt::format("sensors/{}/points", sensor), 1, true));
+    for (int camera = 0; camera < setup_.cameras; ++camera) {
+      sensors_.push_back(
+          node_.advertise<sensor_msgs::Image>(fmt::format("cameras/{}/image", camera), 1, true));
+      lenses_.push_back(
+          node_.advertise<sensor_msgs::CameraInfo>(fmt::format("cameras/{}/camera_info", camera), 1, true));
+    }
+  }
+
   void go_on() {
     const double now = ros::SteadyTime::now().toSec();
     if (next_ >= setup_.first + setup_.customers || now < due_ || sensors_.back().getNumSubscribers() == 0)
@@ -95,6 +122,7 @@ class SimulatedBooth {
     const virtual_booth::VirtualScan scan = virtual_booth::scan_body(body, scanner);
     const std::vector<virtual_booth::SensorScan> scans = virtual_booth::by_sensor(scan);
     const ros::Time stamp = ros::Time::now();
+    latched_ = stamp.toNSec();
     poses_.publish(virtual_booth::sensor_poses(scan.sensors, setup_.frame_id, setup_.sensor_frames, stamp));
     for (int sensor = 0; sensor < kSensors; ++sensor)
       if (sensor != setup_.silent)
@@ -109,6 +137,7 @@ class SimulatedBooth {
     std::vector<virtual_booth::SensorPose> poses;
     for (const virtual_booth::DepthPicture& picture : pictures) poses.push_back(picture.pose);
     const ros::Time stamp = ros::Time::now();
+    latched_ = stamp.toNSec();
     poses_.publish(virtual_booth::sensor_poses(poses, setup_.frame_id, setup_.sensor_frames, stamp));
     for (int camera = 0; camera < setup_.cameras; ++camera) {
       if (camera == setup_.silent) continue;
@@ -124,11 +153,16 @@ class SimulatedBooth {
     return stamp + ros::Duration(0.001 * sensor);
   }
 
+  // ns: a scan is known by the stamp of one of its sensors
+  static constexpr auto kOneScan = static_cast<std::uint64_t>(1e9 * geometry::kUsualSlop);
+
   const Setup setup_;
+  ros::NodeHandle node_;
   int next_;        // customer
   double due_ = 0;  // when she comes, seconds of the steady clock
   ros::Publisher poses_;
   std::vector<ros::Publisher> sensors_, lenses_;  // lenses of cameras alone
+  std::optional<std::uint64_t> latched_;          // stamp of what they latch, ns
   ros::ServiceServer service_;
   ros::WallTimer clock_;
 };

@@ -43,6 +43,7 @@ Json definitions() {
       {"shoulder", "outer edge of the acromion, which does not move out with fat, straight up to the skin"},
       {"vague", "figures that their definition does not settle on this body"},
       {"hidden", "figures at a place that no sensor sees"},
+      {"hidden_on_surface", "those of them that no booth's sensors see: for who measures the body's mesh"},
       {"loose", "unit vectors, in the scan's frame, along which a landmark is open"}};
 }
 
@@ -58,6 +59,7 @@ void write_truth(const std::string& path, const virtual_body::VirtualBody& body,
   truth["girths"] = measures(body.truth.girths);
   truth["vague"] = body.doubts.vague;
   truth["hidden"] = doubts_in_booth(body, scanner).hidden;
+  truth["hidden_on_surface"] = body.doubts.hidden;
   truth["loose"] = Json::object();
   for (const auto& [name, direction] : body.doubts.loose) truth["loose"][name] = json_of(direction);
   truth["extra"] = {{"waist_method", body.waist_method}};

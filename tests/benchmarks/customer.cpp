@@ -69,16 +69,17 @@ const geometry::TriangleMesh& chest_skin(int triangles) {
 
 const geometry::ControlMesh& bust_control(int triangles) {
   static std::map<int, geometry::ControlMesh> all;
-  static const geometry::BodyMeasures measures = [] {
+  static const fit::Body measured = [] {  // with the body model registered to it
     fit::StageTimes times;
-    return fit::measure_mesh(body(62000), {}, times).measures;
+    return fit::measure_mesh(body(62000), {}, times);
   }();
   return kept(all, triangles, [&] {
     control_mesh::Options options;
     options.control_triangles = triangles;
     const auto pattern = control_mesh::load_template(
         triangles < 120 ? TENSEGRIC_FIT_BENCHMARKS "/bust_60.yaml" : kLaunch + "/templates/bust.yaml");
-    return control_mesh::fit_template(pattern, body(62000), measures, options);
+    return control_mesh::fit_template(pattern, measured.mesh.mesh, measured.measures, options,
+                                      &*measured.model);
   });
 }
 

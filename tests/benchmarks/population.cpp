@@ -12,10 +12,8 @@
 #include <iostream>
 #include <limits>
 
-#include "control_check.hpp"
-#include "fit/chain.hpp"
+#include "body_score.hpp"
 #include "geometry/status.hpp"
-#include "subjects.hpp"
 #include "totals.hpp"
 
 namespace {
@@ -37,28 +35,8 @@ struct Request {
   Input input() const {
     return mesh_only ? Input::surface : merged ? Input::merged_scan : Input::assembled_scan;
   }
-  std::string input_name() const { return mesh_only ? "surface" : merged ? "merged scan" : "scan"; }
+  std::string input_name() const { return population::input_name(input()); }
 };
-
-Score score_of(const population::Family& family, const std::string& name, const Request& request,
-               const std::vector<control_mesh::Template>& patterns) {
-  population::Subject subject = family.body(name, request.input());
-  Score score{family.name(), request.input_name(), name, "", {}};
-  fit::StageTimes times;
-  try {
-    const fit::Body body = request.mesh_only ? fit::measure_mesh(std::move(subject.surface), {}, times)
-                                             : fit::measure_scan(subject.scan, {}, times);
-    score.figures = population::figures_of(body.measures, subject.truth);
-    for (const control_mesh::Template& pattern : patterns)
-      for (const population::Figure& figure :
-           population::control_figures(pattern, body.mesh.mesh, body.measures, *body.model))
-        score.figures.push_back(figure);
-  } catch (const geometry::Refusal& refusal) {
-    score.refusal = fmt::format("{}: {}", refusal.code(), refusal.what());
-    score.figures = population::figures_of({}, subject.truth);
-  }
-  return score;
-}
 
 std::string line_of(const Score& score) {
   if (!score.refusal.empty())
@@ -79,7 +57,7 @@ std::string take_shard(const std::string& text, Request& request) {
 }
 
 /// The scores of the bodies asked for: those that the files have, and the rest measured one after the other;
-/// where nothing is to be measured the rest is named.
+/// where nothing is to be measured the rest is named, or counted where no body is to be named.
 std::vector<Score> measured(const population::Family& family, const Request& request,
                             const std::vector<control_mesh::Template>& patterns) {
   std::vector<Score> known;
@@ -91,6 +69,7 @@ std::vector<Score> measured(const population::Family& family, const Request& req
     for (Score& score : population::read_scores(file)) known.push_back(std::move(score));
   std::vector<Score> scores;
   unsigned place = 0;
+  int missing = 0;
   for (const std::string& name : family.bodies(request.first, request.bodies)) {
     if (place++ % request.shards != request.shard - 1) continue;
     const auto found = std::find_if(known.begin(), known.end(), [&](const Score& score) {
@@ -101,13 +80,16 @@ std::vector<Score> measured(const population::Family& family, const Request& req
       continue;
     }
     if (!request.scores.empty()) {
-      std::cout << fmt::format("{} {}; no file has it\n", family.name(), name);
+      ++missing;
+      if (!request.totals) std::cout << fmt::format("{} {}; no file has it\n", family.name(), name);
       continue;
     }
-    scores.push_back(score_of(family, name, request, patterns));
+    scores.push_back(population::score_of(family, name, request.input(), patterns));
     if (!request.out.empty()) population::append_score(request.out, scores.back());
     if (!request.totals) std::cout << line_of(scores.back()) << std::flush;
   }
+  if (missing > 0 && request.totals)
+    std::cout << fmt::format("{}: {} bodies that no file has\n", family.name(), missing);
   return scores;
 }
 

@@ -1,5 +1,6 @@
 """What fit_benchmark measured: its JSON, repetitions gathered, medians with spread."""
 import json
+import math
 import statistics
 
 
@@ -30,9 +31,11 @@ class Measured:
         return min(self.milliseconds), max(self.milliseconds)
 
     def value(self, counter, otherwise=None):
-        """Median of a counter over the repetitions."""
+        """Median of a counter over the repetitions; NaN where one of them found none, as it has no place in an order."""
         values = self.counters.get(counter)
-        return statistics.median(values) if values else otherwise
+        if not values:
+            return otherwise
+        return math.nan if any(map(math.isnan, values)) else statistics.median(values)
 
 
 def gather(runs):

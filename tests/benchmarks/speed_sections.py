@@ -8,6 +8,8 @@ def number(value, digits=3):
     """Rounded; powers of ten for what is smaller than a thousandth only."""
     if value is None:
         return ""
+    if not math.isfinite(value):
+        return "not found"
     if value == 0 or abs(value) < 1e-3:
         return f"{value:.{digits}g}"
     decimals = digits - 1 - math.floor(math.log10(abs(value)))
@@ -241,15 +243,18 @@ def scene_section(results):
 
 
 def guard_section(stages):
-    rows = [[s["stage"], number(s["ms"]), number(s["kernels"]), number(s["baseline_kernels"]), f"{s['time_ratio']:.2f} {s['time']}",
-             f"{s['spread']:.2f}", number(s["mib"]), number(s["baseline_mib"]), f"{s['memory_ratio']:.2f} {s['memory']}"] for s in stages]
+    def times(value):
+        return "" if value is None else f"{value:.2f}"  # None: the stage is not in the baseline, or only there
+
+    rows = [[s["stage"], number(s["ms"]), number(s["kernels"]), number(s["baseline_kernels"]), f"{times(s['time_ratio'])} {s['time']}",
+             times(s["spread"]), number(s["mib"]), number(s["baseline_mib"]), f"{times(s['memory_ratio'])} {s['memory']}"] for s in stages]
     words = [s[what] for s in stages for what in ("time", "memory")]
     verdict = "fails" if "FAILS" in words else "warns" if "warning" in words else "holds"
     return (f"<h2>Guard: {verdict}</h2>\n<p>Each stage in times of a calibration kernel that runs in the same process "
             f"right before it, and by "
             f"how much the process grows, against <code>tests/benchmarks/speed_baseline.yaml</code>; medians of "
             f"{stages[0]['rounds']}. "
-            f"1.3 times as much is a warning, twice a failure.</p>\n" +
+            f"1.3 times as much is a warning, twice a failure, and so is a stage that only one of both has.</p>\n" +
             table(["stage", "ms", "kernels", "baseline", "time", "spread", "MiB", "baseline", "memory"], rows))
 
 

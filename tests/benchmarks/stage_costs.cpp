@@ -71,7 +71,7 @@ class Rounds {
     });
     const auto pattern = control_mesh::load_template(TENSEGRIC_FIT_LAUNCH "/templates/bust.yaml");
     measure("control_mesh", 1,
-            [&] { control = control_mesh::fit_template(pattern, body.mesh, measures, {}); });
+            [&] { control = control_mesh::fit_template(pattern, body.mesh, measures, {}, &made->model); });
     std::optional<tensegric::Model> model;
     measure("tensegric", kQuick, [&] {
       model = tensegric::build_model(control, {});

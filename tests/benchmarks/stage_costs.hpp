@@ -15,8 +15,9 @@ struct StageCost {
   double mebibytes = 0;  ///< by which the process grows at most
 };
 
-/// The five stages for a scan of the virtual booth worn with B1, in their order, and the change of a garment.
-/// Each round runs them all.
+/// The five stages for a scan of the virtual booth worn with B1, in their order, the registration of the body
+/// model to a mesh, and the change of a garment. Each round runs them all. Their names are the keys of
+/// speed_baseline.yaml.
 std::vector<StageCost> stage_costs(int rounds);
 
 }  // namespace tensegric_fit::benchmarks

@@ -86,7 +86,7 @@ class Folder : public Family {
 
   Subject body(const std::string& name, Input input) const override {
     const std::string base = path_ + "/" + name;
-    Subject subject{read_truth(base + "_truth.json"), {}, {}};
+    Subject subject{read_truth(base + "_truth.json", input == Input::surface), {}, {}};
     if (input == Input::surface)
       subject.surface = geometry::read_ply_mesh(base + "_body.ply");
     else

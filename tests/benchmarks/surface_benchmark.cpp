@@ -4,7 +4,10 @@
 #include <pcl/point_types.h>
 #include <pcl/surface/poisson.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -40,7 +43,7 @@ const geometry::TriangleMesh& skin_of(const Setting& setting, const fit::Body* m
   return found->second;
 }
 
-// Largest error of the measures that have that name, mm.
+// Largest error of the measures that have those names, mm; NaN where one of them was not found.
 double largest_error(const std::vector<geometry::Measure>& found, const std::vector<geometry::Measure>& truth,
                      const std::vector<std::string>& names) {
   const auto value = [](const std::vector<geometry::Measure>& measures, const std::string& name) {
@@ -49,8 +52,11 @@ double largest_error(const std::vector<geometry::Measure>& found, const std::vec
     return std::numeric_limits<double>::quiet_NaN();
   };
   double largest = 0;
-  for (const std::string& name : names)
-    largest = std::max(largest, 1e3 * std::abs(value(found, name) - value(truth, name)));
+  for (const std::string& name : names) {
+    const double off = 1e3 * std::abs(value(found, name) - value(truth, name));
+    if (!std::isfinite(off)) return off;  // std::max would drop it
+    largest = std::max(largest, off);
+  }
   return largest;
 }
 

@@ -35,14 +35,15 @@ void take_least_neck(Truth& truth) {
   vague.erase(std::remove(vague.begin(), vague.end(), "girth neck"), vague.end());
 }
 
-Truth truth_in(const nlohmann::json& file) {
+Truth truth_in(const nlohmann::json& file, bool of_surface) {
   Truth truth;
   for (const auto& [name, place] : file.at("landmarks").items())
     if (place.is_array()) truth.measures.landmarks.push_back({name, triple(place), 1, ""});
   truth.measures.heights = measures(file.at("heights"));
   truth.measures.girths = measures(file.at("girths"));
   truth.doubts.vague = file.value("vague", std::vector<std::string>());
-  truth.doubts.hidden = file.value("hidden", std::vector<std::string>());
+  const char* hidden = of_surface && file.contains("hidden_on_surface") ? "hidden_on_surface" : "hidden";
+  truth.doubts.hidden = file.value(hidden, std::vector<std::string>());
   const nlohmann::json loose = file.value("loose", nlohmann::json::object());
   for (const auto& [name, direction] : loose.items())
     truth.doubts.loose.emplace_back(name, triple(direction));
@@ -56,11 +57,11 @@ Truth truth_in(const nlohmann::json& file) {
 
 }  // namespace
 
-Truth read_truth(const std::string& path) {
+Truth read_truth(const std::string& path, bool of_surface) {
   std::ifstream file(path);
   if (!file) throw geometry::Refusal(geometry::refusal::kBrokenFile, path + ": cannot be read");
   try {
-    return truth_in(nlohmann::json::parse(file));
+    return truth_in(nlohmann::json::parse(file), of_surface);
   } catch (const nlohmann::json::exception& error) {
     throw geometry::Refusal(geometry::refusal::kBrokenFile, path + ": " + error.what());
   }

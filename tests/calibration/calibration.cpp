@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "geometry/parallel_for.hpp"
 #include "geometry/status.hpp"
@@ -27,8 +28,7 @@ constexpr double kStep =
     0.02;  // of a parameter's logarithm, for differences: well above the control mesh's own noise
 constexpr double kAtBound = 0.01;  // of the logarithm
 constexpr std::size_t kFewestBodies = 3;
-constexpr double kLeastPull = 1e-6;  // N: a slack line's, for its logarithm
-constexpr double kLeastWay = 1e-4;   // m, root mean square: the references repeat to 0.08 mm
+constexpr double kLeastWay = 1e-4;  // m, root mean square: the references repeat to 0.08 mm
 
 // Fitted by its logarithm. The bounds are where a parameter stops to matter, or the model to stand.
 struct Parameter {
@@ -398,9 +398,11 @@ std::vector<CaseOutcome> wear_cases(const CalibrationBody& body,
 Calibration calibrate(const std::vector<CalibrationBody>& bodies,
                       const std::vector<control_mesh::Template>& patterns, const Adjusted& start,
                       const CalibrationOptions& options, const std::function<void(const std::string&)>& say) {
-  if (bodies.size() < kFewestBodies)
+  std::set<std::string> names;  // a body is left out at all its meshes
+  for (const CalibrationBody& body : bodies) names.insert(body.name);
+  if (names.size() < kFewestBodies)
     throw Refusal(refusal::kTooFewData,
-                  fmt::format("{} bodies: {} are the fewest of which one can be left out", bodies.size(),
+                  fmt::format("{} bodies: {} are the fewest of which one can be left out", names.size(),
                               kFewestBodies));
   for (const CalibrationBody& body : bodies)
     for (const CalibrationCase& c : body.cases)
@@ -428,6 +430,21 @@ Calibration calibrate(const std::vector<CalibrationBody>& bodies,
       result.errors.push_back({bodies[b].cases[c].name, bodies[b].cases[c].still, before[c], in[c], out[c]});
   }
   return result;
+}
+
+std::size_t least_left_out(const std::vector<Calibration>& found) {
+  std::optional<std::size_t> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    double error = 0;  // NaN where a case did not settle
+    for (const CalibrationError& e : found[i].errors)
+      error += e.out_of_sample / e.not_moving / static_cast<double>(found[i].errors.size());
+    if (!(error < least)) continue;
+    least = error;
+    best = i;
+  }
+  if (!best) throw Refusal(refusal::kNotSettled, "no density settled on each body when it was left out");
+  return *best;
 }
 
 std::string tissue_yaml(const fit::Settings& settings) {

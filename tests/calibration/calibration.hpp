@@ -42,6 +42,8 @@ struct CalibrationBody {
   std::optional<Fineness> fineness{};  ///< none: that of the settings
 };
 
+inline constexpr double kLeastPull = 1e-6;  ///< N: a slack line's, for its logarithm
+
 /// How a case went.
 struct CaseOutcome {
   double error;  ///< root mean square distance to the reference, m: of points, or of a worn scan's skin
@@ -87,10 +89,14 @@ struct Calibration {
 };
 
 /// Relative errors of all cases count alike. Each body is left out once. `patterns` as for wear_cases. \throw
-/// Refusal bad_option: a name that cannot be fitted; too_few_data: fewer than three bodies; at_bound naming
-/// what ran into its bounds; not_settled: no fit of a body
+/// Refusal bad_option: a name that cannot be fitted; too_few_data: fewer than three bodies by their names,
+/// however many meshes; at_bound naming what ran into its bounds; not_settled: no fit of a body
 Calibration calibrate(const std::vector<CalibrationBody>& bodies,
                       const std::vector<control_mesh::Template>& patterns, const Adjusted& start,
                       const CalibrationOptions& options, const std::function<void(const std::string&)>& say);
+
+/// Which has the least mean error of cases left out, relative to not moving. One with a case that did not
+/// settle has none. \throw Refusal not_settled: none has one
+std::size_t least_left_out(const std::vector<Calibration>& found);
 
 }  // namespace tensegric_fit::calibration

@@ -5,12 +5,17 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 
+#include "calibration/cases_file.hpp"
+#include "calibration/newtons_file.hpp"
 #include "fit/tissue_file.hpp"
 #include "geometry/decimate.hpp"
+#include "geometry/ply.hpp"
 #include "geometry/status.hpp"
 #include "virtual_body/virtual_body.hpp"
 
@@ -135,6 +140,9 @@ TEST(Calibration, FindsForceAndThicknessFromWornScans) {
 TEST(Calibration, RefusesByName) {
   const std::vector<CalibrationBody> bodies = moved_by({});
   EXPECT_EQ(refusal_of([&] { calibrated({bodies[0], bodies[1]}, {"skin"}); }), "too_few_data");
+  std::vector<CalibrationBody> one_twice = {bodies[0], bodies[1], bodies[0]};
+  one_twice[2].fineness = Fineness{480, 1};
+  EXPECT_EQ(refusal_of([&] { calibrated(one_twice, {"skin"}); }), "too_few_data");
   EXPECT_EQ(refusal_of([&] { calibrated(bodies, {"colour"}); }), "bad_option");
   std::vector<CalibrationBody> still = bodies;
   ReferenceField nowhere = still[1].cases[0].reference;
@@ -144,6 +152,108 @@ TEST(Calibration, RefusesByName) {
   fit::Settings leather;
   leather.model.skin = 1.5;  // beyond what a skin may be
   EXPECT_EQ(refusal_of([&] { calibrated(moved_by(leather), {"skin"}); }), "at_bound");
+}
+
+TEST(Calibration, ADensityThatDidNotSettleIsNotTaken) {
+  const auto leaving_out = [](double error) {
+    Calibration found;
+    found.errors.push_back({"A", 0.004, 0.002, 0.001, 0.001});
+    found.errors.push_back({"B", 0.004, 0.002, 0.001, error});
+    return found;
+  };
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(least_left_out({leaving_out(0.002), leaving_out(none)}), 0u);
+  EXPECT_EQ(least_left_out({leaving_out(none), leaving_out(0.002)}), 1u);
+  EXPECT_EQ(least_left_out({leaving_out(0.003), leaving_out(0.002)}), 1u);
+  EXPECT_EQ(refusal_of([&] { least_left_out({leaving_out(none), leaving_out(none)}); }), "not_settled");
+}
+
+// A folder for a file of cases and what it names.
+class CasesFile : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  Cases read(const std::string& text, bool worn) const {
+    std::ofstream file(path("cases.yaml"));
+    file << text;
+    file.close();
+    return read_cases(path("cases.yaml"), {}, worn);
+  }
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("cases_" + std::to_string(getpid()));
+};
+
+TEST_F(CasesFile, ABodyThatIsThereTwiceIsRefused) {
+  const std::string body = "{name: A, mesh: nowhere.ply}";
+  EXPECT_EQ(refusal_of([&] { read("bodies: [" + body + "]", false); }), "broken_file");
+  EXPECT_EQ(refusal_of([&] { read("bodies: [" + body + ", " + body + "]", false); }), "bad_option");
+}
+
+TEST_F(CasesFile, WhatIsFittedToWornScansAndHowFineIsNotInIt) {
+  for (const char* key : {"fit: [skin]\n", "meshes: [{control_triangles: 120, layers: 1}]\n"}) {
+    const std::string text = std::string(key) + "bodies: []\n";
+    EXPECT_EQ(refusal_of([&] { read(text, false); }), "none") << key;
+    EXPECT_EQ(refusal_of([&] { read(text, true); }), "bad_option") << key;
+  }
+}
+
+TEST_F(CasesFile, ATensionIsFiniteAndAbove0) {
+  geometry::write_ply_mesh(path("body.ply"), women()[0].mesh.mesh);
+  const auto code = [&](const std::string& tension) {
+    return refusal_of([&] {
+      read(
+          "bodies: [{name: A, mesh: body.ply, garment: B1, references: [{ratio: 0.95, file: nowhere.csv, "
+          "tension: [" +
+              tension + "]}]}]",
+          false);
+    });
+  };
+  for (const char* bad : {"0", ".inf"}) EXPECT_EQ(code(bad), "bad_option") << bad;
+  EXPECT_EQ(code("8"), "broken_file");  // goes on to the reference, which is not there
+}
+
+// Inches with y up, and millimetres, as programs of scanners write them.
+TEST_F(CasesFile, WornMeshesAndScansAreReadInAnyUnitAndAxes) {
+  const fit::Body& woman = women()[1];
+  geometry::TriangleMesh inches = woman.mesh.mesh;
+  inches.vertices = skin_in(woman, b1(0.93), {});
+  geometry::TriangleMesh millimetres = inches;
+  for (Eigen::Vector3d& p : inches.vertices) p = Eigen::Vector3d(p.x(), p.z(), -p.y()) / 0.0254;
+  for (Eigen::Vector3d& p : millimetres.vertices) p *= 1e3;
+  geometry::write_ply_mesh(path("bare.ply"), woman.mesh.mesh);
+  geometry::write_ply_mesh(path("inches.ply"), inches);
+  geometry::write_ply_mesh(path("millimetres.ply"), millimetres);
+  const Cases cases = read(
+      "bodies: [{name: A, mesh: bare.ply, garment: B1, references: [{ratio: 0.95, worn: inches.ply}, "
+      "{ratio: 0.95, worn_scan: millimetres.ply}]}]",
+      true);
+  ASSERT_EQ(cases.bodies.size(), 1u);
+  ASSERT_EQ(cases.bodies[0].cases.size(), 2u);
+  for (const CalibrationCase& one : cases.bodies[0].cases) {
+    EXPECT_GT(one.still, 0.001);  // m; B1 moves her so far
+    EXPECT_LT(one.still, 0.01);
+  }
+}
+
+TEST(NewtonsFile, HasWhatSettledAndIsFinite) {
+  CalibrationCase one;
+  one.newtons = {8, 10};
+  const CaseOutcome settled{0, tensegric::Status::converged, 1, 0, {4, 20}, {}},
+      slack{0, tensegric::Status::converged, 1, 0, {0, 20}, {}},
+      capped{0, tensegric::Status::capped, 1, 0, {4, 20}, {}};
+  ASSERT_TRUE(pull_ratio(one, settled));
+  EXPECT_NEAR(*pull_ratio(one, settled), 1, 1e-9);
+  ASSERT_TRUE(pull_ratio(one, slack));
+  EXPECT_NEAR(*pull_ratio(one, slack), std::sqrt(kLeastPull / 8 * 2), 1e-9);
+  EXPECT_FALSE(pull_ratio(one, capped));
+  EXPECT_FALSE(pull_ratio(CalibrationCase(), settled));
+
+  const auto text = [](const PullRatios& ratios) { return newtons_yaml(ratios, 120, "2026-11-27"); };
+  EXPECT_NE(text({{"A 0.970", 0.5}, {"A 0.950", 2.0}}).find("half_width: 1.36 "), std::string::npos);
+  EXPECT_EQ(refusal_of([&] { text({}); }), "too_few_data");
+  for (const double ratio : {0.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_EQ(refusal_of([&] { text({{"A 0.970", 0.5}, {"A 0.950", ratio}}); }), "non_finite") << ratio;
 }
 
 TEST(Reference, OfAnotherMeshOrBrokenIsRefused) {

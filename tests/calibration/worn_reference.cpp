@@ -27,7 +27,7 @@ WornReference::WornReference(const fit::Body& bare, const geometry::ControlMesh&
   const geometry::TriangleMesh& mesh = bare.mesh.mesh;
   const fit::Body& second = worn_->body;
   correlation::Correlation found =
-      correlation::correlate({mesh, mesh.vertices, control_, bare.measures},
+      correlation::correlate({mesh, mesh.vertices, control_, bare.measures, bare.mesh.filled},
                              {second.mesh.mesh, second.mesh.filled, second.measures}, {cloth_});
   bare_from_worn_ = found.alignment.patch_from_scan;
   parts_ = std::move(found.parts);

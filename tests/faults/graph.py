@@ -8,7 +8,7 @@ A line of JSON per case in DIR/results.jsonl; cases that are there are not done 
 moment of a scan), surface (SIGKILL to the process that makes the surface), master, stop (SIGSTOP for 30 s), clock (an hour forward, an
 hour back), deaf (a subscriber that never reads), full (exports to a full disk), read_only. After each, the scan that is newest must have
 the result that it has without faults, to the bit, at most 5 s after the node is back; no result is another scan's; a scan without a
-result is named on /diagnostics. Exit: 0 all hold, 1 otherwise."""
+result is named on /diagnostics. Exit: 0 all hold, 2 a usage error, 1 otherwise."""
 import argparse
 import json
 import os
@@ -132,13 +132,18 @@ class Graph:
                 if r["digest"] != self.expected.get(self.shop.bodies.get((r["booth"], r["stamp"])))]
 
 
+def beginning_of_id(stamp):
+    """Of the scan's id, which goes on with a checksum."""
+    return f"{stamp // 10 ** 9}.{stamp % 10 ** 9:09}-"
+
+
 def outcome(graph, booth, stamp, back):
-    """What became of the scan: seconds from the node's return to its result, or who named its loss."""
+    """What became of the scan: seconds from `back`, the node's return or the scan where none was gone, to its result, or who named its loss."""
     try:
         result = graph.wait(booth, stamp, PATIENCE)
     except TimeoutError:
         named = [node for node, report in graph.shop.ask("reports").items()
-                 if node.startswith(booth) and str(stamp)[:10] in report["last_error_scan_id"]]
+                 if node.startswith(booth) and report["last_error_scan_id"].startswith(beginning_of_id(stamp))]
         return {"fine": False, "lost": True, "named_by": named}
     seconds = result["at"] - back
     return {"fine": seconds <= graph.soon and not graph.mixed(), "seconds": round(seconds, 2), "mixed": len(graph.mixed())}
@@ -148,7 +153,8 @@ def kill(graph, dice, _):
     booth, node, delay = dice.choice(BOOTHS), dice.choice(NODES), dice.uniform(0, 3)
     other = next(b for b in BOOTHS if b != booth)
     process = graph.processes()[f"{booth}/{node}"]
-    stamps = {booth: graph.shop.scan(booth, dice.randrange(BODIES)), other: graph.shop.scan(other, dice.randrange(BODIES))}
+    stamp = graph.shop.scan(booth, dice.randrange(BODIES))
+    other_stamp, other_scanned = graph.shop.scan(other, dice.randrange(BODIES)), time.monotonic()
     time.sleep(delay)
     os.kill(process, signal.SIGKILL)
     killed = time.monotonic()
@@ -159,8 +165,8 @@ def kill(graph, dice, _):
         return node not in STAGES or graph.shop.ask("reports")[f"{booth}/{node}"]["at"] > killed + 0.3
     wait_until(is_back, f"{booth}/{node}", PATIENCE)
     back = time.monotonic()
-    result = outcome(graph, booth, stamps[booth], back)
-    beside = outcome(graph, other, stamps[other], back)
+    result = outcome(graph, booth, stamp, back)
+    beside = outcome(graph, other, other_stamp, other_scanned)
     return {"booth": booth, "node": node, "delay": round(delay, 2), "return": round(back - killed, 2), **result,
             "fine": result["fine"] and beside["fine"], "other": beside}
 
@@ -177,11 +183,15 @@ def surface(graph, dice, _):
         return found
     wait_until(started, "the process that makes the surface", PATIENCE)
     os.kill(found[0], signal.SIGKILL)
-    wait_until(lambda: graph.shop.ask("reports")[f"{booth}/reconstruction"]["last_error"] == "surface_failed", "its name", PATIENCE)
-    lost = graph.shop.result(booth, stamp)
+
+    def named():
+        report = graph.shop.ask("reports")[f"{booth}/reconstruction"]  # it keeps the error of the case before
+        return report["last_error"] == "surface_failed" and report["last_error_scan_id"].startswith(beginning_of_id(stamp))
+    wait_until(named, "its name", PATIENCE)
     again = time.monotonic()
     result = outcome(graph, booth, graph.shop.scan(booth, dice.randrange(BODIES)), again)
-    return {"booth": booth, **result, "fine": result["fine"] and lost is None}
+    lost = graph.shop.result(booth, stamp) is None  # a late one would be there by now
+    return {"booth": booth, **result, "fine": result["fine"] and lost}
 
 
 def master(graph, dice, _):
@@ -270,6 +280,16 @@ FAULTS = {"kill": kill, "surface": surface, "master": master, "stop": stop, "dea
 COUNTS = {"surface": 5, "master": 1, "stop": len(STAGES), "deaf": 1, "full": 1, "read_only": 1, "clock": 1}
 
 
+def names_in(known):
+    """For argparse: names with commas between them. A wrong one would run nothing, and pass."""
+    def names(text):
+        for name in text.split(","):
+            if name not in known:
+                raise argparse.ArgumentTypeError(f"'{name}' is none of {', '.join(known)}")
+        return text.split(",")
+    return names
+
+
 def done_cases(path):
     if not path.exists():
         return {}
@@ -313,7 +333,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--work", type=pathlib.Path, required=True)
     parser.add_argument("--kills", type=int, default=100)
-    parser.add_argument("--only", default=",".join(FAULTS))
+    parser.add_argument("--only", type=names_in(FAULTS), default=list(FAULTS))
     parser.add_argument("--soon", type=float, default=SOON, help="seconds that a result may take, on a machine that is shared")
     parser.add_argument("--anew", action="store_true", help="do the cases that are there again")
     arguments = parser.parse_args()
@@ -322,8 +342,7 @@ def main():
     path, bodies = work / "results.jsonl", bodies_in(work)
     if arguments.anew:
         path.unlink(missing_ok=True)
-    wanted = arguments.only.split(",")
-    cases = [(fault, case) for fault in FAULTS if fault in wanted for case in range(dict(COUNTS, kill=arguments.kills)[fault])]
+    cases = [(fault, case) for fault in FAULTS if fault in arguments.only for case in range(dict(COUNTS, kill=arguments.kills)[fault])]
     for by_clock in (False, True):  # of its own launch
         left = [c for c in cases if (c[0] == "clock") == by_clock and c not in done_cases(path)]
         while left:

@@ -3,7 +3,7 @@
 
 Usage: build/devel/env.sh python3 tests/faults/malice.py --work DIR [--only bytes,garments,...]
 
-After each attack (malicious.py), whose calls of services are all answered, the same processes run, exports and what lies beside them are untouched, and the next scan of both booths
+After each attack (malicious.py), whose calls of services and goals are all answered, the same processes run, exports and what lies beside them are untouched, and the next scan of both booths
 has the right result, to the bit. A line of JSON per attack in DIR/malice.jsonl. Exit: 0 all hold, 1 otherwise."""
 import argparse
 import hashlib
@@ -18,7 +18,7 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 sys.dont_write_bytecode = True  # not into the sources
 sys.path[:0] = [str(HERE), str(HERE.parent)]
-from graph import BOOTHS, PATIENCE, Graph, bodies_in, outcome
+from graph import BOOTHS, PATIENCE, Graph, bodies_in, names_in, outcome
 
 ATTACKS = ("bytes", "empty", "tags", "shapes", "clouds", "garments", "reports", "captures", "folders", "orders", "transforms")
 SOON = 60  # seconds; how soon is not what is tried here
@@ -43,14 +43,14 @@ def attack(graph, name, exports):
     died = [node for node, process in graph.processes().items() if processes.get(node) != process] + [n for n in processes if n not in graph.processes()]
     changed = [path for path, digest in content_of(exports.parent).items() if content.get(path) != digest] + [p for p in content if not (exports.parent / p).exists()]
     results = [outcome(graph, booth, graph.shop.scan(booth, body), time.monotonic()) for body, booth in enumerate(BOOTHS)]
-    fine = done.returncode == 0 and "exception" not in done.stdout and not died and not changed and all(result["fine"] for result in results)
+    fine = done.returncode == 0 and '"wrong: ' not in done.stdout and not died and not changed and all(result["fine"] for result in results)
     return {"attack": name, "fine": fine, "died": died, "changed": changed, "results": results, "answers": answers}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--work", type=pathlib.Path, required=True)
-    parser.add_argument("--only", default=",".join(ATTACKS))
+    parser.add_argument("--only", type=names_in(ATTACKS), default=list(ATTACKS))
     arguments = parser.parse_args()
     work = arguments.work.resolve()
     exports = work / "shop" / "exports"
@@ -63,7 +63,7 @@ def main():
         stamp = graph.shop.scan("left", 1)
         graph.wait("left", stamp, PATIENCE)
         graph.shop.ask("export", "left", exports / "customer")
-        for name in arguments.only.split(","):
+        for name in arguments.only:
             rows.append(attack(graph, name, exports))
             file.write(json.dumps(rows[-1]) + "\n")
             file.flush()

@@ -1,6 +1,7 @@
 """What a malicious node on the graph sends to the stages of a booth: malicious.py BOOTH ATTACK [FOLDER]
 
-Prints a line of JSON, what the services that it called answered. FOLDER: of the exports of this booth."""
+Prints a line of JSON, what the services and actions that it called answered; an answer that is none, or not the right one, begins with "wrong: ".
+FOLDER: of the exports of this booth."""
 import json
 import random
 import struct
@@ -23,6 +24,7 @@ TOPICS = {"scan/points": PointCloud2, "body/mesh": TriangleMesh, "body/model": B
           "forget/order": ForgetOrder, "forget/answer": ForgetAnswer}
 STRANGE = ("", "\x00\x01\x1b[2J", "]]><!--", "../../../etc/passwd", "%n%s%d", "{}{:d}", "\U0001f4a9" * 99, "x" * 1_000_000)
 NONE, ENDLESS = float("nan"), float("inf")
+WRONG = "wrong: "
 
 
 class Raw:
@@ -70,7 +72,7 @@ class Attacker:
             return {"done": getattr(answer, "accepted", getattr(answer, "exported", getattr(answer, "deleted", None))), "code": getattr(answer, "code", ""),
                     "removed": list(getattr(answer, "removed", []))}
         except rospy.ServiceException as error:
-            return {"done": False, "code": f"exception {str(error)[:80]}"}
+            return {"done": False, "code": f"{WRONG}{str(error)[:80]}"}
 
     def bytes(self):
         """Random bytes, and counts that lie, as messages of every topic."""
@@ -137,17 +139,21 @@ class Attacker:
         self.publish({"/diagnostics": [array, DiagnosticArray(status=[DiagnosticStatus(name=strange) for strange in STRANGE])]})
 
     def captures(self):
-        """Goals that no booth can meet, with reports that lie meanwhile."""
+        """Goals that no booth can meet, with reports that lie meanwhile: some are refused at once, the others end with any code."""
         client = actionlib.SimpleActionClient(f"/{self.booth}/capture", CaptureAction)
         if not client.wait_for_server(rospy.Duration(20)):
-            return "no server"
+            return [WRONG + "no server"]
         answers = []
-        for goal in (CaptureGoal(sensors=["no topic!"]), CaptureGoal(sensors=["body/landmarks"]), CaptureGoal(timeout=NONE), CaptureGoal(timeout=-5),
-                     CaptureGoal(timeout=1e300), CaptureGoal(sensors=[""], timeout=1), CaptureGoal(sensors=["x" * 100_000], timeout=1),
-                     CaptureGoal(sensors=["a"] * 100_000, timeout=1)):
+        refused = [CaptureGoal(sensors=["no topic!"]), CaptureGoal(sensors=["body/landmarks"]), CaptureGoal(timeout=NONE), CaptureGoal(timeout=-5),
+                   CaptureGoal(timeout=1e300)]
+        unmet = [CaptureGoal(sensors=sensors, timeout=1) for sensors in ([""], ["x" * 100_000], ["a"] * 100_000)]
+        for number, goal in enumerate(refused + unmet):
             client.send_goal(goal)
             self.reports()
-            answers.append(client.get_result().code if client.wait_for_result(rospy.Duration(20)) else "no answer")
+            answered = client.wait_for_result(rospy.Duration(20))
+            code = client.get_result().code if answered else "no answer"
+            right = answered and (code == "bad_option" if number < len(refused) else code != "")
+            answers.append(code if right else WRONG + code)
             client.cancel_all_goals()
         return answers
 

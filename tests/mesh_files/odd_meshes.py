@@ -267,6 +267,7 @@ CASES = [
     ("three faces at 200 edges", "ply", write.ply, fins, "measured", False),
     ("triangles that share no vertex", "ply", write.ply, soup, "measured", False),
     ("2,000 faces without area", "obj", write.obj, then(flat_faces, BOOTH), "measured", False),
+    ("2,000 faces without area, PLY", "ply", write.ply, flat_faces, "same", False),
     ("20,000 spare vertices", "obj", write.obj, then(spare_vertices, BOOTH), "measured", False),
     ("a hundred crumbs around her", "ply", write.ply, debris, "measured", False),
     ("on a plate", "ply", write.ply, floor_plate, "measured", False),

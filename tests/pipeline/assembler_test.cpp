@@ -185,6 +185,32 @@ TEST_F(AssemblerTest, CloudsThatCannotBeUsedAreNamedWithTheirSensor) {
   EXPECT_TRUE(booth_.scans.empty());
 }
 
+TEST_F(AssemblerTest, SensorsThatSendFasterThanAScanIsAssembledGetScansAllTheSame) {
+  for (const double stamp : {600, 601, 602}) booth_.send_all("a", stamp);
+  ASSERT_TRUE(wait_for(
+      [this] { return !booth_.scans.empty() && booth_.scans.back()->header.stamp == ros::Time(602); }));
+  EXPECT_EQ(booth_.scans.front()->header.stamp, ros::Time(600)) << "newer captures took its place";
+}
+
+TEST_F(AssemblerTest, CloudsInOneFrameComeWithoutNormalsAndWithAWarning) {
+  booth_.send_all("a", 700, 1);
+  sensor_msgs::PointCloud2 cloud = recorded("a").clouds[1];
+  cloud.header.stamp = ros::Time(700.005);
+  cloud.header.frame_id = "strict/" + recorded("a").clouds[0].header.frame_id;
+  booth_.send(cloud, 1);
+  ASSERT_TRUE(booth_.scanned(1));
+  const sensor_msgs::PointCloud2& scan = *booth_.scans[0];
+  sensor_msgs::PointCloud2ConstIterator<float> normal(scan, "normal_x");
+  sensor_msgs::PointCloud2ConstIterator<std::uint8_t> sensor(scan, "sensor");
+  for (; sensor != sensor.end(); ++sensor, ++normal)
+    ASSERT_NEAR(Eigen::Vector3d(normal[0], normal[1], normal[2]).norm(), *sensor < 2 ? 0 : 1, 1e-5);
+  EXPECT_TRUE(wait_for([this] {
+    return booth_.facts["level"] == std::to_string(diagnostic_msgs::DiagnosticStatus::WARN) &&
+           booth_.facts["message"].find("sensors/0/points and sensors/1/points are in one frame") !=
+               std::string::npos;
+  }));
+}
+
 TEST(LenientAssemblerTest, WithEnoughSensorsWhatIsThereComesWithAWarning) {
   Booth booth("lenient");
   ASSERT_TRUE(booth.ready());

@@ -98,11 +98,16 @@ class Chain {
       const auto output = tensegric_.handle(
           *input, [] { return true; }, [](const FitState&) {});
       recording.fits.push_back(output->fit);
+      recording.forces.push_back(output->forces);
       recording.histories.push_back(output->solution.history);
     });
     if (recording.fits.size() == fits) return;
     if (const auto joined = tffd_.add(recording.fits.back()))
-      run("tffd", [&] { recording.deformed.push_back(tffd_.handle(*joined).scan.deformed); });
+      run("tffd", [&] {
+        const auto output = tffd_.handle(*joined);
+        recording.deformed.push_back(output.scan.deformed);
+        recording.warnings.push_back(output.warnings);
+      });
   }
 
   template <typename Work>

@@ -38,7 +38,8 @@ Expectation read_expectation(const std::string& metric, const YAML::Node& map, c
   if (!value.IsNull()) expectation.value = value_in(value, where);
   if (!expectation.golden && !expectation.value) throw Refusal(kBadCase, where + ": 'expected' is empty");
   expectation.tolerance = geometry::optional(map, "tolerance", 0.0, where, kBadCase);
-  if (!(expectation.tolerance >= 0)) throw Refusal(kBadCase, where + ": 'tolerance' is negative");
+  if (!std::isfinite(expectation.tolerance)) throw Refusal(kBadCase, where + ": 'tolerance' is not finite");
+  if (expectation.tolerance < 0) throw Refusal(kBadCase, where + ": 'tolerance' is negative");
   expectation.reason = geometry::required<std::string>(map, "reason", where, kBadCase);
   return expectation;
 }

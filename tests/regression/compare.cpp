@@ -203,15 +203,25 @@ std::vector<RunComparison> compare_runs(const std::string& one, const std::strin
   if (!fs::is_directory(one)) return {compare_bags(one, other)};
   if (!bag_in(one).empty() && !bag_in(other).empty()) return {compare_bags(bag_in(one), bag_in(other))};
   std::set<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(one))
-    if (!bag_in(entry.path()).empty() && !bag_in(other / entry.path().filename()).empty())
-      names.insert(entry.path().filename());
-  if (names.empty()) throw geometry::Refusal(kBadCase, one + " and " + other + " have no case in common");
+  for (const std::string& folder : {one, other})
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      if (!bag_in(entry.path()).empty()) names.insert(entry.path().filename());
   std::vector<RunComparison> comparisons;
+  bool in_common = false;
   for (const std::string& name : names) {
-    comparisons.push_back(compare_bags(bag_in(one / fs::path(name)), bag_in(other / fs::path(name))));
+    const std::string a = bag_in(one / fs::path(name)), b = bag_in(other / fs::path(name));
+    if (a.empty() || b.empty()) {
+      comparisons.emplace_back();
+      comparisons.back().one = a;
+      comparisons.back().other = b;
+      comparisons.back().notes = {"only " + (a.empty() ? other : one) + " has this case"};
+    } else {
+      comparisons.push_back(compare_bags(a, b));
+      in_common = true;
+    }
     comparisons.back().name = name;
   }
+  if (!in_common) throw geometry::Refusal(kBadCase, one + " and " + other + " have no case in common");
   return comparisons;
 }
 

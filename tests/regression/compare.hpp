@@ -56,8 +56,8 @@ struct RunComparison {
 /// \throw rosbag::BagException, std::runtime_error
 RunComparison compare_bags(const std::string& one, const std::string& other);
 
-/// Two bags, or two folders of `regression --out`: every case that both have. \throw Refusal bad_case:
-/// nothing to compare; as compare_bags
+/// Two bags, or two folders of `regression --out`: every case, with a note where only one of them has it.
+/// \throw Refusal bad_case: nothing to compare; as compare_bags
 std::vector<RunComparison> compare_runs(const std::string& one, const std::string& other);
 
 std::string to_text(const RunComparison& comparison);

@@ -149,6 +149,21 @@ TEST_F(CompareTest, WhatIsMissingOrOfAnotherScanIsSaid) {
   EXPECT_THROW(compare_runs(folder_, folder_), geometry::Refusal) << "no case in common";
 }
 
+TEST_F(CompareTest, ACaseThatOneRunLacksIsADifference) {
+  for (const char* name : {"before/a", "before/b", "after/a"}) fs::create_directories(folder_ / name);
+  for (const char* name : {"before/a/result.bag", "before/b/result.bag", "after/a/result.bag"})
+    write(name, 0, 0.9);
+  const std::string before = folder_ / "before", after = folder_ / "after";
+  for (const auto& [one, other] : {std::pair(before, after), {after, before}}) {
+    const std::vector<RunComparison> cases = compare_runs(one, other);
+    ASSERT_EQ(cases.size(), 2u);
+    EXPECT_TRUE(cases[0].same()) << to_text(cases[0]);
+    EXPECT_EQ(cases[1].name, "b");
+    EXPECT_FALSE(cases[1].same());
+    EXPECT_EQ(cases[1].notes, std::vector<std::string>{"only " + before + " has this case"});
+  }
+}
+
 class RecordTest : public CompareTest {
  protected:
   RecordRequest scan_and(const std::vector<Garment>& garments) const {

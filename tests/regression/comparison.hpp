@@ -25,6 +25,7 @@ struct Verdict {
   std::string runner;  ///< bag or replay
   std::vector<Row> rows;
   std::vector<std::string> faults;  ///< what is wrong beside metrics: a sentence each
+  std::vector<std::string> notes;   ///< what may be wrong, or the machine's: they fail nothing
   Metrics metrics;                  ///< all, with the errors to the truth
 
   bool holds() const;

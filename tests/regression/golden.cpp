@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "geometry/status.hpp"
+#include "golden_shape.hpp"
 #include "stamp.hpp"
 #include "yaml_values.hpp"
 
@@ -44,18 +45,34 @@ std::string changed_values(const Verdict& verdict) {
   return lines;
 }
 
+bool is_recorded(const Row& row) {
+  return row.expectation.golden || row.expectation.metric.rfind("shape/", 0) == 0;
+}
+
 }  // namespace
+
+std::vector<std::string> against_update(const Case& asked, const Recording& recording,
+                                        const Verdict& verdict) {
+  std::vector<std::string> reasons = verdict.faults;
+  for (const Row& row : verdict.rows)
+    if (row.expectation.golden && !row.found) reasons.push_back(row.expectation.metric + " was not found");
+  if (wants_shape(asked) && !recording.body)
+    reasons.push_back("there is no body whose skin could be recorded");
+  return reasons;
+}
 
 std::string update_table(const Case& asked, const Verdict& verdict) {
   std::string table = fmt::format("{}\n  {:<36} {:>16} {:>16} {:>12} {:>10}\n", asked.name, "metric", "old",
                                   "new", "difference", "tolerance");
   for (const Row& row : verdict.rows) {
-    if (!row.expectation.golden && row.expectation.metric.rfind("shape/", 0) != 0) continue;
+    if (!is_recorded(row) && row.holds) continue;
     const auto difference = row.difference();
     table += fmt::format("  {:<36} {:>16} {:>16} {:>12} {:>10.3g}{}\n", row.expectation.metric, old_of(row),
                          row.found ? to_text(*row.found) : "not found",
                          difference ? fmt::format("{:+.3g}", *difference) : "", row.expectation.tolerance,
-                         row.holds ? "" : "  *");
+                         row.holds          ? ""
+                         : is_recorded(row) ? "  *"
+                                            : "  * FAILS, and stays: it is asked for, not recorded");
   }
   return table;
 }

@@ -2,13 +2,20 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "comparison.hpp"
+#include "recording.hpp"
 
 namespace tensegric_fit::regression {
 
-/// Old, new, difference and tolerance of every golden value of a case, and of its recorded shape: a table for
-/// people.
+/// Why nothing of a run may be recorded, a sentence each: its faults, values and skin that did not come out.
+/// Empty: it may.
+std::vector<std::string> against_update(const Case& asked, const Recording& recording,
+                                        const Verdict& verdict);
+
+/// Old, new, difference and tolerance of every golden value of a case, of its recorded shape, and of what is
+/// asked for and does not hold, which stays: a table for people.
 std::string update_table(const Case& asked, const Verdict& verdict);
 
 /// Writes the new values, and why, when, from which commit and over which values, into the case's file;

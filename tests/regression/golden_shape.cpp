@@ -111,9 +111,11 @@ Metrics shape_metrics(const Case& asked, const Recording& recording) {
   else
     for (const auto& [name, part] : now.parts) {
       const Summary& before = then.parts.at(name);
-      centre = std::max(centre, (part.centre - before.centre).cwiseAbs().maxCoeff());
-      spread = std::max(spread, (part.spread - before.spread).cwiseAbs().maxCoeff());
-      area = std::max(area, std::abs(part.area / before.area - 1));
+      for (int axis = 0; axis < 3; ++axis) {
+        centre = worse(centre, std::abs(part.centre[axis] - before.centre[axis]));
+        spread = worse(spread, std::abs(part.spread[axis] - before.spread[axis]));
+      }
+      area = worse(area, std::abs(part.area / before.area - 1));
     }
   return {{"shape/centre", centre},
           {"shape/spread", spread},

@@ -17,7 +17,7 @@ bool wants_shape(const Case& asked);
 ///   shape/centre, shape/spread   metres; the largest over all parts and axes
 ///   shape/area                   share; the largest over all parts
 ///   shape/bits                   same, or other (on a machine that rounds otherwise, too)
-/// Nothing where nothing was recorded or came out; infinite where the parts are others.
+/// Nothing where nothing was recorded or came out; infinite where the parts are others, or not finite.
 /// \throw Refusal bad_case: its file is broken
 Metrics shape_metrics(const Case& asked, const Recording& recording);
 

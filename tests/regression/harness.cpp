@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 const std::chrono::seconds kScanTime(1000000000);  // any fixed time will do
 const std::string kFrame = "booth";
 
-// A stage that takes so much longer in the launched chain than by its handler at the same time does something
-// else than its work; a busy machine slows both.
+// A stage that takes so much longer in the launched chain than by its handler at the same time may do
+// something else than its work; but both are by the clock, and a busy machine may slow one of them alone.
 constexpr double kMoreMilliseconds = 1500, kTimesAsLong = 2;
 
 // What the launch files load, with the case's own parameters over it.
@@ -138,7 +138,7 @@ class CaseRun {
       const auto handler = outcome_.recording.milliseconds.find(stage);
       if (handler == outcome_.recording.milliseconds.end()) continue;
       if (taken > handler->second + kMoreMilliseconds && taken > kTimesAsLong * handler->second)
-        outcome_.verdicts.back().faults.push_back(
+        outcome_.verdicts.back().notes.push_back(
             fmt::format("{} took {:.0f} ms in the launched chain, {:.0f} ms by its handler", stage, taken,
                         handler->second));
     }

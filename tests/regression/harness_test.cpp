@@ -1,6 +1,7 @@
 /// The harness itself: a case is read to the letter, a difference is seen, a golden value is replaced on
 /// purpose only.
 #include <gtest/gtest.h>
+#include <rosbag/bag.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -87,6 +88,12 @@ TEST_F(HarnessTest, WhatACaseFileMayNotSayIsNamed) {
   EXPECT_EQ(refusal_of(with("scene: measure", "scene: bust")), ": a scene has garments, but for 'measure'");
   EXPECT_EQ(refusal_of(with("tolerence: 0.01", "tolerance: 0.01")), ": girth/hip: unknown key 'tolerence'");
   EXPECT_EQ(refusal_of(with("tolerance: -1", "tolerance: 0.01")), ": girth/hip: 'tolerance' is negative");
+  EXPECT_EQ(refusal_of(with("tolerance: .inf", "tolerance: 0.01")), ": girth/hip: 'tolerance' is not finite");
+  EXPECT_EQ(refusal_of(with("customer: 7, seed: 3", "seed: 3")),
+            ": booth: beside 'customer': unknown key 'seed'");
+  EXPECT_EQ(refusal_of(with("customer: -1", "seed: 3")),
+            ": booth: 'customer' is -1, outside [0.000000, 2147483647.000000]");
+  EXPECT_EQ(refusal_of(with("unit: 0", "seed: 3")), ": booth: 'unit' is 0, outside [0.000001, 1000.000000]");
   EXPECT_EQ(refusal_of(with("", ", reason: asked")), ": girth/hip: key 'reason' is missing");
   EXPECT_EQ(refusal_of(with("expected: 1, golden: 1", "expected: 1")),
             ": girth/hip: needs either 'expected' or 'golden'");
@@ -138,6 +145,23 @@ TEST_F(HarnessTest, OnlyGoldenValuesAreReplacedAndTheReasonIsKept) {
   EXPECT_THROW(update_goldens(asked, judge(asked, "bag", {}), "nothing came"), geometry::Refusal);
 }
 
+TEST_F(HarnessTest, NothingIsRecordedFromABadRun) {
+  const Case asked = read(kGood);
+  Metrics found = metrics(0.95);
+  EXPECT_EQ(update_table(asked, judge(asked, "bag", found)).find("girth/hip"), std::string::npos);
+  found["girth/hip"] = 2.0;
+  Verdict verdict = judge(asked, "bag", found);
+  EXPECT_TRUE(against_update(asked, {}, verdict).empty());
+  EXPECT_NE(update_table(asked, verdict).find("girth/hip"), std::string::npos)
+      << "it fails, and is asked for";
+  verdict.faults = {"repeat 2: body/mesh: other bits"};
+  EXPECT_EQ(against_update(asked, {}, verdict), verdict.faults);
+  EXPECT_EQ(against_update(asked, {}, judge(asked, "bag", {})).size(), 2u) << "two golden values";
+  const Case shaped =
+      read(with("metrics:\n  shape/centre: {expected: 0, tolerance: 0.001, reason: asked}", "metrics:"));
+  EXPECT_EQ(against_update(shaped, {}, judge(shaped, "bag", found)).size(), 1u) << "no body";
+}
+
 TEST_F(HarnessTest, ARecordedShapeIsComparedByPartsOfTheBody) {
   const Case asked =
       read(with("metrics:\n  shape/centre: {expected: 0, tolerance: 0.001, reason: asked}", "metrics:"));
@@ -172,6 +196,9 @@ TEST_F(HarnessTest, ARecordedShapeIsComparedByPartsOfTheBody) {
   EXPECT_NEAR(metric("spread"), 0.01 * std::sqrt(1. / 12), 1e-5);
   model->mesh_parts[4] = model->mesh_parts[5] = 0;  // no head any more
   EXPECT_TRUE(std::isinf(metric("centre")));
+  std::ofstream(folder_ / "shapes" / "one.yaml")
+      << "hash: x\nparts: {trunk: {area: .nan, centre: [0, 0, .nan], spread: [.nan, 0, 0]}}\n";
+  for (const char* name : {"centre", "spread", "area"}) EXPECT_TRUE(std::isinf(metric(name))) << name;
   std::ofstream(folder_ / "shapes" / "one.yaml") << "hash: x\nparts: {trunk: {area: 1, centre: [0, 0]}}\n";
   EXPECT_THROW(shape_metrics(asked, recording), geometry::Refusal);
 }
@@ -192,6 +219,30 @@ TEST_F(HarnessTest, PayloadsAreComparedByTopic) {
   mesh->vertices[0] += 1e-7f;
   other.body = mesh;
   EXPECT_EQ(differences(hashes_of(one), hashes_of(other)).size(), 1u);
+}
+
+TEST_F(HarnessTest, ForcesAndWarningsAreKeptAndCompared) {
+  const auto fit = boost::make_shared<FitState>();
+  const auto forces = boost::make_shared<LineForces>();
+  const auto warnings = boost::make_shared<FitWarnings>();
+  fit->scan_id = forces->scan_id = warnings->scan_id = "s";
+  fit->status = FitState::CONVERGED;
+  forces->newtons = {12};
+  warnings->warnings.resize(1);
+  Recording written;
+  written.fits = {fit};
+  written.forces = {forces};
+  written.warnings = {warnings};
+  const std::string bag = folder_ / "result.bag";
+  rosbag::Bag(bag, rosbag::bagmode::Write).write("/x", ros::Time(1, 0), std_msgs::Header());
+  append(written, bag);
+  Recording found = recording_in(bag, "s");
+  EXPECT_TRUE(differences(hashes_of(written), hashes_of(found)).empty());
+  found.forces = {boost::make_shared<LineForces>()};
+  found.warnings = {};
+  EXPECT_EQ(differences(hashes_of(written), hashes_of(found)),
+            (std::vector<std::string>{"body/warnings: nothing came in one of the runs",
+                                      "control/forces: other bits"}));
 }
 
 TEST_F(HarnessTest, ReportsAreWholeAndSafe) {

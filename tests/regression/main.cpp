@@ -38,6 +38,8 @@ void say(const regression::Outcome& outcome) {
   for (const regression::Verdict& verdict : outcome.verdicts) {
     for (const std::string& fault : verdict.faults)
       std::cout << fmt::format("  {}: {}\n", verdict.runner, fault);
+    for (const std::string& note : verdict.notes)
+      std::cout << fmt::format("  {}, no failure: {}\n", verdict.runner, note);
     for (const regression::Row& row : verdict.rows) {
       if (row.holds) continue;
       const auto difference = row.difference();
@@ -59,6 +61,21 @@ void write(const fs::path& path, const std::string& text) {
   if (!file) throw std::runtime_error(path.string() + ": cannot be written");
 }
 
+// Cases whose run is none to record from stay as they are.
+int update_all(const std::vector<regression::Outcome>& outcomes, const std::string& why) {
+  bool all = true;
+  for (const auto& [asked, recording, verdicts, seconds] : outcomes) {
+    std::cout << regression::update_table(asked, verdicts.front());
+    const auto reasons = regression::against_update(asked, recording, verdicts.front());
+    for (const std::string& reason : reasons) std::cout << fmt::format("  not updated: {}\n", reason);
+    all = all && reasons.empty();
+    if (!reasons.empty()) continue;
+    const bool moved = regression::wants_shape(asked) && regression::write_shape(asked, recording);
+    regression::update_goldens(asked, verdicts.front(), why, moved);
+  }
+  return all ? 0 : kFails;
+}
+
 int run(const CommandLine& line) {
   regression::HarnessOptions options;
   options.bag = line.runner != "replay";
@@ -72,15 +89,7 @@ int run(const CommandLine& line) {
     holds = holds && outcomes.back().holds();
     if (!line.update) say(outcomes.back());
   }
-  if (line.update) {
-    for (const regression::Outcome& outcome : outcomes) {
-      std::cout << regression::update_table(outcome.asked, outcome.verdicts.front());
-      const bool moved =
-          regression::wants_shape(outcome.asked) && regression::write_shape(outcome.asked, outcome.recording);
-      regression::update_goldens(outcome.asked, outcome.verdicts.front(), line.reason, moved);
-    }
-    return 0;
-  }
+  if (line.update) return update_all(outcomes, line.reason);
   write(fs::path(line.out) / "junit.xml", regression::junit_xml(outcomes));
   write(fs::path(line.out) / "metrics.jsonl", regression::json_lines(outcomes));
   write(fs::path(line.out) / "report.html", regression::html_page(outcomes));

@@ -1,11 +1,16 @@
 #include "metrics.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "ros/body_messages.hpp"
 #include "ros/flat.hpp"
 #include "surface_distance.hpp"
 #include "tffd/binding.hpp"
+#include "tffd/body_volume.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
@@ -16,7 +21,7 @@ using gauge::quantile;
 
 double largest_move(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to) {
   double largest = 0;
-  for (std::size_t i = 0; i < from.size(); ++i) largest = std::max(largest, (to.at(i) - from[i]).norm());
+  for (std::size_t i = 0; i < from.size(); ++i) largest = worse(largest, (to.at(i) - from[i]).norm());
   return largest;
 }
 
@@ -68,16 +73,42 @@ void add_deformed(const DeformedMesh& deformed, const TriangleMesh& body, const 
     metrics[prefix + "distortion/" + name] = quantile(moved, share);
 }
 
+// The body as t-FFD carries it, in the posture of the scan.
+struct Bound {
+  geometry::TriangleMesh body;
+  geometry::ControlMesh control;
+  tffd::Binding binding;
+};
+
+Bound bound_in(const Recording& recording) {
+  geometry::TriangleMesh body = node::mesh_in(*recording.body);
+  geometry::ControlMesh control = node::control_in(*recording.control);
+  tffd::Binding binding(body, control, {});
+  return {std::move(body), std::move(control), std::move(binding)};
+}
+
+void add_body_volumes(const FitState& fit, const Landmarks& landmarks, const Bound& bound,
+                      const std::string& prefix, Metrics& metrics) {
+  const geometry::BoneFrames bones = node::bones_of(fit, node::measures_in(landmarks));
+  std::vector<Eigen::Vector3d> nodes = node::points_in(fit.outer);
+  for (const Eigen::Vector3d& inner : node::points_in(fit.inner)) nodes.push_back(inner);
+  const auto carried = tffd::carried_triangles(bound.binding, bound.body.triangles, bound.control);
+  for (std::size_t r = 0; r < carried.size(); ++r) {
+    if (carried[r].empty()) continue;
+    const geometry::ControlRegion& region = bound.control.regions[r];
+    const tffd::BodyVolume volume(bound.binding, carried[r], geometry::region_apex(bound.control, region));
+    metrics[prefix + "region/" + region.name + "/body_volume_error"] =
+        volume.posed(bones, 1)(nodes, nullptr) / volume.at_rest() - 1;
+  }
+}
+
 // Coordinates of the worn body that are not the nearest single ones to what the weights give in double
 // precision. Corners of needles that were put back are off by more, and are left out.
-double other_roundings(const Recording& recording, std::size_t fit) {
+double other_roundings(const FitState& fit, const DeformedMesh& deformed, const Bound& bound) {
   constexpr double kPutBack = 1e-5;  // m
-  const geometry::TriangleMesh body = node::mesh_in(*recording.body);
-  const geometry::ControlMesh control = node::control_in(*recording.control);
-  const tffd::Binding binding(body, control, {});
+  const auto& [body, control, binding] = bound;
   Eigen::MatrixX3d motion(2 * control.outer.size(), 3);
-  const auto outer = node::points_in(recording.fits[fit]->outer),
-             inner = node::points_in(recording.fits[fit]->inner);
+  const auto outer = node::points_in(fit.outer), inner = node::points_in(fit.inner);
   for (std::size_t i = 0; i < control.outer.size(); ++i) {
     motion.row(i) = (outer[i] - control.outer[i]).transpose();
     motion.row(control.outer.size() + i) = (inner[i] - control.inner[i]).transpose();
@@ -87,7 +118,7 @@ double other_roundings(const Recording& recording, std::size_t fit) {
   for (const tffd::Anchor& anchor : binding.anchors())
     for (int axis = 0; axis < 3; ++axis) {
       const double exact = body.vertices[anchor.vertex][axis] + moved(anchor.vertex, axis);
-      const float found = recording.deformed[fit]->vertices[3 * anchor.vertex + axis];
+      const float found = deformed.vertices[3 * anchor.vertex + axis];
       others += found != static_cast<float>(exact) && std::abs(found - exact) < kPutBack;
     }
   return others;
@@ -127,6 +158,10 @@ void add_normals(const std::string& name, const std::vector<double>& angles, Met
 
 }  // namespace
 
+double worse(double so_far, double next) {
+  return std::isfinite(next) ? std::max(so_far, next) : std::numeric_limits<double>::infinity();
+}
+
 Metrics metrics_of(const Recording& recording) {
   Metrics metrics;
   metrics["refusal"] = recording.refusal.empty() ? "none" : recording.refusal;
@@ -134,12 +169,17 @@ Metrics metrics_of(const Recording& recording) {
   add_measures(recording, metrics);
   if (recording.body) add_body(*recording.body, metrics);
   const bool several = recording.fits.size() > 1;
+  std::optional<Bound> bound;
+  if (!recording.deformed.empty()) bound = bound_in(recording);
   for (std::size_t i = 0; i < recording.fits.size(); ++i) {
     const std::string prefix = several ? std::to_string(i + 1) + "/" : "";
     add_fit(*recording.fits[i], prefix, metrics);
     if (i >= recording.deformed.size()) continue;
     add_deformed(*recording.deformed[i], *recording.body, prefix, metrics);
-    metrics[prefix + "body/other_roundings"] = other_roundings(recording, i);
+    if (recording.landmarks)
+      add_body_volumes(*recording.fits[i], *recording.landmarks, *bound, prefix, metrics);
+    metrics[prefix + "body/other_roundings"] =
+        other_roundings(*recording.fits[i], *recording.deformed[i], *bound);
   }
   for (const auto& [stage, value] : recording.milliseconds) metrics["time/" + stage] = value;
   for (const auto& [stage, value] : recording.peak_mebibytes) metrics["memory/" + stage] = value;

@@ -11,6 +11,9 @@ namespace tensegric_fit::regression {
 
 using Metrics = std::map<std::string, Value>;
 
+/// The larger of two differences; infinite where the second is not finite, which std::max would drop.
+double worse(double so_far, double next);
+
 /// Metres, cubic metres, radians, milliseconds, MiB. Names:
 ///   refusal, refused_by                        code and stage, or "none"
 ///   landmark/NAME/x|y|z                        scan frame
@@ -20,6 +23,7 @@ using Metrics = std::map<std::string, Value>;
 ///   fit/status, fit/solver, fit/iterations, fit/residual
 ///   line/NAME/ratio, line/NAME/tension
 ///   region/NAME/volume, region/NAME/volume_error    volume at rest, and (after - before) / before
+///   region/NAME/body_volume_error   the same of the body under it, in the fit's posture
 ///   body/volume_change                         share
 ///   body/largest_move
 ///   body/other_roundings    coordinates that are not the nearest single ones to the double result; in the

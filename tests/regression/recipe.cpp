@@ -30,15 +30,24 @@ Recipe read_recipe(const YAML::Node& map, const std::string& where) {
                              "seed",      "fracture", "misregistration",
                              "sensors"},
                        where, kBadCase);
+  if (map["customer"])
+    geometry::check_keys(map, {"customer", "points", "crop_above", "unit", "sensors"},
+                         where + ": beside 'customer'", kBadCase);
   Recipe recipe;
   const auto read = [&](const char* key, auto& field) {
     field = geometry::optional(map, key, field, where, kBadCase);
+  };
+  const auto check = [&](const char* key, double low, double high) {
+    if (map[key]) geometry::number_in(map, key, low, high, where, kBadCase);
   };
   read("customer", recipe.customer);
   read("points", recipe.scanner.points);
   read("crop_above", recipe.crop_above);
   read("unit", recipe.unit);
   read("sensors", recipe.sensors);
+  check("customer", 0, std::numeric_limits<int>::max());
+  check("crop_above", 0, 10);
+  check("unit", 1e-6, 1000);
   virtual_body::BodyParameters& body = recipe.body;
   for (const auto& [key, field] : {std::pair("stature", &body.stature),
                                    {"build", &body.build},

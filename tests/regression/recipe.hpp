@@ -20,8 +20,9 @@ struct Recipe {
   bool sensors = false;  ///< what comes is a cloud a sensor, as from a booth of several; else one scan
 };
 
-/// From a map whose keys are the fields of BodyParameters and ScannerOptions by name, or `customer` alone
-/// (virtual_booth --customer), beside `points`, `crop_above`, `unit` and `sensors`. \throw Refusal bad_case
+/// From a map whose keys are the fields of BodyParameters and ScannerOptions by name, or `customer` in their
+/// place (virtual_booth --customer), beside `points`, `crop_above`, `unit` and `sensors`. \throw Refusal
+/// bad_case: also numbers of these keys out of range
 Recipe read_recipe(const YAML::Node& map, const std::string& where);
 
 struct Customer {

@@ -184,6 +184,7 @@ const Kind& kind_of(const std::string& metric) {
       {"line/", "/tension", 0, 0.02, "2 % stiffer parts pull 2 % more"},
       {"region/", "/volume", 0, 0.01, "1 % of the control volume"},
       {"region/", "/volume_error", 1e-6, 0, "the control volume is held exactly"},
+      {"region/", "/body_volume_error", 0.0005, 0, "only the control volume is held exactly"},
       {"distortion/", "", 0.01, 0, "1 % of skin area"},
       {"", "", 0, 0.01, "1 %"}};
   const std::size_t slash = metric.find('/');

@@ -105,7 +105,9 @@ std::map<std::string, std::string> hashes_of(const Recording& recording) {
   if (recording.landmarks) hashes["body/landmarks"] = hash_of<Landmarks>({recording.landmarks});
   if (recording.control) hashes["control/mesh"] = hash_of<ControlMesh>({recording.control});
   if (!recording.fits.empty()) hashes["control/deformed"] = hash_of(recording.fits);
+  if (!recording.forces.empty()) hashes["control/forces"] = hash_of(recording.forces);
   if (!recording.deformed.empty()) hashes["body/deformed"] = hash_of(recording.deformed);
+  if (!recording.warnings.empty()) hashes["body/warnings"] = hash_of(recording.warnings);
   return hashes;
 }
 
@@ -121,7 +123,9 @@ Recording recording_in(const std::string& path, const std::string& scan_id) {
     if (topic == "body/landmarks") keep(message, scan_id, recording.landmarks);
     if (topic == "control/mesh") keep(message, scan_id, recording.control);
     if (topic == "control/deformed") keep(message, scan_id, recording.fits);
+    if (topic == "control/forces") keep(message, scan_id, recording.forces);
     if (topic == "body/deformed") keep(message, scan_id, recording.deformed);
+    if (topic == "body/warnings") keep(message, scan_id, recording.warnings);
     if (topic == "/tf_static") recording.body_frame = message.instantiate<tf2_msgs::TFMessage>();
     const auto diagnostics = message.instantiate<diagnostic_msgs::DiagnosticArray>();
     if (diagnostics)
@@ -144,7 +148,9 @@ void append(const Recording& recording, const std::string& path) {
   write("control/mesh", recording.control);
   for (std::size_t i = 0; i < recording.fits.size(); ++i) {
     write("control/deformed", recording.fits[i]);
+    if (i < recording.forces.size()) write("control/forces", recording.forces[i]);
     if (i < recording.deformed.size()) write("body/deformed", recording.deformed[i]);
+    if (i < recording.warnings.size()) write("body/warnings", recording.warnings[i]);
   }
 }
 

@@ -6,7 +6,9 @@
 #include <tensegric_fit/ControlMesh.h>
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
+#include <tensegric_fit/FitWarnings.h>
 #include <tensegric_fit/Landmarks.h>
+#include <tensegric_fit/LineForces.h>
 #include <tensegric_fit/TriangleMesh.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -39,8 +41,11 @@ struct Recording {
   Landmarks::ConstPtr landmarks;
   tf2_msgs::TFMessage::ConstPtr body_frame;
   ControlMesh::ConstPtr control;
-  std::vector<FitState::ConstPtr> fits;  ///< one per garment
+  // One per garment:
+  std::vector<FitState::ConstPtr> fits;
+  std::vector<LineForces::ConstPtr> forces;
   std::vector<DeformedMesh::ConstPtr> deformed;
+  std::vector<FitWarnings::ConstPtr> warnings;
   std::vector<std::vector<tensegric::Iterate>> histories;  ///< one per garment; none of a replay
   std::string refused_by, refusal;                         ///< stage and code; empty: not refused
   /// By stage, of its last work on this scan.

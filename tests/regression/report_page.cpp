@@ -70,6 +70,7 @@ std::string verdict_of(const Verdict& verdict) {
   std::string html = fmt::format("<h3>{} runner: {}</h3>\n", verdict.runner, mark(verdict.holds()));
   for (const std::string& fault : verdict.faults)
     html += "<p class=bad>" + files::html_escaped(fault) + "</p>\n";
+  for (const std::string& note : verdict.notes) html += "<p>" + files::html_escaped(note) + "</p>\n";
   std::vector<Row> failing, holding;
   for (const Row& row : verdict.rows) (row.holds ? holding : failing).push_back(row);
   if (!failing.empty()) html += table_of(failing);

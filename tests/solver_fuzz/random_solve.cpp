@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
 #include <random>
 
 #include "../stability/shapes.hpp"
@@ -55,8 +56,15 @@ bool all_finite(const Solution& s) {
   bool finite = std::isfinite(s.residual) || s.status == Status::diverged;
   for (const auto* layer : {&s.outer, &s.inner, &s.between})
     for (const Vector3d& p : *layer) finite = finite && p.allFinite();
-  for (const auto& line : s.lines) finite = finite && std::isfinite(line.tension);
+  for (const auto& line : s.lines)
+    finite = finite && std::isfinite(line.tension) && std::isfinite(line.final);
+  for (const auto& region : s.regions) finite = finite && std::isfinite(region.volume_after);
   return finite;
+}
+
+// The larger of two errors; infinite where the second is no number, which std::max would drop.
+double worse(double so_far, double next) {
+  return std::isfinite(next) ? std::max(so_far, next) : std::numeric_limits<double>::infinity();
 }
 
 void check_lengths(const Case& drawn, const Solution& s, bool exact, Finding& found) {
@@ -64,13 +72,13 @@ void check_lengths(const Case& drawn, const Solution& s, bool exact, Finding& fo
     const auto& line = s.lines[b];
     const double length = length_over(line.nodes, s.outer);
     const double rest = length_over(line.nodes, drawn.control.outer);
-    found.length_error = std::max(found.length_error, std::abs(length - line.final) / rest);
+    found.length_error = worse(found.length_error, std::abs(length - line.final) / rest);
     const bool rigid = line.law.kind == tensegric::TensionLaw::Kind::rigid;
     if (exact && rigid && s.status == Status::converged &&
-        length > drawn.garment.lines[b].ratio * rest * (1 + 1e-6))
+        !(length <= drawn.garment.lines[b].ratio * rest * (1 + 1e-6)))
       found.faults.push_back("converged, and a rigid line is longer than asked for");
   }
-  if (found.length_error > 1e-9) found.faults.push_back("a length is not what the solver says");
+  if (!(found.length_error <= 1e-9)) found.faults.push_back("a length is not what the solver says");
 }
 
 void check_volumes(const Case& drawn, const Solution& s, SolverName solver, Finding& found) {
@@ -80,21 +88,24 @@ void check_volumes(const Case& drawn, const Solution& s, SolverName solver, Find
                           volume_below(drawn.control, region, drawn.control.outer);
     const double before = std::abs(s.regions[r].volume_before);
     const double said = s.regions[r].volume_after - s.regions[r].volume_before;
-    found.volume_error = std::max(found.volume_error, std::abs(change) / before);
-    if (std::abs(change - said) > 1e-9 * before)
+    found.volume_error = worse(found.volume_error, std::abs(change) / before);
+    if (!(std::abs(change - said) <= 1e-9 * before))
       found.faults.push_back("a volume is not what the solver says");
   }
   const double kept = solver == SolverName::equilibrium ? 1e-8 : 1e-7;  // of the patch; README.md
   if ((s.status == Status::converged || s.status == Status::infeasible) && solver != SolverName::relaxation &&
-      found.volume_error > kept)
+      !(found.volume_error <= kept))
     found.faults.push_back("a balance that does not keep its volume");
 }
+
+}  // namespace
 
 void check(const Case& drawn, const Solution& s, SolverName solver, Finding& found) {
   const bool exact = solver == SolverName::equilibrium;
   if (!all_finite(s)) found.faults.push_back("not finite");
   for (std::size_t i = 0; i < s.outer.size(); ++i)
-    if (drawn.control.outer_fixed[i] && s.outer[i] != drawn.control.outer[i]) {
+    if ((drawn.control.outer_fixed[i] && s.outer[i] != drawn.control.outer[i]) ||
+        (drawn.control.inner_fixed[i] && s.inner[i] != drawn.control.inner[i])) {
       found.faults.push_back("a fixed node moved");
       break;
     }
@@ -103,13 +114,11 @@ void check(const Case& drawn, const Solution& s, SolverName solver, Finding& fou
   if (exact && (s.status == Status::diverged || s.status == Status::oscillating))
     found.faults.push_back("equilibrium " + to_string(s.status));
   if (exact && std::any_of(s.history.begin(), s.history.end(),
-                           [](const auto& row) { return row.merit_change > 1e-12; }))
+                           [](const auto& row) { return !(row.merit_change <= 1e-12); }))
     found.faults.push_back("merit rises");
   check_lengths(drawn, s, exact, found);
   check_volumes(drawn, s, solver, found);
 }
-
-}  // namespace
 
 Case random_case(unsigned seed) {
   std::mt19937_64 random(seed);

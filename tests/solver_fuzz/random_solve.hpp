@@ -26,6 +26,10 @@ struct Finding {
 /// are sound, if hard.
 std::optional<tensegric::Model> model_of(const stability::Case& drawn, Finding& finding);
 
+/// Adds to `found` what must not be (README.md), from the solution's nodes.
+void check(const stability::Case& drawn, const tensegric::Solution& solution, tensegric::SolverName solver,
+           Finding& found);
+
 /// `cap`, s of the processor, so that what else a machine does cuts no solve short. `most_iterations`: of
 /// relaxation and adaptive; 0 their own.
 Finding solve_and_check(const stability::Case& drawn, const tensegric::Model& model,

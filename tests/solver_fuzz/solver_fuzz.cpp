@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
   double cap = 10;
   std::string out;
   app.add_option("--first-seed", first, "of the cases");
-  app.add_option("--seeds", seeds, "cases, each under three solvers");
+  app.add_option("--seeds", seeds, "cases, each under three solvers")->check(CLI::PositiveNumber);
   app.add_option("--cap", cap, "s of the processor, for each solve");
   app.add_option("--most-iterations", most_iterations, "of relaxation and adaptive; 0: their own");
   app.add_option("--out", out, "file of JSON lines, which a later run goes on with");

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "control_mesh/fit_template.hpp"
 #include "fit/chain.hpp"
@@ -29,7 +30,7 @@ constexpr const char* kCode = geometry::refusal::kBadOption;
 struct Solves {
   std::vector<int> iterations;
   std::vector<double> ms;
-  std::map<std::string, int> statuses;
+  std::map<std::string, int> statuses;  ///< and refusals
 };
 
 std::string row_of(const std::string& name, const Solves& all) {
@@ -37,6 +38,7 @@ std::string row_of(const std::string& name, const Solves& all) {
   for (const auto& [status, count] : all.statuses)
     ends += fmt::format("{}{} {}", ends.empty() ? "" : ", ", count, status);
   const std::vector<double> iterations(all.iterations.begin(), all.iterations.end());
+  if (iterations.empty()) return fmt::format("| {} | 0 | {} | | | | | |\n", name, ends);
   const auto above = std::count_if(iterations.begin(), iterations.end(), [](double i) { return i > 15; });
   return fmt::format("| {} | {} | {} | {} | {} | {} | {} | {:.1f} / {:.1f} / {:.0f} |\n", name,
                      iterations.size(), ends, geometry::percentile(iterations, 0.5),
@@ -53,23 +55,34 @@ class Bodies {
                 const std::vector<double>& requests) {
     const std::string name = std::filesystem::path(path).stem().string();
     fit::StageTimes times;
-    const fit::Body body = fit::measure_mesh(geometry::read_ply_mesh(path), settings_, times);
+    std::optional<fit::Body> measured;
+    try {
+      measured = fit::measure_mesh(geometry::read_ply_mesh(path), settings_, times);
+    } catch (const geometry::Refusal& refusal) {
+      for (const std::string& word : garments) refuse(name, word, requests, refusal);
+      return;
+    }
+    const fit::Body& body = *measured;
     std::map<std::string, fit::Fitting> fittings;  // by region
     for (const std::string& word : garments) {
       tensegric::Garment garment =
           tensegric::load_garment(geometry::yaml_file(geometry::shipped_folder("garments"), word, kCode));
       const std::string region = garment.regions.front();
+      std::vector<geometry::LaidLine> laid;
       try {
         if (fittings.count(region) == 0) fittings.emplace(region, fitting_on(body, region));
+        laid = fit::laid_lines(body, fittings.at(region), garment);
       } catch (const geometry::Refusal& refusal) {
-        fmt::print("{},{},,refused: {},,,,,\n", name, word, refusal.code());
+        refuse(name, word, requests, refusal);
         continue;
       }
-      const fit::Fitting& fitting = fittings.at(region);
-      const std::vector<geometry::LaidLine> laid = fit::laid_lines(body, fitting, garment);
       for (double request : requests) {
-        tensegric::set_ratio(garment, "", request);
-        solve(name, word, request, fitting.model, garment, laid);
+        try {
+          tensegric::set_ratio(garment, "", request);
+          solve(name, word, request, fittings.at(region).model, garment, laid);
+        } catch (const geometry::Refusal& refusal) {
+          refuse(name, word, {request}, refusal);
+        }
       }
     }
   }
@@ -90,6 +103,15 @@ class Bodies {
         geometry::yaml_file(geometry::shipped_folder("templates"), region, kCode));
     fit::StageTimes times;
     return fit::prepare(body, std::vector<control_mesh::Template>{pattern}, settings_, times);
+  }
+
+  // A row each, and a place in the table: what is refused is not to be missed.
+  void refuse(const std::string& body, const std::string& garment, const std::vector<double>& requests,
+              const geometry::Refusal& refusal) {
+    for (const double request : requests) {
+      fmt::print("{},{},{:.2f},refused: {},,,,,,\n", body, garment, request, refusal.code());
+      ++by_request_[request].statuses["refused: " + refusal.code()];
+    }
   }
 
   void solve(const std::string& body, const std::string& garment_name, double request,

@@ -45,6 +45,11 @@ std::vector<std::string> yaml_files(const std::string& folder) {
   return files;
 }
 
+/// As the chain lays it: with the body model registered to the body.
+geometry::ControlMesh lay_on(const control_mesh::Template& pattern, const fit::Body& body) {
+  return control_mesh::fit_template(pattern, body.mesh.mesh, body.measures, {}, &*body.model);
+}
+
 /// The pieces of control mesh that the regions need, on the body.
 fit::Fitting dressed(const fit::Body& body, const std::vector<std::string>& regions) {
   std::vector<geometry::ControlMesh> pieces;
@@ -54,7 +59,7 @@ fit::Fitting dressed(const fit::Body& body, const std::vector<std::string>& regi
         pattern.regions.begin(), pattern.regions.end(), [&](const control_mesh::TemplateRegion& r) {
           return std::find(regions.begin(), regions.end(), r.name) != regions.end();
         });
-    if (wanted) pieces.push_back(control_mesh::fit_template(pattern, body.mesh.mesh, body.measures, {}));
+    if (wanted) pieces.push_back(lay_on(pattern, body));
   }
   fit::StageTimes times;
   return fit::prepare(body, pieces.size() == 1 ? pieces.front() : geometry::joined(pieces), {}, times);
@@ -66,8 +71,7 @@ std::vector<geometry::ControlMesh> template_meshes(std::uint64_t seed) {
   const fit::Body body = measured(virtual_booth::random_body(seed));
   std::vector<geometry::ControlMesh> meshes;
   for (const std::string& file : yaml_files(kLaunch + "templates"))
-    meshes.push_back(
-        control_mesh::fit_template(control_mesh::load_template(file), body.mesh.mesh, body.measures, {}));
+    meshes.push_back(lay_on(control_mesh::load_template(file), body));
   return meshes;
 }
 

@@ -34,6 +34,12 @@ def turned_area(rest, worn, triangles, least):
     return 1e4 * areas[cosine < np.cos(np.radians(least))].sum()
 
 
+def rows_of(run):
+    """The table's rows that a run counts in."""
+    garment, percent = run.split("_")[-2:]
+    return (garment, percent), ("all", percent), ("all", "all")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=pathlib.Path, help="that worn_skins wrote")
@@ -42,11 +48,15 @@ def main():
 
     codes = collections.defaultdict(set)
     bodies, statuses = {}, {}
+    table = collections.defaultdict(collections.Counter)
     with open(options.folder / "warnings.csv") as file:
         for row in csv.DictReader(file):
+            if row["status"].startswith("refused"):  # there is no mesh
+                for key in rows_of(row["run"]):
+                    table[key].update(refused=1)
+                continue
             codes[row["run"]].add(row["code"])
             bodies[row["run"]], statuses[row["run"]] = row["body"], row["status"]
-    table = collections.defaultdict(collections.Counter)
     missed, idle = [], []
     rest = {}
     for run, body in bodies.items():
@@ -56,8 +66,7 @@ def main():
         worn, _ = read_ply(options.folder / f"{run}.ply")
         shelf = turned_area(vertices, worn, triangles, SHELF)
         is_shelf, is_warned = bool(shelf >= options.least), bool(codes[run] & FOLDS)
-        garment, percent = run.split("_")[-2:]
-        for key in ((garment, percent), ("all", percent), ("all", "all")):
+        for key in rows_of(run):
             table[key].update(runs=1, shelf=is_shelf, warned=is_warned, missed=is_shelf and not is_warned,
                               idle=is_warned and not is_shelf, turned_over="turned_over" in codes[run],
                               converged=statuses[run] == "converged",
@@ -68,7 +77,7 @@ def main():
             missed.append(f"{run} ({shelf:.2f} cm2)")
         if is_warned and not is_shelf:
             idle.append(f"{run} ({shelf:.2f} cm2)")
-    columns = ("runs", "converged", "quiet", "shelf", "warned", "missed", "idle", "turned_over", "skin_turns", "over_stretched",
+    columns = ("runs", "refused", "converged", "quiet", "shelf", "warned", "missed", "idle", "turned_over", "skin_turns", "over_stretched",
                "pressed_together", "under_constricted")
     print("| garment | ratio |", " | ".join(columns), "|")
     print("| --- | --- |" + " --- |" * len(columns))

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <queue>
 #include <tuple>
 
@@ -46,6 +47,16 @@ std::vector<double> depths_of(const geometry::TriangleMesh& mesh, const Pairs& p
   for (const stability::SkinInside& patch : stability::skin_inside(mesh, pairs))
     for (std::size_t i = 0; i < patch.vertices.size(); ++i) depths[patch.vertices[i]] = patch.depths[i];
   return depths;
+}
+
+/// \pre `mesh` outlives it
+Rest rest_of(const geometry::TriangleMesh& mesh) {
+  Rest rest{mesh, {}, {}, {}};
+  rest.pairs =
+      geometry::crossing_pairs(mesh.vertices, mesh.triangles, std::vector<char>(mesh.vertices.size(), 1));
+  rest.depths = depths_of(mesh, rest.pairs);
+  rest.neighbours = geometry::neighbours_of(mesh.vertices.size(), mesh.triangles);
+  return rest;
 }
 
 bool is_other_skin(const Rest& rest, int a, int b) {
@@ -126,17 +137,20 @@ class Bodies {
                 const std::vector<double>& ratios) {
     const std::string name = std::filesystem::path(path).stem().string();
     fit::StageTimes times;
-    const fit::Body body =
-        scans
-            ? fit::measure_scan(geometry::points_of(scan_files::read_scan_file(path).cloud), settings_, times)
-            : fit::measure_mesh(geometry::read_ply_mesh(path), settings_, times);
-    Rest rest{body.mesh.mesh, {}, {}, {}};
-    rest.pairs = geometry::crossing_pairs(rest.mesh.vertices, rest.mesh.triangles,
-                                          std::vector<char>(rest.mesh.vertices.size(), 1));
-    rest.depths = depths_of(rest.mesh, rest.pairs);
-    rest.neighbours = geometry::neighbours_of(rest.mesh.vertices.size(), rest.mesh.triangles);
-    fmt::print(stderr, "{}: {} pairs cross at rest, {:.2f} mm\n", name, rest.pairs.size(),
-               1e3 * *std::max_element(rest.depths.begin(), rest.depths.end()));
+    std::optional<fit::Body> body;
+    std::optional<Rest> rest;
+    try {
+      body = scans ? fit::measure_scan(geometry::points_of(scan_files::read_scan_file(path).cloud), settings_,
+                                       times)
+                   : fit::measure_mesh(geometry::read_ply_mesh(path), settings_, times);
+      rest.emplace(rest_of(body->mesh.mesh));
+    } catch (const geometry::Refusal& refusal) {
+      fmt::print(stderr, "{} refused: {}: {}\n", path, refusal.code(), refusal.what());
+      for (const std::string& word : garments) refuse(name, word, ratios, refusal);
+      return;
+    }
+    fmt::print(stderr, "{}: {} pairs cross at rest, {:.2f} mm\n", name, rest->pairs.size(),
+               1e3 * *std::max_element(rest->depths.begin(), rest->depths.end()));
     std::map<std::string, fit::Fitting> fittings;  // by region
     for (const std::string& word : garments) {
       tensegric::Garment garment = tensegric::take_garment(word, geometry::shipped_folder("garments"));
@@ -146,17 +160,20 @@ class Bodies {
           const control_mesh::Template pattern = control_mesh::load_template(geometry::yaml_file(
               geometry::shipped_folder("templates"), region, geometry::refusal::kBadGarment));
           fittings.emplace(
-              region, fit::prepare(body, std::vector<control_mesh::Template>{pattern}, settings_, times));
+              region, fit::prepare(*body, std::vector<control_mesh::Template>{pattern}, settings_, times));
         }
       } catch (const geometry::Refusal& refusal) {
-        fmt::print("{},{},,refused: {},,,,,,,,,\n", name, word, refusal.code());
+        refuse(name, word, ratios, refusal);
         continue;
       }
-      const fit::Fitting& fitting = fittings.at(region);
       for (const double ratio : ratios) {
-        tensegric::set_ratio(garment, "", ratio);
-        const fit::Fit fit = fit::wear(body, fitting, garment, settings_, times);
-        add(name, word, ratio, contact_of(rest, fit.deformed), to_string(fit.solution.status));
+        try {
+          tensegric::set_ratio(garment, "", ratio);
+          const fit::Fit fit = fit::wear(*body, fittings.at(region), garment, settings_, times);
+          add(name, word, ratio, contact_of(*rest, fit.deformed), to_string(fit.solution.status));
+        } catch (const geometry::Refusal& refusal) {
+          refuse(name, word, {ratio}, refusal);
+        }
       }
     }
   }
@@ -173,10 +190,18 @@ class Bodies {
                           sunken ? "yes" : "no", -request, row.fits, row.crossing, row.other_skin, row.half,
                           row.two, 1e3 * row.deepest);
     }
-    return text;
+    return text + fmt::format("refused: {} fits\n", refused_);
   }
 
  private:
+  void refuse(const std::string& body, const std::string& garment, const std::vector<double>& ratios,
+              const geometry::Refusal& refusal) {
+    for (const double ratio : ratios) {
+      fmt::print("{},{},{:.2f},refused: {},,,,,,,,,\n", body, garment, ratio, refusal.code());
+      ++refused_;
+    }
+  }
+
   void add(const std::string& body, const std::string& garment, double ratio, const Contact& contact,
            const std::string& status) {
     fmt::print("{},{},{:.2f},{},{},{:.3f},{},{},{:.3f},{:.2f},{:.3f},{:.3f},{:.3f}\n", body, garment, ratio,
@@ -195,6 +220,7 @@ class Bodies {
 
   fit::Settings settings_;
   std::map<std::tuple<char, bool, double>, Row> rows_;  // by garments' letter, whether sunken, -ratio
+  int refused_ = 0;
 };
 
 }  // namespace
@@ -217,13 +243,7 @@ int main(int argc, char** argv) {
     if (!tissue.empty()) fit::take_tissue(tissue, settings);
     fmt::print("body,garment,ratio,status,rest_pairs,rest_mm,pairs,other_skin,deepest_mm,area_cm2,x,y,z\n");
     Bodies bodies(settings);
-    for (const std::string& mesh : meshes) {
-      try {
-        bodies.wear_all(mesh, scans, garments, ratios);
-      } catch (const geometry::Refusal& refusal) {
-        fmt::print(stderr, "{} refused: {}: {}\n", mesh, refusal.code(), refusal.what());
-      }
-    }
+    for (const std::string& mesh : meshes) bodies.wear_all(mesh, scans, garments, ratios);
     fmt::print(stderr, "{}", bodies.table());
   } catch (const geometry::Refusal& refusal) {
     fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());

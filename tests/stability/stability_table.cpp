@@ -19,6 +19,7 @@ using stability::Case;
 using stability::Ending;
 using tensegric::SolverName;
 
+constexpr int kUsage = 2;
 constexpr SolverName kSolvers[] = {SolverName::equilibrium, SolverName::adaptive, SolverName::relaxation};
 
 /// How often each status came up under each solver, and the worst of what matters.
@@ -81,16 +82,23 @@ int main(int argc, char** argv) {
   app.add_option("--bodies", bodies, "drawn at random, for the prestress of every template");
   app.add_option("--garments", garments, "the shipped garments on virtual bodies too");
   app.add_option("--only", only, "cases with this text in their name");
-  app.add_option("--solver", solver_word, "this one only");
+  app.add_option("--solver", solver_word, "this one only")
+      ->check(CLI::IsMember({"equilibrium", "adaptive", "relaxation"}));
   app.add_option("--out", out, "file for the table (Markdown)");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsage;
+  }
 
   std::string rows =
       "| case | solver | status | iterations | line error | volume error | residual | ms | faults |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   Summary summary, random_starts;
+  bool any = false;
   const auto take = [&](const Case& hard, Summary& into, bool list) {
     if (hard.name.find(only) == std::string::npos) return;
+    any = true;
     for (SolverName solver : kSolvers) {
       if (!solver_word.empty() && to_string(solver) != solver_word) continue;
       const Ending ending = run(hard, solver);
@@ -113,6 +121,10 @@ int main(int argc, char** argv) {
       take_all(stability::garment_cases(body, {1.3, 1.1, 1.0, 0.97, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3}));
   for (unsigned seed = first_seed; seed < first_seed + seeds; ++seed)
     take(stability::random_start_case(seed), random_starts, false);
+  if (!any && !only.empty()) {
+    std::cerr << "stability_table: no case has '" << only << "' in its name\n";
+    return kUsage;
+  }
 
   int faults = 0;
   std::string prestress;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
+#include <optional>
 
 #include "control_mesh/template.hpp"
 #include "fit/chain.hpp"
@@ -50,41 +52,78 @@ struct Tables {
   std::FILE *warnings, *moves, *lines;
 };
 
-void wear_all(const std::string& file, const std::vector<std::string>& garments,
-              const std::vector<double>& ratios, bool strings, const fit::Settings& settings,
+std::string run_of(const std::string& body, const std::string& garment, double ratio) {
+  return fmt::format("{}_{}_{:.0f}", body, garment, 100 * ratio);
+}
+
+void refuse(const std::string& body, const std::string& garment, const std::vector<double>& ratios,
+            const geometry::Refusal& refusal, const Tables& tables) {
+  fmt::print(stderr, "{} under {}: {}: {}\n", body, garment, refusal.code(), refusal.what());
+  for (const double ratio : ratios)
+    fmt::print(tables.warnings, "{},{},refused: {},,,,,,\n", body, run_of(body, garment, ratio),
+               refusal.code());
+}
+
+void wear_one(const fit::Body& body, const std::string& name, const fit::Fitting& fitting,
+              const tensegric::Garment& garment, double ratio, const fit::Settings& settings,
               const fs::path& out, const Tables& tables) {
   fit::StageTimes times;
-  const fit::Body body = fit::measure_mesh(geometry::read_ply_mesh(file), settings, times);
+  const fit::Fit fit = fit::wear(body, fitting, garment, settings, times);
+  const std::string run = run_of(name, garment.name, ratio);
+  geometry::write_ply_mesh((out / (run + ".ply")).string(), {fit.deformed, body.mesh.mesh.triangles});
+  const std::string ended =
+      fmt::format("{},{},{},{}", name, run, to_string(fit.solution.status), fit.solution.iterations);
+  const auto [most, above] = overshoot(body, fitting, fit);
+  fmt::print(tables.moves, "{},{},{:.3f},{:.5f}\n", name, run, most, above);
+  for (const tensegric::LineResult& line : fit.solution.lines)
+    fmt::print(tables.lines, "{},{},{},{:.6f},{:.3f},{:.3f}\n", name, run, line.name,
+               line.final / line.initial, line.newtons, 1e-3 * line.pressure);
+  const auto warnings = fit::warnings_of(body, fitting, fit, settings);
+  if (warnings.empty()) fmt::print(tables.warnings, "{},,,,,\n", ended);
+  for (const geometry::FitWarning& warning : warnings)
+    fmt::print(tables.warnings, "{},{},{},{:.2f},{:.2f},{:.3f}\n", ended, warning.code, warning.line,
+               1e4 * warning.area, 1e4 * warning.shelf_area, warning.value);
+}
+
+void wear_all(const std::string& file, const std::vector<std::string>& words,
+              const std::vector<double>& ratios, bool strings, const fit::Settings& settings,
+              const fs::path& out, const Tables& tables) {
   const std::string name = fs::path(file).stem().string();
-  geometry::write_ply_mesh((out / (name + ".ply")).string(), body.mesh.mesh);
-  for (const std::string region : {"bust", "hips"}) {
-    const fit::Fitting fitting =
-        fit::prepare(body,
-                     std::vector<control_mesh::Template>{control_mesh::load_template(geometry::yaml_file(
-                         geometry::shipped_folder("templates"), region, geometry::refusal::kBadGarment))},
-                     settings, times);
-    for (const std::string& words : garments) {
-      tensegric::Garment garment = tensegric::take_garment(words, geometry::shipped_folder("garments"));
-      if (garment.regions.front() != region) continue;
-      if (strings)
-        for (tensegric::GarmentLine& line : garment.lines) line.width = line.smooth = 0;
-      for (const double ratio : ratios) {
+  std::vector<tensegric::Garment> garments;
+  for (const std::string& word : words) {
+    garments.push_back(tensegric::take_garment(word, geometry::shipped_folder("garments")));
+    if (strings)
+      for (tensegric::GarmentLine& line : garments.back().lines) line.width = line.smooth = 0;
+  }
+  fit::StageTimes times;
+  std::optional<fit::Body> body;
+  try {
+    body = fit::measure_mesh(geometry::read_ply_mesh(file), settings, times);
+  } catch (const geometry::Refusal& refusal) {
+    for (const tensegric::Garment& garment : garments) refuse(name, garment.name, ratios, refusal, tables);
+    return;
+  }
+  geometry::write_ply_mesh((out / (name + ".ply")).string(), body->mesh.mesh);
+  std::map<std::string, fit::Fitting> fittings;  // by region
+  for (tensegric::Garment& garment : garments) {
+    const std::string region = garment.regions.front();
+    try {
+      if (fittings.count(region) == 0) {
+        const control_mesh::Template pattern = control_mesh::load_template(geometry::yaml_file(
+            geometry::shipped_folder("templates"), region, geometry::refusal::kBadGarment));
+        fittings.emplace(region,
+                         fit::prepare(*body, std::vector<control_mesh::Template>{pattern}, settings, times));
+      }
+    } catch (const geometry::Refusal& refusal) {
+      refuse(name, garment.name, ratios, refusal, tables);
+      continue;
+    }
+    for (const double ratio : ratios) {
+      try {
         if (ratio > 0) tensegric::set_ratio(garment, "", ratio);
-        const fit::Fit fit = fit::wear(body, fitting, garment, settings, times);
-        const std::string run = fmt::format("{}_{}_{:.0f}", name, garment.name, 100 * ratio);
-        geometry::write_ply_mesh((out / (run + ".ply")).string(), {fit.deformed, body.mesh.mesh.triangles});
-        const std::string ended =
-            fmt::format("{},{},{},{}", name, run, to_string(fit.solution.status), fit.solution.iterations);
-        const auto [most, above] = overshoot(body, fitting, fit);
-        fmt::print(tables.moves, "{},{},{:.3f},{:.5f}\n", name, run, most, above);
-        for (const tensegric::LineResult& line : fit.solution.lines)
-          fmt::print(tables.lines, "{},{},{},{:.6f},{:.3f},{:.3f}\n", name, run, line.name,
-                     line.final / line.initial, line.newtons, 1e-3 * line.pressure);
-        const auto warnings = fit::warnings_of(body, fitting, fit, settings);
-        if (warnings.empty()) fmt::print(tables.warnings, "{},,,,,\n", ended);
-        for (const geometry::FitWarning& warning : warnings)
-          fmt::print(tables.warnings, "{},{},{},{:.2f},{:.2f},{:.3f}\n", ended, warning.code, warning.line,
-                     1e4 * warning.area, 1e4 * warning.shelf_area, warning.value);
+        wear_one(*body, name, fittings.at(region), garment, ratio, settings, out, tables);
+      } catch (const geometry::Refusal& refusal) {
+        refuse(name, garment.name, {ratio}, refusal, tables);
       }
     }
   }
@@ -129,16 +168,11 @@ int main(int argc, char** argv) {
   fmt::print(tables.lines, "body,run,line,ratio,newtons,kilopascals\n");
   try {
     if (!tissue.empty()) tensegric_fit::fit::take_tissue(tissue, settings);
-  } catch (const tensegric_fit::geometry::Refusal& refusal) {
-    fmt::print(stderr, "{}: {}\n", tissue, refusal.what());
-    return 3;
-  }
-  for (const std::string& body : bodies) {
-    try {
+    for (const std::string& body : bodies)
       tensegric_fit::wear_all(body, garments, ratios, strings, settings, out, tables);
-    } catch (const tensegric_fit::geometry::Refusal& refusal) {
-      fmt::print(stderr, "{} refused {}: {}\n", body, refusal.code(), refusal.what());
-    }
+  } catch (const tensegric_fit::geometry::Refusal& refusal) {
+    fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());
+    return 3;
   }
   std::fclose(tables.warnings);
   std::fclose(tables.moves);

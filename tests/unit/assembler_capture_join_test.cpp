@@ -5,6 +5,8 @@
 #include <random>
 
 #include "assembler/capture_join.hpp"
+#include "assembler/capture_queue.hpp"
+#include "assembler/shared_frames.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit {
@@ -166,6 +168,50 @@ TEST(CaptureJoinTest, OptionsOutOfRangeAreRefused) {
   EXPECT_THROW(CaptureJoin(2, {-1, 2}), geometry::Refusal);
   EXPECT_THROW(CaptureJoin(2, {0.1, 0}), geometry::Refusal);
   EXPECT_THROW(CaptureJoin(2, {std::numeric_limits<double>::quiet_NaN(), 2}), geometry::Refusal);
+}
+
+TEST(CaptureQueueTest, WhileOneIsAssembledTheNewestOfTheOthersWaits) {
+  assembler::CaptureQueue queue;
+  const auto put = [&queue](std::uint64_t stamp) { queue.put({stamp, stamp, {}}, "some warning"); };
+  EXPECT_FALSE(queue.next());
+  put(1);
+  std::shared_ptr<const assembler::CaptureTurn> turn = queue.next();
+  ASSERT_TRUE(turn);
+  EXPECT_EQ(turn->capture.first, 1u);
+  EXPECT_EQ(turn->warning, "some warning");
+  EXPECT_EQ(turn->left_out, 0);
+  for (const std::uint64_t stamp : {2, 3, 4}) {
+    put(stamp);
+    EXPECT_FALSE(queue.next()) << stamp;
+  }
+  turn.reset();  // published, refused, or dropped
+  turn = queue.next();
+  ASSERT_TRUE(turn);
+  EXPECT_EQ(turn->capture.first, 4u);
+  EXPECT_EQ(turn->left_out, 2);
+  put(5);
+  turn.reset();
+  turn = queue.next();
+  ASSERT_TRUE(turn);
+  EXPECT_EQ(turn->capture.first, 5u);
+  EXPECT_EQ(turn->left_out, 0);
+  turn.reset();
+  EXPECT_FALSE(queue.next());
+}
+
+TEST(SharedFramesTest, AFrameOfSeveralCloudsAndTheScansOwnAreNoViewpoints) {
+  const auto shared_in = [](const std::vector<std::string>& frames) {
+    Capture capture{kStart, kStart, {nullptr}};  // the first sensor is missing
+    for (const std::string& frame : frames) capture.clouds.push_back(cloud(0, frame));
+    return assembler::warning_of(assembler::shared_frames(capture, "booth"), {"0", "1", "2", "3", "4"});
+  };
+  const std::string end = ": where their sensors stood is unknown, normals are left out";
+  EXPECT_EQ(shared_in({"left", "right", "back"}), "");
+  EXPECT_EQ(shared_in({"left", "booth", "back"}), "clouds of 2 are in the scan's own frame (booth)" + end);
+  EXPECT_EQ(shared_in({"left", "right", "left"}), "clouds of 1 and 3 are in one frame (left)" + end);
+  EXPECT_EQ(
+      shared_in({"left", "left", "left", "booth"}),
+      "clouds of 4 are in the scan's own frame (booth), clouds of 1, 2 and 3 are in one frame (left)" + end);
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 
 #include "assembler/assembler.hpp"
+#include "assembler/column_pairs.hpp"
 #include "geometry/status.hpp"
 #include "virtual_body/virtual_body.hpp"
 #include "virtual_booth/virtual_scanner.hpp"
@@ -165,6 +167,50 @@ TEST(AssemblerTest, CorrectionsHaveNoMotionInCommonAndAreTheSameEveryTime) {
   for (const Vector3d& p : a.cloud.points) centre += p / static_cast<double>(a.cloud.points.size());
   for (const Isometry3d& correction : a.registration->corrections) shift += correction * centre - centre;
   EXPECT_LT(shift.norm(), 1e-4);  // against 1 mm of each; the centre is that of the corrected points
+}
+
+/// The clouds of the first sensors as a driver would send them that puts all into the booth's frame.
+Booth with_clouds_put_together(Booth booth, std::size_t sensors) {
+  for (std::size_t s = 0; s < booth.capture.clouds.size(); ++s) {
+    assembler::SensorCloud sent = *booth.capture.clouds[s];
+    sent.frame_id = s < sensors ? "booth" : "sensor_" + std::to_string(s);
+    if (s < sensors) {
+      for (Vector3d& p : sent.cloud.points) p = booth.booth_from_sensor[s] * p;
+      booth.booth_from_sensor[s] = Isometry3d::Identity();
+    }
+    booth.capture.clouds[s] = std::make_shared<const assembler::SensorCloud>(std::move(sent));
+  }
+  return booth;
+}
+
+TEST(AssemblerTest, CloudsInOneFrameHaveNoNormalsAndAreBroughtTogetherAllTheSame) {
+  for (const int sensors : {12, 6}) {  // all, or those of two columns
+    const Booth booth = with_clouds_put_together(off_by(0.002), sensors);
+    const Assembly assembly = assemble(booth.capture, booth.booth_from_sensor, by_column(),
+                                       assembler::shared_frames(booth.capture, "booth"));
+    for (std::size_t i = 0; i < assembly.cloud.normals.size(); ++i) {
+      const int sensor = assembly.cloud.sensor[i];
+      ASSERT_NEAR(assembly.cloud.normals[i].norm(), sensor < sensors ? 0 : 1, 1e-9) << sensor;
+    }
+    EXPECT_EQ(assembly.registration->status, RegistrationStatus::refined) << sensors;
+    EXPECT_LT(disagreement(booth, assembly.registration->corrections), 0.0005) << sensors;
+  }
+}
+
+TEST(ColumnPairsTest, SearchesAreSharedByColumnsThatAreNearEachOther) {
+  // 5 mm between neighbours; the last one is empty
+  const auto in_a_row = [](int count) {
+    std::vector<geometry::PointCloud> columns(count + 1);
+    for (int c = 0; c < count; ++c)
+      columns[c].points = {Vector3d(0.05 * c, 0, 0), Vector3d(0.05 * c + 0.045, 0.1, 1)};
+    return assembler::column_pairs(columns, 0.01);
+  };
+  const assembler::ColumnPairs many = in_a_row(64), few = in_a_row(12);
+  EXPECT_EQ(many.pairs.size(), 2u * 63);  // of 4,032
+  for (const auto& [a, b] : many.pairs) EXPECT_EQ(std::abs(a - b), 1);
+  EXPECT_EQ(many.searches, 60000u / (2 * 63));
+  EXPECT_EQ(few.pairs.size(), 2u * 11);
+  EXPECT_EQ(few.searches, 60000u / (12 * 11)) << "few columns are matched as ever";
 }
 
 TEST(RegistrationTest, ColumnsThatAreFarOffOrSeeNothingInCommonAreLeftAsTheyAre) {

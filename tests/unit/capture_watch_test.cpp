@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "capture/capture_watch.hpp"
+#include "capture/heard_sensors.hpp"
 
 namespace tensegric_fit::capture {
 namespace {
@@ -79,6 +80,63 @@ TEST_F(CaptureWatchTest, EachSensorOfTheGoalMustHaveSeenThisScan) {
   EXPECT_NE(capture.end(1)->message.find("without right"), std::string::npos);
   capture.add_cloud("right", 5 * kSecond + kSecond / 10);
   EXPECT_EQ(code(capture), "well");
+}
+
+TEST_F(CaptureWatchTest, CloudsOfTheScanThatCameBeforeTheGoalCount) {
+  const std::vector<std::string> sensors = {"left", "right"};
+  HeardSensors heard;
+  CaptureWatch before = watch(sensors);
+  heard.follow(sensors, 0, before);
+  heard.add("left", 5 * kSecond);
+  heard.add("right", 3 * kSecond);  // of the customer before
+  heard.add("nobody", 5 * kSecond);
+
+  CaptureWatch capture = watch(sensors);
+  heard.follow(sensors, 100, capture);
+  EXPECT_EQ(capture.progress(101).missing, sensors) << "what came may be the customer's before";
+  capture.add_scan("a", 5 * kSecond, 101);
+  capture.add_landmarks("a");
+  EXPECT_EQ(capture.progress(101).missing, std::vector<std::string>{"right"});
+  EXPECT_EQ(code(capture, 101), "missing_sensor");
+  capture.add_cloud("right", 5 * kSecond);
+  EXPECT_EQ(code(capture, 101), "well");
+  EXPECT_EQ(capture.end(101)->message, "");
+}
+
+TEST_F(CaptureWatchTest, ASensorThatIsBeingConnectedToIsNotMissing) {
+  const std::vector<std::string> sensors = {"left", "right"};
+  HeardSensors heard;
+  CaptureWatch early = watch(sensors), again = watch(sensors), late = watch(sensors);
+  heard.follow(sensors, 0, early);
+  heard.follow(sensors, 1, again);  // not a new connection
+  heard.follow(sensors, 1, late);
+  for (CaptureWatch* capture : {&early, &again, &late}) {
+    capture->add_cloud("left", 5 * kSecond);
+    EXPECT_EQ(capture->progress(1).missing, std::vector<std::string>{"right"});
+    capture->add_scan("a", 5 * kSecond, capture == &late ? HeardSensors::kConnecting : 1.5);
+    capture->add_landmarks("a");
+  }
+  EXPECT_EQ(code(late, 3), "missing_sensor");
+  for (const CaptureWatch* capture : {&early, &again}) {
+    EXPECT_EQ(code(*capture, 3), "well");
+    EXPECT_NE(capture->end(3)->message.find("right was connected to as the scan came"), std::string::npos);
+    EXPECT_EQ(capture->end(3)->message.find("left"), std::string::npos);
+  }
+}
+
+TEST_F(CaptureWatchTest, OfASensorThatSendsAllTheTimeTheNewestCloudsAreKnown) {
+  const std::vector<std::string> sensors = {"left"};
+  HeardSensors heard;
+  CaptureWatch before = watch(sensors);
+  heard.follow(sensors, 0, before);
+  for (std::uint64_t stamp = 1; stamp <= 1000; ++stamp) heard.add("left", stamp * kSecond);
+  for (const std::uint64_t stamp : {1, 1000}) {
+    CaptureWatch capture = watch(sensors);
+    heard.follow(sensors, 100, capture);
+    capture.add_scan("a", stamp * kSecond, 101);
+    capture.add_landmarks("a");
+    EXPECT_EQ(code(capture, 101), stamp == 1 ? "missing_sensor" : "well");
+  }
 }
 
 TEST_F(CaptureWatchTest, OutOfTimeItNamesWhatIsMissing) {

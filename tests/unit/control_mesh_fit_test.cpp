@@ -315,13 +315,16 @@ TEST(FitTemplate, CoarseAndFineOfOneBodyAreWhatEachIsAlone) {
   const Trunk trunk = make_trunk();
   const control_mesh::Template bust = control_mesh::load_template(kBust);
   const std::vector<control_mesh::Options> both{{480, 1.2}, {120, 1}};
-  const auto laid = control_mesh::fit_template_for_each(bust, trunk.mesh, trunk.measures, both);
+  const control_mesh::BodySkin skin(trunk.mesh, trunk.measures, nullptr);
+  const auto laid = control_mesh::fit_template_for_each(bust, skin, both),
+             again = control_mesh::fit_template_for_each(bust, skin, both);  // a skin is for many templates
   ASSERT_EQ(laid.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     const auto alone = control_mesh::fit_template(bust, trunk.mesh, trunk.measures, both[i]);
     EXPECT_EQ(laid[i].outer, alone.outer);  // to the bit
     EXPECT_EQ(laid[i].inner, alone.inner);
     EXPECT_EQ(laid[i].triangles, alone.triangles);
+    EXPECT_EQ(laid[i].outer, again[i].outer);
   }
 }
 

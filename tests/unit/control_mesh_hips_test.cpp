@@ -149,12 +149,29 @@ TEST(HipsTemplate, SymmetricBodyGivesSymmetricControlMesh) {
   }
 }
 
+TEST(HipsTemplate, MayNameTheLandmarksThatAreFoundAndNoOthers) {
+  const geometry::BodyMeasures measures = body_of(0).measures;
+  for (const geometry::Landmark& landmark : measures.landmarks)
+    EXPECT_TRUE(geometry::is_landmark(landmark.name)) << landmark.name;
+  for (const std::string name : geometry::kLandmarkNames)
+    EXPECT_TRUE(measures.find_landmark(name) ||
+                std::any_of(measures.missing.begin(), measures.missing.end(),
+                            [&name](const geometry::Missing& missing) { return missing.name == name; }))
+        << name;
+  EXPECT_FALSE(geometry::is_landmark("knee_L"));
+}
+
 TEST(HipsTemplate, RefusesWhatDoesNotFit) {
   EXPECT_EQ(refusal_with(kHips, "rows: 7", "rows: 7"), "");
   // A row in two pieces, a character that means nothing, a node where no cell is, ends of columns not placed.
   EXPECT_NE(refusal_with(kHips, "'/////\\/'\n  - '////// '", "'//  /\\/'\n  - '//  // '").find("'diagonals'"),
             std::string::npos);
   EXPECT_NE(refusal_with(kHips, "'/////\\/'", "'/////\\x'").find("'diagonals'"), std::string::npos);
+  // Two rows that meet in a corner.
+  EXPECT_NE(refusal_with(kHips, "'////// '\n  - '/////\\ '", "'///    '\n  - '   //\\ '").find("'diagonals'"),
+            std::string::npos);
+  // A hole of one cell, beside which all nodes are there.
+  EXPECT_NE(refusal_with(kBust, "'\\\\\\//'", "'\\\\ //'").find("'diagonals'"), std::string::npos);
   EXPECT_NE(refusal_with(kHips, "{row: 4, column: 7,", "{row: 5, column: 7,").find("no cell"),
             std::string::npos);
   EXPECT_NE(refusal_with(

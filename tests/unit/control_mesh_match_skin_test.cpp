@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "../peak_memory.hpp"
 #include "control_mesh/match_skin.hpp"
 
 namespace tensegric_fit::control_mesh {
@@ -109,6 +110,27 @@ TEST_F(MatchSkin, TheOrderOfTheNodesDoesNotMatter) {
   match_skin(other, may_move, skin);
   for (std::size_t v = 0; v < count; ++v)
     EXPECT_LT((other.outer[v] - control.outer[(v + turn) % count]).norm(), 1e-12) << v;
+}
+
+/// Slanted triangles of a metre, one over the other: the box of each is nearly all of the grid.
+TEST(SkinGrid, LargeTrianglesDoNotFillTheMemory) {
+  geometry::TriangleMesh sheets;
+  for (int i = 0; i < 1000; ++i) {
+    const double z = 1e-4 * i;
+    sheets.vertices.emplace_back(0, 0, z);
+    sheets.vertices.emplace_back(1, 0, z + 0.5);
+    sheets.vertices.emplace_back(1, 1, z + 1);
+    sheets.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+  }
+  const gauge::Growth growth;
+  const Skin skin(sheets);
+  EXPECT_LT(growth.mebibytes(), 100);  // in cells of 20 mm: 500
+  const auto lowest = skin.first_exit({0.6, 0.3, 0.1}, Vector3d::UnitZ(), 1);
+  ASSERT_TRUE(lowest);
+  EXPECT_NEAR(lowest->z(), 0.45, 1e-12);
+  const auto highest = skin.nearest_along({0.6, 0.3, 0.6}, Vector3d::UnitZ(), 1);
+  ASSERT_TRUE(highest);
+  EXPECT_NEAR(highest->z(), 0.5499, 1e-12);
 }
 
 }  // namespace

@@ -246,5 +246,21 @@ TEST(NodesOnTheModel, NeedAModelThatHasThem) {
   EXPECT_EQ(why_refused(small_template("bust_point_L"), posed, true), "");
 }
 
+TEST(NodesOnTheModel, SecondPlacesThatItDoesNotHaveAreRefusedThoughNoneIsNeeded) {
+  Posed posed(0);
+  for (const std::string name : {"underbust_L", "underbust_R"})
+    posed.measures.landmarks.push_back({name, posed.body.skin_point(name), 1, "", 0});
+  const auto refused = [&](const std::string& point) {
+    return why_refused(
+        small_template("bust_point_L", "landmark: underbust_L, or_on_model: [[" + point + ", 1]]"), posed,
+        true);
+  };
+  EXPECT_EQ(refused("underbust_L"), "");
+  EXPECT_NE(refused("65000").find("bad_template: the template small, row 1, column 0: "
+                                  "the body model has no vertex 65000"),
+            std::string::npos);
+  EXPECT_NE(refused("underbst_L").find("no skin point 'underbst_L'"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tensegric_fit

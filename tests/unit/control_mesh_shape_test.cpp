@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include "control_mesh/shape_control.hpp"
 #include "geometry/status.hpp"
@@ -51,6 +53,39 @@ TriangleMesh lens(double height, const Vector3d& centre = Vector3d::Zero()) {
   return mesh;
 }
 
+TriangleMesh inside_out(TriangleMesh mesh) {
+  for (Eigen::Vector3i& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+TriangleMesh beside(TriangleMesh mesh, const TriangleMesh& other) {
+  const int nodes = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const Eigen::Vector3i& t : other.triangles)
+    mesh.triangles.push_back(t + Eigen::Vector3i::Constant(nodes));
+  return mesh;
+}
+
+// A cube of 1 m with a strip of its upper face, beside the edge over x = 1, in two triangles of its own.
+TriangleMesh cube_with_strip(double width) {
+  const std::vector<std::pair<double, double>> outline{
+      {0, 0}, {1, 0}, {1, 1}, {1 - width, 1}, {0, 1}};  // x, z
+  const int count = static_cast<int>(outline.size());
+  TriangleMesh cube;
+  for (const double y : {0.0, 1.0})
+    for (const auto& [x, z] : outline) cube.vertices.emplace_back(x, y, z);
+  for (int i = 0; i < count; ++i) {
+    const int next = (i + 1) % count;
+    cube.triangles.emplace_back(i, count + next, next);
+    cube.triangles.emplace_back(i, count + i, count + next);
+  }
+  for (int i = 1; i + 1 < count; ++i) {
+    cube.triangles.emplace_back(0, i, i + 1);
+    cube.triangles.emplace_back(count, count + i + 1, count + i);
+  }
+  return cube;
+}
+
 ShapeFixing behind(double x) {
   ShapeFixing fixing;
   fixing.boxes = {{Vector3d(-10, -10, -10), Vector3d(x, 10, 10)}};
@@ -84,12 +119,8 @@ TEST(ShapeControl, ThicknessIsWhatWasAskedForWhereThereIsRoom) {
 }
 
 TEST(ShapeControl, EachPieceKeepsItsOwnVolume) {
-  TriangleMesh two = lens(0.1);
-  const TriangleMesh other = lens(0.2, {0, 0, 1});
-  const int nodes = static_cast<int>(two.vertices.size()), triangles = static_cast<int>(two.triangles.size());
-  two.vertices.insert(two.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const Eigen::Vector3i& t : other.triangles)
-    two.triangles.push_back(t + Eigen::Vector3i::Constant(nodes));
+  const TriangleMesh two = beside(lens(0.1), lens(0.2, {0, 0, 1}));
+  const int triangles = static_cast<int>(two.triangles.size()) / 2;
   const auto control = control_mesh::control_from_shape(two, behind(-0.3));
   ASSERT_EQ(control.regions.size(), 2u);
   EXPECT_EQ(control.regions[0].name, "shape");
@@ -101,6 +132,32 @@ TEST(ShapeControl, EachPieceKeepsItsOwnVolume) {
   ShapeFixing one = behind(10);
   one.boxes[0][1].z() = 0.5;  // nothing holds the upper one
   EXPECT_EQ(refusal_of([&] { control_mesh::control_from_shape(two, one); }), "bad_template");
+}
+
+TEST(ShapeControl, APieceThatIsInsideOutIsAHollowOrRefused) {
+  TriangleMesh hollow = inside_out(lens(0.2));
+  for (Vector3d& p : hollow.vertices) p *= 0.5;
+  TriangleMesh apart = hollow;
+  for (Vector3d& p : apart.vertices) p.z() += 1;
+  const auto refused = [](const TriangleMesh& mesh) {
+    ASSERT_GT(geometry::cone_volume(mesh.vertices, mesh.triangles), 0);
+    EXPECT_EQ(refusal_of([&] { control_mesh::control_from_shape(mesh, behind(-0.1)); }), "bad_mesh");
+  };
+  EXPECT_EQ(refusal_of([&] { control_mesh::control_from_shape(beside(lens(0.2), hollow), behind(-0.1)); }),
+            "accepted");
+  refused(beside(lens(0.2), apart));
+  refused(beside(apart, lens(0.2)));
+}
+
+TEST(ShapeControl, UnitsThatStayFoldedAreRefused) {
+  const TriangleMesh cube = cube_with_strip(1e-5);
+  ASSERT_TRUE(geometry::is_closed(cube));
+  ShapeFixing fixing = behind(0.5);
+  EXPECT_EQ(refusal_of([&] { control_mesh::control_from_shape(cube, fixing); }), "bad_template");
+  fixing.thickness = 1e-4;
+  EXPECT_EQ(refusal_of([&] { control_mesh::control_from_shape(cube, fixing); }), "accepted");
+  fixing.thickness = 0;
+  EXPECT_EQ(refusal_of([&] { control_mesh::control_from_shape(cube_with_strip(0.3), fixing); }), "accepted");
 }
 
 TEST(ShapeControl, SimplifiedToAboutTheTrianglesAskedFor) {
@@ -127,9 +184,8 @@ TEST(ShapeControl, VerticesWithoutATriangleAreNoneOfTheControlMesh) {
 }
 
 TEST(ShapeControl, RefusalsHaveNames) {
-  TriangleMesh inside_out = lens(0.2);
-  for (Eigen::Vector3i& t : inside_out.triangles) std::swap(t[1], t[2]);
-  EXPECT_EQ(refusal_of([&] { control_mesh::control_from_shape(inside_out, behind(-0.3)); }), "bad_mesh");
+  EXPECT_EQ(refusal_of([&] { control_mesh::control_from_shape(inside_out(lens(0.2)), behind(-0.3)); }),
+            "bad_mesh");
   EXPECT_EQ(refusal_of([&] { control_mesh::simplified_control({}, behind(0), 200); }), "bad_mesh");
   EXPECT_EQ(refusal_of([&] { control_mesh::control_from_shape(lens(0.2), behind(-0.6)); }), "bad_template");
   const TriangleMesh point{std::vector<Vector3d>(9, Vector3d(1, 2, 3)), {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}};

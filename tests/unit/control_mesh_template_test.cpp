@@ -9,6 +9,7 @@
 #include "control_mesh_changed_template.hpp"
 #include "control_mesh_templates.hpp"
 #include "geometry/status.hpp"
+#include "refusal_of.hpp"
 
 namespace tensegric_fit {
 namespace {
@@ -179,6 +180,68 @@ TEST(BustTemplate, RefusesARegionOfNoCell) {
   EXPECT_NE(refusal_with(kHips, "regions:", "regions:\n  - {name: corner, rows: [4, 5], columns: [6, 7]}")
                 .find("'corner' has no cell"),
             std::string::npos);
+}
+
+TEST(BustTemplate, RefusesNamesOfNoLandmark) {
+  const auto said = [](const std::string& what, const std::string& by, const std::string& why) {
+    return refusal_with(kBust, what, by).find(why) != std::string::npos;
+  };
+  EXPECT_TRUE(said("axis: [axilla_L, axilla_R]", "axis: [axilla_L, axila_R]", "'axis' has 'axila_R'"));
+  EXPECT_TRUE(said("axis_foot: crotch", "axis_foot: crutch", "'axis_foot' has 'crutch'"));
+  EXPECT_TRUE(said("neck_front], at: 0.34}", "throat], at: 0.34}", "level: 'between' has 'throat'"));
+  EXPECT_TRUE(said("axilla_L], at: 0.48}", "armpit_L], at: 0.48}", "angle: 'between' has 'armpit_L'"));
+  EXPECT_TRUE(said("landmark: axilla_L, offset: -20", "landmark: armpit_L, offset: -20",
+                   "angle: 'landmark' has 'armpit_L'"));
+  EXPECT_TRUE(said("below: bust_point_L", "below: bust_pont_L", "'below' has 'bust_pont_L'"));
+  EXPECT_TRUE(said("landmark: underbust_L, or_on_model", "landmark: under_bust_L, or_on_model",
+                   "'landmark' has 'under_bust_L'"));
+  EXPECT_NE(refusal_with(kHips, "axis: [hip_side_L, crotch]", "axis: [hip_side_L, knee_L]")
+                .find("'axis' has 'knee_L'"),
+            std::string::npos);
+}
+
+TEST(BustTemplate, RefusesKeysWithoutEffect) {
+  const std::string angle = "angle: {landmark: axilla_L, offset: -20",
+                    below = "below: bust_point_L, by: 0.03",
+                    on_middle = "angle: {between: [bust_point_L, bust_point_R], at: 0.5";
+  EXPECT_NE(refusal_with(kBust, angle, angle + ", " + below).find("unknown key 'below'"), std::string::npos);
+  EXPECT_NE(refusal_with(kBust, angle, angle + ", by: 0.03").find("unknown key 'by'"), std::string::npos);
+  EXPECT_NE(refusal_with(kBust, below, "by: 0.03").find("'by' needs 'below'"), std::string::npos);
+  EXPECT_NE(refusal_with(kBust, on_middle, on_middle + ", offset: 5").find("'offset'"), std::string::npos);
+  EXPECT_EQ(refusal_with(kBust, on_middle, on_middle + ", offset: 0"), "");
+}
+
+TEST(BustTemplate, RefusesMoreThanAnyBodyNeeds) {
+  const auto many = [](const std::string& key, int more, const std::string& of_each) {
+    std::string text = key;
+    for (int i = 0; i < more; ++i) text += "\n  - {name: n" + std::to_string(i) + ", " + of_each + "}";
+    return refusal_with(kBust, key, text);
+  };
+  const std::string everywhere = "rows: [0, 6], columns: [0, 10]", across = "through: [axilla_L, axilla_R]";
+  EXPECT_EQ(many("regions:", 63, everywhere), "");
+  EXPECT_NE(many("regions:", 64, everywhere).find("'regions' must have 64"), std::string::npos);
+  EXPECT_EQ(many("lines:", 999, across), "");
+  EXPECT_NE(many("lines:", 1000, across).find("'lines' must have 1000"), std::string::npos);
+  std::string to_and_fro = "through: [axilla_L";
+  for (int i = 0; i < 500; ++i) to_and_fro += ", axilla_R, axilla_L";
+  EXPECT_NE(refusal_with(kBust, "through: [axilla_L", to_and_fro).find("1000 nodes in 'through'"),
+            std::string::npos);
+}
+
+TEST(BustTemplate, WithOthersItSharesNoNameAndEachOfThemIsHeld) {
+  const auto refused = [](const std::vector<control_mesh::Template>& patterns) {
+    return refusal_of([&] { control_mesh::check_together(patterns); });
+  };
+  const auto bust = control_mesh::load_template(kBust), hips = control_mesh::load_template(kHips);
+  EXPECT_EQ(refused({bust, hips}), "accepted");
+  EXPECT_EQ(refused({bust, bust}), "bad_template");
+  auto loose = bust;
+  for (std::string& row : loose.fixed) row.assign(row.size(), '.');
+  EXPECT_EQ(refused({loose}), "bad_template");
+  loose.fixed.front() = "##....";  // two on either side
+  EXPECT_EQ(refused({loose}), "accepted");
+  loose.inner_fixed = false;
+  EXPECT_EQ(refused({loose}), "bad_template") << "a bone hangs on inner nodes";
 }
 
 TEST(BustTemplate, RefusesAFileThatIsNotThere) {

@@ -69,7 +69,7 @@ struct Dressed {
 };
 
 inline SimulatedBody simulated(const fit::Body& body, const Dressed& dressed) {
-  return {body.mesh.mesh, dressed.deformed, dressed.control, body.measures};
+  return {body.mesh.mesh, dressed.deformed, dressed.control, body.measures, body.mesh.filled};
 }
 
 inline WornBody worn(const fit::Body& body) {

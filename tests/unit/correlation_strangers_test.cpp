@@ -9,6 +9,7 @@
 #include "geometry/point_tree.hpp"
 #include "geometry/posture.hpp"
 #include "geometry/status.hpp"
+#include "refusal_of.hpp"
 
 namespace tensegric_fit::correlation {
 namespace {
@@ -79,6 +80,75 @@ TEST_F(Strangers, WhereTheGarmentsSkinWasNotSeenNothingIsSaid) {
   }
 }
 
+// Half of her upper back and the tip of a breast: fillings that are far off.
+TEST_F(Strangers, WhatTheFirstScanDidNotSeeIsNotCompared) {
+  const geometry::BodyMeasures& measures = before_->measures;
+  const TriangleMesh& skin = before_->mesh.mesh;
+  const std::vector<Vector3d> normals = geometry::vertex_normals(skin.vertices, skin.triangles);
+  std::vector<char> filled = before_->mesh.filled;
+  std::vector<double> off(filled.size(), 0.0);  // m
+  for (std::size_t v = 0; v < off.size(); ++v) {
+    const Vector3d p = measures.body_from_scan * skin.vertices[v];
+    const bool at_back = (measures.body_from_scan.linear() * normals[v]).x() < -0.5 && p.y() > 0;
+    if (at_back && p.z() > measures.height("bust") && p.z() < measures.height("neck")) off[v] = 0.03;
+    if ((skin.vertices[v] - measures.landmark("bust_point_L")).norm() < 0.03) off[v] = 0.01;
+    if (off[v] > 0) filled[v] = 1;
+  }
+  const auto way = [&](std::size_t v) { return off[v]; };
+  const TriangleMesh rest = thicker(skin, way);
+  const std::vector<Vector3d> deformed = thicker({dressed_->deformed, skin.triangles}, way).vertices;
+
+  const std::vector<SkinPart> parts = parts_of({rest, deformed, dressed_->control, measures});  // unflagged
+  fit::StageTimes times;
+  const fit::Body second = fit::measure_mesh(truth_->mesh, {}, times);
+  const Correlation found =
+      correlate({rest, deformed, dressed_->control, measures, filled}, worn(second), {});
+  EXPECT_LT(found.still.mean_size, 0.001);  // m; the filling of the back is 30 mm off
+  int still = 0, covered = 0, still_yet = 0, compared = 0;
+  for (std::size_t v = 0; v < off.size(); ++v) {
+    if (off[v] == 0) continue;
+    still += static_cast<int>(parts[v] == SkinPart::still);
+    covered += static_cast<int>(parts[v] == SkinPart::covered);
+    still_yet += static_cast<int>(found.parts[v] == SkinPart::still);
+    compared += static_cast<int>(found.map.compared[v] != 0);
+  }
+  EXPECT_GT(still, 100);
+  EXPECT_GT(covered, 20);
+  EXPECT_EQ(still_yet, 0);
+  EXPECT_EQ(compared, 0);
+}
+
+// A head that is cropped at the face, hidden feet: the model guesses her stature, or nobody does.
+TEST_F(Strangers, WhatIsUnsureOrNotFoundIsNobodyElses) {
+  const auto at = [](std::vector<geometry::Measure>& measures, const std::string& name) {
+    return std::find_if(measures.begin(), measures.end(),
+                        [&name](const geometry::Measure& m) { return m.name == name; });
+  };
+  fit::StageTimes times;
+  fit::Body second = fit::measure_mesh(truth_->mesh, {}, times);
+  const SimulatedBody body = simulated(*before_, *dressed_);
+  const auto code = [&] { return refusal_of([&] { correlate(body, worn(second), {}); }); };
+  const auto stature = at(second.measures.heights, "stature");
+  ASSERT_TRUE(stature != second.measures.heights.end());
+  stature->metres += 0.04;
+  stature->half_width = 0.001;
+  EXPECT_EQ(code(), "other_person");
+  stature->half_width = 0.05;
+  EXPECT_EQ(code(), "accepted");
+  second.measures.heights.erase(stature);
+  EXPECT_EQ(code(), "accepted");
+
+  geometry::BodyMeasures measures = before_->measures;
+  const auto underbust = at(measures.heights, "underbust");
+  ASSERT_TRUE(underbust != measures.heights.end());
+  measures.heights.erase(underbust);
+  const Likeness likeness =
+      correlate({body.rest, body.deformed, body.control, measures, body.filled}, worn(second), {}).likeness;
+  EXPECT_FALSE(likeness.chest);
+  EXPECT_TRUE(likeness.pelvis);
+  EXPECT_TRUE(std::isnan(likeness.stature));
+}
+
 TEST_F(Strangers, SomebodyElseIsRefused) {
   virtual_body::BodyParameters other = customer();
   other.build = 1.2;
@@ -142,6 +212,10 @@ TEST_F(Strangers, BadInputIsRefusedByName) {
             "non_finite");
   const std::vector<char> filled(3, 0);
   EXPECT_EQ(code_of([&] { correlate(body, {same.mesh, filled, same.measures}, {}); }), "bad_mesh");
+  EXPECT_EQ(code_of([&] {
+              correlate({body.rest, body.deformed, body.control, body.measures, filled}, same, {});
+            }),
+            "bad_mesh");
 }
 
 }  // namespace

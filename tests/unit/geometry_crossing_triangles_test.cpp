@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "../peak_memory.hpp"
+
 namespace tensegric_fit::geometry {
 namespace {
 
@@ -79,6 +81,38 @@ TEST(CrossingTriangles, AreTheSameAsWhenEachPairIsAsked) {
     EXPECT_LT(fewer.size(), pairs.size());
     EXPECT_EQ(fewer, asked_singly(heap, some));
   }
+}
+
+TEST(CrossingTriangles, LargeOnesAmongSmallOnesDoNotFillTheMemory) {
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed);
+  constexpr int kSmall = 20000, kLarge = 300;
+  std::mt19937 random(kSeed);
+  std::uniform_real_distribution<double> unit(-0.5, 0.5);
+  const auto point = [&] { return Vector3d(unit(random), unit(random), unit(random)); };
+  Heap heap, large;
+  for (int i = 0; i < kSmall; ++i) {
+    const Vector3d middle = point();
+    for (int k = 0; k < 3; ++k) heap.vertices.push_back(middle + 0.001 * point());
+  }
+  for (int i = 0; i < kLarge; ++i) {  // from corner to corner
+    const Vector3d low = 0.01 * point() - Vector3d::Constant(0.5),
+                   high = 0.01 * point() + Vector3d::Constant(0.5);
+    for (const Vector3d& p : {low, high, point()}) {
+      heap.vertices.push_back(p);
+      large.vertices.push_back(p);
+    }
+    large.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+  }
+  for (int i = 0; i < kSmall + kLarge; ++i) heap.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+  const std::vector<char> all(heap.vertices.size(), 1);
+  const gauge::Growth growth;
+  const auto pairs = crossing_pairs(heap.vertices, heap.triangles, all);
+  EXPECT_LT(growth.mebibytes(), 400);  // each large one in all cells: 1500
+  std::vector<std::pair<int, int>> of_large;
+  for (const auto& [a, b] : pairs)
+    if (a >= kSmall) of_large.emplace_back(a - kSmall, b - kSmall);
+  EXPECT_GT(of_large.size(), 100u);
+  EXPECT_EQ(of_large, asked_singly(large, std::vector<char>(large.vertices.size(), 1)));
 }
 
 TEST(CrossingTriangles, NeighboursDoNotCount) {

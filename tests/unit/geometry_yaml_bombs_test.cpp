@@ -61,6 +61,13 @@ TEST_F(YamlBombs, Depth) {
   EXPECT_EQ(refused("a: " + std::string(50, '[') + std::string(50, ']')), "");
 }
 
+TEST_F(YamlBombs, ASecondDocument) {
+  EXPECT_EQ(refused("a: 1\n---\nb: 2\n"), "bad_garment");
+  EXPECT_EQ(refused("a: 1\n...\nb: 2\n"), "bad_garment");
+  EXPECT_EQ(refused("{a: 1},\n"), "bad_garment") << "of which yaml-cpp makes documents without end";
+  EXPECT_EQ(refused("# one\n---\na: 1\n...\n"), "");
+}
+
 TEST_F(YamlBombs, SizeAndWhatIsNoFile) {
   std::ofstream(path_) << "a: 1\n";
   fs::resize_file(path_, std::uintmax_t{1} << 40);

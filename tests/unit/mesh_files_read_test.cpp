@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "geometry/status.hpp"
@@ -100,6 +101,24 @@ TEST_F(MeshFile, ObjWaysToWriteAFace) {
   EXPECT_EQ(mesh.vertices.size(), 4U);
 }
 
+TEST_F(MeshFile, AnObjCommentThatEndsInABackslashEndsThere) {
+  for (const char* end : {"\n", "\r\n"}) {
+    const std::string comment = std::string(" # C:\\scans\\") + end;
+    const TriangleMesh mesh =
+        read_mesh(write("comment.obj", comment + kCorners + "v 1 1 0\n" + comment + "f 1 2 3\nf 2 3 4\n"));
+    EXPECT_EQ(mesh.triangles.size(), 2U);
+    EXPECT_EQ(mesh.vertices.size(), 4U);
+  }
+}
+
+TEST_F(MeshFile, AMarkOfUtf8BeforeTheFirstWordIsSkipped) {
+  const std::string mark = "\xEF\xBB\xBF";
+  EXPECT_EQ(read_mesh(write("mark.obj", mark + kCorners + "f 1 2 3\n")).triangles.size(), 1U);
+  EXPECT_EQ(read_xyz(write("mark.xyz", mark + "1 2 3\n4 5 6\n")),
+            (std::vector<Vector3d>{{1, 2, 3}, {4, 5, 6}}));
+  EXPECT_TRUE(read_xyz(write("short.xyz", mark.substr(0, 2))).empty());
+}
+
 TEST_F(MeshFile, AsciiStlAndBinaryStlThatSaysSolid) {
   const std::string facet =
       " facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1e0 0 0\n vertex 0 1 0\n endloop\n "
@@ -173,6 +192,65 @@ TEST_F(MeshFile, RefusesOddStlByName) {
   std::string bad = good;
   std::memcpy(&bad[96], &nan, sizeof nan);
   EXPECT_EQ(refusal_of("nan.stl", bad), "non_finite");
+}
+
+// Facets that share no corner, as few as have more than 10 million corners.
+TEST_F(MeshFile, RefusesAnStlOfMoreJoinedVerticesThanArePlannedFor) {
+  constexpr auto kFacets = static_cast<std::uint32_t>(kMostVertices / 3 + 1);
+  std::string bytes(84 + 50UL * kFacets, '\0');
+  std::memcpy(&bytes[80], &kFacets, sizeof kFacets);
+  for (std::size_t c = 0; c < 3UL * kFacets; ++c) {
+    const auto x = static_cast<float>(c);  // exact below 2^24
+    std::memcpy(&bytes[84 + 50 * (c / 3) + 12 + 12 * (c % 3)], &x, sizeof x);
+  }
+  EXPECT_EQ(refusal_of("many.stl", bytes), "too_many_points");
+}
+
+// What lies beyond the bounds is not looked at: its first corner is not there.
+TEST_F(MeshFile, CountsTrianglesOfStripsAndFansBeforeTheyAreRead) {
+  const std::size_t corners = kMostTriangles + 3;
+  for (const int mode : {5, 6}) {
+    WrittenGlb glb;
+    const std::size_t start = glb.data.size();
+    glb.data.resize((start + corners + 3) / 4 * 4, '\xFF');
+    glb.text["buffers"][0]["byteLength"] = glb.data.size();
+    json& primitive = glb.text["meshes"][0]["primitives"][0];
+    primitive["mode"] = mode;
+    primitive["indices"] = glb.text["accessors"].size();
+    glb.text["accessors"].push_back({{"bufferView", glb.text["bufferViews"].size()},
+                                     {"componentType", 5121},
+                                     {"count", corners},
+                                     {"type", "SCALAR"}});
+    glb.text["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", start}, {"byteLength", corners}});
+    EXPECT_EQ(refusal_of("long.glb", glb.bytes()), "too_many_points") << mode;
+    glb.text["accessors"].back()["count"] = corners - 1;  // as many triangles as are planned for
+    EXPECT_EQ(refusal_of("long.glb", glb.bytes()), "bad_mesh") << mode;
+  }
+}
+
+TEST_F(MeshFile, RefusesGlbThatIsShownInAnotherShapeThanItsOwn) {
+  GlbMesh own{"body", corner()};
+  own.morphs = {{"under the garment", corner().vertices}};
+  EXPECT_EQ(refusal_of("own.glb", glb_bytes({own})), "accepted") << "as fit.glb is";
+  const auto judged = [&](const json& node, const json& mesh, const json& primitive) {
+    WrittenGlb glb;
+    glb.text["nodes"][0].update(node);
+    glb.text["meshes"][0].update(mesh);
+    glb.text["meshes"][0]["primitives"][0].update(primitive);
+    return refusal_of("shown.glb", glb.bytes());
+  };
+  const json none = json::object(), targets{{"targets", {{{"POSITION", 0}}}}}, still{{"weights", {0.0}}},
+             moved{{"weights", {0.5}}};
+  EXPECT_EQ(judged(none, none, targets), "accepted") << "without weights";
+  EXPECT_EQ(judged(none, still, targets), "accepted");
+  EXPECT_EQ(judged(none, moved, targets), "broken_file");
+  EXPECT_EQ(judged(moved, still, targets), "broken_file") << "the node's weights come before the mesh's";
+  EXPECT_EQ(judged(still, moved, targets), "accepted");
+  EXPECT_EQ(judged(moved, moved, none), "accepted") << "nothing to weigh";
+  const json posed{{"skin", 0}};
+  EXPECT_EQ(judged(posed, none, none), "accepted") << "no vertex hangs on it";
+  EXPECT_EQ(judged(posed, none, {{"attributes", {{"POSITION", 0}, {"JOINTS_0", 1}}}}), "broken_file");
+  EXPECT_EQ(judged(none, none, {{"attributes", {{"POSITION", 0}, {"JOINTS_0", 1}}}}), "accepted");
 }
 
 TEST_F(MeshFile, RefusesGlbThatLies) {

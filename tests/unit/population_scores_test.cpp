@@ -5,8 +5,8 @@
 #include <fstream>
 #include <limits>
 
+#include "body_score.hpp"
 #include "geometry/status.hpp"
-#include "subjects.hpp"
 #include "totals.hpp"
 #include "truth_reader.hpp"
 
@@ -95,6 +95,12 @@ TEST_F(PopulationTest, TruthFilesOfBothKindsAreRead) {
   EXPECT_EQ(truth.doubts.hidden, std::vector<std::string>{"girth underbust"});
   EXPECT_EQ(truth.doubts.loose.at(0).second, Eigen::Vector3d(0, 1, 0));
   EXPECT_EQ(truth.measures.landmark("crotch"), Eigen::Vector3d(1, 2, 3));
+  const std::string both =
+      write("D_truth.json",
+            R"({"landmarks": {}, "heights": {}, "girths": {}, "hidden": ["height crotch", "point axilla_L"],
+    "hidden_on_surface": ["height crotch"]})");
+  EXPECT_EQ(population::read_truth(both).doubts.hidden.size(), 2u);
+  EXPECT_EQ(population::read_truth(both, true).doubts.hidden, std::vector<std::string>{"height crotch"});
   const Truth older =
       population::read_truth(write("B_truth.json", R"({"landmarks": {}, "heights": {}, "girths": {},
     "extra": {"waist_method": "no interior minimum: ruler level"}})"));
@@ -134,6 +140,16 @@ TEST_F(PopulationTest, ARunGoesOnWhereItsFileEnds) {
   }
   write("scores.jsonl", "no score\n");
   EXPECT_THROW(population::read_scores(path), geometry::Refusal);
+}
+
+TEST_F(PopulationTest, ABodyThatCannotBeMadeIsARefusedScore) {
+  write("A_truth.json", R"({"landmarks": {}, "heights": {}, "girths": {"neck": 0.35}})");  // and no scan
+  const auto family = population::family_named(folder_.string());
+  const Score score = population::score_of(*family, "A", population::Input::merged_scan, {});
+  EXPECT_EQ(score.refusal.rfind(geometry::refusal::kBrokenFile, 0), 0u) << score.refusal;
+  EXPECT_TRUE(score.figures.empty());
+  EXPECT_EQ(score.input, "merged scan");
+  EXPECT_EQ(population::total_of({score}).refused, 1);
 }
 
 std::vector<Score> four_bodies() {

@@ -334,5 +334,21 @@ TEST_F(ScanFileTest, FacesOfAPlyThatShareNoCornersAreJoinedAndCornersOfNoFaceLef
   EXPECT_EQ(geometry::bounding_box(mesh.vertices)[0].z(), 0);
 }
 
+TEST_F(ScanFileTest, FacesOfAPlyWithoutThreeCornersAreLeftOutOfABodyAlone) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 5\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  mesh_files::Reading reading;
+  const auto read = [&](const std::string& last_face, bool any_shape) {
+    return scan_files::read_body_mesh(text_file("flat.ply", text + last_face), {"m", "z"}, any_shape,
+                                      reading);
+  };
+  EXPECT_EQ(read("3 1 1 3\n", false).triangles.size(), 4u);
+  EXPECT_THROW(read("3 1 1 3\n", true), geometry::Refusal) << "other shapes stay as they are";
+  EXPECT_THROW(geometry::read_ply_mesh(file("flat.ply")), geometry::Refusal) << "control meshes, too";
+  EXPECT_THROW(read("3 9 9 3\n", false), geometry::Refusal) << "a vertex that is not there";
+}
+
 }  // namespace
 }  // namespace tensegric_fit

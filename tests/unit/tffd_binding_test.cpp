@@ -7,6 +7,7 @@
 
 #include "geometry/status.hpp"
 #include "point_lists.hpp"
+#include "refusal_of.hpp"
 #include "tffd_shapes.hpp"
 
 namespace tensegric_fit::tffd {
@@ -303,6 +304,38 @@ TEST(PaperSetting, TwoTrianglesByHand) {
   const double k1 = 1 - (1 / 3. - x) / (2.5 * r), k2 = 1 - (1 / 3. + x) / (2.5 * r);
   EXPECT_LT((binding.deform(outer, control.inner)[0] - Eigen::Vector3d(x, 0, x / 2 * k1 / (k1 + k2))).norm(),
             1e-15);
+}
+
+TEST(Binding, RefusesAControlMeshThatCarriesNoSkin) {
+  const geometry::ControlMesh control = patch();
+  geometry::TriangleMesh elsewhere = slab(21), millimetres = elsewhere, inwards = elsewhere;
+  for (Eigen::Vector3d& p : elsewhere.vertices) p.x() += 5;
+  for (Eigen::Vector3d& p : millimetres.vertices) p *= 1000;
+  for (Eigen::Vector3i& t : inwards.triangles) std::swap(t[1], t[2]);
+  for (const geometry::TriangleMesh& body : {elsewhere, millimetres, inwards})
+    EXPECT_EQ(code_of(body, control, {}), "bad_mesh");
+  Options paper;
+  paper.setting = Setting::paper;
+  EXPECT_EQ(code_of(elsewhere, control, paper), "bad_mesh");
+  geometry::ControlMesh held = control;  // it is to move nothing
+  std::fill(held.outer_fixed.begin(), held.outer_fixed.end(), 1);
+  std::fill(held.inner_fixed.begin(), held.inner_fixed.end(), 1);
+  EXPECT_EQ(code_of(elsewhere, held, {}), "");
+}
+
+TEST(Binding, RefusesAShapeThatTakesTooManyWeights) {
+  const geometry::ControlMesh control = ball();
+  const geometry::TriangleMesh body = sphere(1, 10);  // past the reach of every triangle: all nodes carry it
+  const std::vector<Frame> frames = frames_of(control, Axis::inner_to_outer);
+  const TriangleGrid grid(frames, 1.3);
+  std::vector<Anchor> all;
+  for (int v = 0; v < static_cast<int>(body.vertices.size()); ++v) all.push_back({v, 1});
+  const auto weigh = [&](std::size_t most) {
+    return refusal_of([&] { standard_weights(body, control, frames, {1.3, grid, 0, most}, all, {}); });
+  };
+  const std::size_t entries = body.vertices.size() * 2 * control.outer.size();
+  EXPECT_EQ(weigh(entries), "accepted");
+  EXPECT_EQ(weigh(entries - 1), "bad_mesh");
 }
 
 TEST(Binding, RefusesByName) {

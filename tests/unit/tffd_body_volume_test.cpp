@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "../peak_memory.hpp"
 #include "geometry/status.hpp"
 #include "tffd_shapes.hpp"
 
@@ -175,6 +176,26 @@ TEST(BodyVolume, NodesOutsideAllRegionsCarryNone) {
     count += inside > 0 && inside >= outside;
   }
   EXPECT_EQ(carried.size(), count);
+}
+
+TEST(BodyVolume, ManyRegionsTakeMemoryByWhatTheyCarry) {
+  constexpr std::size_t kMore = 2000;
+  geometry::ControlMesh control = patch();
+  for (int t = 0; t < static_cast<int>(control.triangles.size()); ++t) control.regions.push_back({"", {t}});
+  const geometry::TriangleMesh body = slab(121);
+  const Binding binding(body, control, {});
+  const auto few = carried_triangles(binding, body.triangles, control);
+  control.regions.resize(few.size() + kMore, {"", {0}});
+  const gauge::Growth growth;
+  const auto many = carried_triangles(binding, body.triangles, control);
+  EXPECT_LT(growth.mebibytes(), 250);  // a number for each vertex and region: 700
+  ASSERT_EQ(many.size(), few.size() + kMore);
+  for (std::size_t r = 0; r < many.size(); ++r) {
+    if (r < few.size())
+      EXPECT_EQ(many[r], few[r]) << r;
+    else
+      EXPECT_TRUE(many[r].empty()) << r;  // the first of equals has them
+  }
 }
 
 TEST(BodyVolume, RefusesByName) {

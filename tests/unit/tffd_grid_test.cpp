@@ -4,6 +4,7 @@
 #include <random>
 #include <set>
 
+#include "../peak_memory.hpp"
 #include "tffd/triangle_grid.hpp"
 #include "tffd_shapes.hpp"
 
@@ -66,6 +67,26 @@ TEST(TriangleGrid, CellsAreHalfAsWideAsTheReach) {
   std::set<const int*> cells;
   for (double x = 0; x < 0.38; x += 0.0005) cells.insert(grid.near({x, 0.1, 0}).begin());
   EXPECT_LE(cells.size(), 0.38 / (reach / 2) + 2);
+}
+
+TEST(TriangleGrid, LargeTrianglesAmongSmallOnesDoNotFillTheMemory) {
+  constexpr std::size_t kLarge = 1000;
+  constexpr double kReach = 1.3;
+  std::vector<Frame> frames(16 * kLarge, frames_of(patch(), Axis::inner_to_outer).front());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].centroid = Eigen::Vector3d(0.02 * (i % 20), 0.02 * (i / 20 % 20), 0.01 * (i / 400));
+    frames[i].radius = i < kLarge ? 1 : 0.001;
+  }
+  const gauge::Growth growth;
+  const TriangleGrid grid(frames, kReach);
+  EXPECT_LT(growth.mebibytes(), 150);  // each large one in all cells: 340
+  for (const Eigen::Vector3d& q : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.2, 0.2, 0.2)}) {
+    const TriangleGrid::Range near = grid.near(q);
+    for (int t = 0; t < static_cast<int>(frames.size()); ++t) {
+      if (frames[t].farther_than(kReach * frames[t].radius, q)) continue;
+      EXPECT_TRUE(std::binary_search(near.begin(), near.end(), t)) << t;
+    }
+  }
 }
 
 }  // namespace

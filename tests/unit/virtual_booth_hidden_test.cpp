@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "geometry/point_tree.hpp"
 #include "virtual_booth/hidden_figures.hpp"
+#include "virtual_booth/truth_file.hpp"
 
 namespace {
 
@@ -74,6 +78,29 @@ TEST(HiddenFiguresTest, WhatABoothCannotSeeJoinsTheBodysOwnDoubtsOnce) {
   for (const std::string& figure : heavy().doubts.hidden) EXPECT_TRUE(holds(doubts.hidden, figure)) << figure;
   for (const std::string& figure : doubts.hidden)
     EXPECT_EQ(std::count(doubts.hidden.begin(), doubts.hidden.end(), figure), 1) << figure;
+}
+
+TEST(HiddenFiguresTest, AShoulderThatNoRayMeetsIsHidden) {
+  constexpr double kHalf = 0.2, kHeight = 1.7;  // of a block, whose top lies above all sensors
+  VirtualBody block;
+  for (int corner = 0; corner < 8; ++corner)
+    block.mesh.vertices.emplace_back(corner & 1 ? kHalf : -kHalf, corner & 2 ? kHalf : -kHalf,
+                                     corner & 4 ? kHeight : 0);
+  block.mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                          {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  block.truth.landmarks = {{"shoulder_L", {0, 0, kHeight}, 1, ""}, {"shoulder_R", {0, -kHalf, 1.2}, 1, ""}};
+  EXPECT_EQ(virtual_booth::hidden_figures(block, exact_booth(4)),
+            std::vector<std::string>{"point shoulder_L"});
+}
+
+TEST(HiddenFiguresTest, ATruthFileTellsWhatTheBodyHidesFromWhatTheBoothCannotSee) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "hidden_figures_truth.json";
+  virtual_booth::write_truth(path, heavy(), exact_booth(2));
+  const nlohmann::json truth = nlohmann::json::parse(std::ifstream(path));
+  std::filesystem::remove(path);
+  const auto listed = [&truth](const char* key) { return truth.at(key).get<std::vector<std::string>>(); };
+  EXPECT_EQ(listed("hidden"), virtual_booth::doubts_in_booth(heavy(), exact_booth(2)).hidden);
+  EXPECT_EQ(listed("hidden_on_surface"), heavy().doubts.hidden);
 }
 
 TEST(HiddenFiguresTest, SkinWithoutBonesShowsNoAcromion) {

@@ -1,0 +1,34 @@
+/// What sensors have sent, whether or not a goal was open.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "capture/capture_watch.hpp"
+
+namespace tensegric_fit::capture {
+
+/// The clouds of a scan may come before the goal that it answers: the stamps of the last ones are kept. Times
+/// are seconds of any steady clock. For one thread.
+class HeardSensors {
+ public:
+  static constexpr double kConnecting = 2;  ///< s that sensors may take to be connected to
+
+  /// Sensors that are new are listened to from now on. Tells a watch that begins what was heard of each.
+  void follow(const std::vector<std::string>& sensors, double now, CaptureWatch& watch);
+
+  /// Nothing where the sensor is not listened to.
+  void add(const std::string& sensor, std::uint64_t stamp);
+
+ private:
+  struct Heard {
+    double since;
+    std::deque<std::uint64_t> stamps;
+  };
+  std::map<std::string, Heard> heard_;
+};
+
+}  // namespace tensegric_fit::capture

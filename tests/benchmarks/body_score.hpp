@@ -1,0 +1,21 @@
+/// One body of a population, measured and compared with its truth.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "control_mesh/template.hpp"
+#include "score_file.hpp"
+#include "subjects.hpp"
+
+namespace tensegric_fit::population {
+
+/// As scores and tables name it.
+std::string input_name(Input input);
+
+/// Measures the body and lays the templates on it. A refusal of the chain, or of the body itself, which then
+/// has no figures, is a score like any other: the bodies after it are to be measured, too.
+Score score_of(const Family& family, const std::string& name, Input input,
+               const std::vector<control_mesh::Template>& patterns);
+
+}  // namespace tensegric_fit::population
