@@ -99,9 +99,13 @@ class AssemblerNode {
                                     : fmt::format("{} of {} sensors came in time; missing: {}", came,
                                                   setup.sensors.size(), fmt::join(missing, ", "));
     if (static_cast<int>(came) < setup.min_sensors)
-      stage_.refuse(id_of(capture.first), Refusal(refusal::kMissingSensor, warning));
-    else
-      queue_.put(capture, warning);
+      return stage_.refuse(id_of(capture.first), Refusal(refusal::kMissingSensor, warning));
+    const std::shared_ptr<const assembler::CaptureTurn> replaced = queue_.put(capture, warning);
+    if (!replaced) return;
+    const std::string scan_id = id_of(replaced->capture.first);
+    stage_.drop(scan_id,
+                Refusal(refusal::kSuperseded,
+                        fmt::format("capture {}: a newer one came before it was assembled", scan_id)));
   }
 
   /// The work holds the turn, whatever its end: the stage lets go of both once it has published or refused.

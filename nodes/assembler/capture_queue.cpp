@@ -4,10 +4,10 @@
 
 namespace tensegric_fit::assembler {
 
-void CaptureQueue::put(Capture capture, std::string warning) {
+std::shared_ptr<const CaptureTurn> CaptureQueue::put(Capture capture, std::string warning) {
   const int left_out = waiting_ ? waiting_->left_out + 1 : 0;
-  waiting_ =
-      std::make_shared<const CaptureTurn>(CaptureTurn{std::move(capture), std::move(warning), left_out});
+  return std::exchange(waiting_, std::make_shared<const CaptureTurn>(
+                                     CaptureTurn{std::move(capture), std::move(warning), left_out}));
 }
 
 std::shared_ptr<const CaptureTurn> CaptureQueue::next() {

@@ -20,8 +20,8 @@ struct CaptureTurn {
 /// but a turn may end in any.
 class CaptureQueue {
  public:
-  /// In place of any that waits.
-  void put(Capture capture, std::string warning);
+  /// In place of any that waits, which is returned.
+  std::shared_ptr<const CaptureTurn> put(Capture capture, std::string warning);
 
   /// Null where none waits, or the turn before lasts.
   std::shared_ptr<const CaptureTurn> next();

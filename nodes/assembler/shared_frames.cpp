@@ -5,16 +5,22 @@
 #include <map>
 
 namespace tensegric_fit::assembler {
+namespace {
+
+constexpr const char* kBooth = "booth";  // what the assembler calls the scan's frame unless told otherwise
+
+}  // namespace
 
 std::vector<SharedFrame> shared_frames(const Capture& capture, const std::string& scan_frame) {
   std::map<std::string, std::vector<int>> sensors_in;
   for (std::size_t sensor = 0; sensor < capture.clouds.size(); ++sensor)
     if (const auto& cloud = capture.clouds[sensor])
       sensors_in[cloud->frame_id].push_back(static_cast<int>(sensor));
+  const bool is_booths = scan_frame.substr(scan_frame.rfind('/') + 1) == kBooth;
   std::vector<SharedFrame> shared;
   for (const auto& [frame_id, sensors] : sensors_in) {
     const bool of_scan = frame_id == scan_frame;
-    if (of_scan || sensors.size() > 1) shared.push_back({frame_id, of_scan, sensors});
+    if ((of_scan && is_booths) || sensors.size() > 1) shared.push_back({frame_id, of_scan, sensors});
   }
   return shared;
 }

@@ -72,9 +72,9 @@ void CaptureHandler::watch(std::uint64_t not_before) {
       setup_.slop, begun_);
 }
 
-void CaptureHandler::add(const std::string& sensor, const sensor_msgs::PointCloud2& cloud) {
+void CaptureHandler::add(const std::string& sensor, const sensor_msgs::PointCloud2& cloud, double now) {
   const std::uint64_t stamp = cloud.header.stamp.toNSec();
-  heard_.add(sensor, stamp);
+  heard_.add(sensor, stamp, now);
   if (watch_) watch_->add_cloud(sensor, stamp);
 }
 

@@ -47,7 +47,9 @@ class CaptureHandler {
   /// What it holds of that scan; whether the goal is of it, and to be ended.
   bool forget(const std::string& scan_id);
 
-  void add(const std::string& sensor, const sensor_msgs::PointCloud2& cloud);
+  /// `now`: when it came; just before the next goal where it is left out.
+  void add(const std::string& sensor, const sensor_msgs::PointCloud2& cloud,
+           double now = std::numeric_limits<double>::infinity());
   /// `now` as for capture::CaptureWatch::add_scan.
   void add(const sensor_msgs::PointCloud2& scan, double now = std::numeric_limits<double>::infinity());
   void add(const Landmarks::ConstPtr& landmarks);

@@ -119,7 +119,7 @@ class CaptureNode {
   void listen_to(const std::string& sensor) {
     if (sensors_.count(sensor) != 0) return;
     const boost::function<void(const PointCloud2::ConstPtr&)> on_cloud =
-        [this, sensor](const PointCloud2::ConstPtr& cloud) { handler_.add(sensor, *cloud); };
+        [this, sensor](const PointCloud2::ConstPtr& cloud) { handler_.add(sensor, *cloud, now()); };
     try {
       sensors_[sensor] = node_.subscribe<PointCloud2>(sensor, 4, on_cloud);
     } catch (const ros::Exception& error) {  // no name of a topic, or a topic of another type

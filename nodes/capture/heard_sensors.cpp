@@ -3,7 +3,7 @@
 namespace tensegric_fit::capture {
 namespace {
 
-constexpr std::size_t kStampsKept = 256;  // of a sensor: eight seconds of one that sends at 30 Hz
+constexpr std::size_t kCloudsKept = 256;  // of a sensor: eight seconds of one that sends at 30 Hz
 
 }  // namespace
 
@@ -11,16 +11,17 @@ void HeardSensors::follow(const std::vector<std::string>& sensors, double now, C
   for (const std::string& sensor : sensors) {
     const Heard& heard = heard_.try_emplace(sensor, Heard{now, {}}).first->second;
     watch.connects(sensor, heard.since + kConnecting);
-    for (const std::uint64_t stamp : heard.stamps) watch.add_earlier_cloud(sensor, stamp);
+    for (const Cloud& cloud : heard.clouds)
+      if (now - cloud.came <= kOfThisCustomer) watch.add_earlier_cloud(sensor, cloud.stamp);
   }
 }
 
-void HeardSensors::add(const std::string& sensor, std::uint64_t stamp) {
+void HeardSensors::add(const std::string& sensor, std::uint64_t stamp, double now) {
   const auto heard = heard_.find(sensor);
   if (heard == heard_.end()) return;
-  std::deque<std::uint64_t>& stamps = heard->second.stamps;
-  stamps.push_back(stamp);
-  if (stamps.size() > kStampsKept) stamps.pop_front();
+  std::deque<Cloud>& clouds = heard->second.clouds;
+  clouds.push_back({stamp, now});
+  if (clouds.size() > kCloudsKept) clouds.pop_front();
 }
 
 }  // namespace tensegric_fit::capture

@@ -16,17 +16,25 @@ namespace tensegric_fit::capture {
 class HeardSensors {
  public:
   static constexpr double kConnecting = 2;  ///< s that sensors may take to be connected to
+  /// s before a goal within which the clouds of its scan came: longer than a capture takes, from its first
+  /// cloud on; shorter than it takes until the next customer stands there. What came sooner is another's.
+  static constexpr double kOfThisCustomer = 10;
 
-  /// Sensors that are new are listened to from now on. Tells a watch that begins what was heard of each.
+  /// Sensors that are new are listened to from now on. Tells a watch that begins what was heard of each
+  /// within kOfThisCustomer.
   void follow(const std::vector<std::string>& sensors, double now, CaptureWatch& watch);
 
-  /// Nothing where the sensor is not listened to.
-  void add(const std::string& sensor, std::uint64_t stamp);
+  /// Nothing where the sensor is not listened to. `now`: when the cloud came.
+  void add(const std::string& sensor, std::uint64_t stamp, double now);
 
  private:
+  struct Cloud {
+    std::uint64_t stamp;
+    double came;
+  };
   struct Heard {
     double since;
-    std::deque<std::uint64_t> stamps;
+    std::deque<Cloud> clouds;
   };
   std::map<std::string, Heard> heard_;
 };

@@ -6,8 +6,12 @@ namespace tensegric_fit::capture {
 
 bool StageBoard::report(const StageReport& report, double now) {
   const StageReport* last = find(report.stage);
-  const bool again = last != nullptr && last->refused() && last->scan_id == report.scan_id &&
-                     last->code == report.code && last->last_error == report.last_error;
+  // what it drops after a refusal changes its last error alone
+  const auto says_the_same = [&] {
+    return (last->code == report.code && last->last_error == report.last_error) ||
+           (!report.message.empty() && last->message == report.message);
+  };
+  const bool again = last != nullptr && last->refused() && last->scan_id == report.scan_id && says_the_same();
   stages_[report.stage] = {report, now};
   return report.refused() && !again;
 }

@@ -235,27 +235,29 @@ void check_options(const std::vector<Options>& options) {
 
 BodySkin::BodySkin(const geometry::TriangleMesh& body, const geometry::BodyMeasures& measures,
                    const body_model::RegisteredBody* model)
-    : measures_(measures), skin_(skin_of(body, measures, model)) {
-  if (model) model_.emplace(*model, measures.body_from_scan);
+    : measures_(measures), skin_(skin_of(body, measures, model)), registered_(model) {}
+
+const ModelSurface* BodySkin::model() const {
+  if (registered_ && !model_) model_.emplace(*registered_, measures_.body_from_scan);
+  return model_ ? &*model_ : nullptr;
 }
 
 std::vector<geometry::ControlMesh> fit_template_for_each(const Template& pattern, const BodySkin& body,
                                                          const std::vector<Options>& options) {
   check_options(options);
-  if (pattern.needs_model() && !body.model())
+  const ModelSurface* model = pattern.needs_model() || pattern.may_use_model() ? body.model() : nullptr;
+  if (pattern.needs_model() && !model)
     throw Refusal(std::string(refusal::kMissingPart) + ":body_model",
                   "the template " + pattern.name +
                       " has nodes on the body model, and this body comes without one: register one to it, "
                       "or use a template that places its nodes by level and angle");
-  const bool on_model = body.model() && (pattern.needs_model() || pattern.may_use_model());
-  if (on_model)  // of all layouts, the first of which may do without
+  if (model)  // of all layouts, the first of which may do without
     for (const TemplateNode& node : pattern.nodes)
       for (const auto* points : {&node.on_model, &node.or_on_model})
-        body.model()->check(*points, where_of(pattern, node));
+        model->check(*points, where_of(pattern, node));
 
   // 1. Outer nodes on the skin, evenly spread between those that the template places.
-  const geometry::ControlMesh laid =
-      laid_best(pattern, body.measures(), body.skin(), on_model ? body.model() : nullptr);
+  const geometry::ControlMesh laid = laid_best(pattern, body.measures(), body.skin(), model);
 
   // 2. As fine as each is to be, back in the scan's frame.
   const Eigen::Isometry3d scan_from_body = body.measures().body_from_scan.inverse();

@@ -23,7 +23,8 @@ struct Options {
   double thickness = 1;         ///< of the soft tissue, times the template's (P2 §6)
 };
 
-/// What templates are laid on, in the body frame: made once for all templates of a body.
+/// What templates are laid on, in the body frame: made once for all templates of a body. For one thread: the
+/// model's surface is made when a template first asks for it.
 class BodySkin {
  public:
   /// \param measures must outlive it
@@ -35,12 +36,13 @@ class BodySkin {
 
   const geometry::BodyMeasures& measures() const { return measures_; }
   const Skin& skin() const { return skin_; }
-  const ModelSurface* model() const { return model_ ? &*model_ : nullptr; }  ///< null: none
+  const ModelSurface* model() const;  ///< null: none
 
  private:
   const geometry::BodyMeasures& measures_;
   const Skin skin_;
-  std::optional<ModelSurface> model_;
+  const body_model::RegisteredBody* const registered_;
+  mutable std::optional<ModelSurface> model_;
 };
 
 /// Nodes at landmarks and on the rim lie on the skin, the others up to 3 mm off it: so the patch holds as

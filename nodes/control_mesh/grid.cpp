@@ -105,14 +105,14 @@ void check_together(const std::vector<Template>& patterns) {
   std::vector<geometry::ControlMesh> grids;
   for (const Template& pattern : patterns) {
     grids.push_back(grid_of(pattern));
-    const geometry::ControlMesh& grid = grids.back();
-    int held = 0;
-    for (std::size_t i = 0; i < grid.outer.size(); ++i)
-      if (grid.inner_fixed[i] || (grid.outer_fixed[i] && !pattern.bone)) ++held;
+    geometry::ControlMesh& grid = grids.back();
+    for (const TemplateLine& line : pattern.lines) grid.lines.push_back({line.name, {}});
+    if (!pattern.bone) continue;  // tissue may hold all inner nodes: the solver counts them
+    const auto held = std::count(grid.inner_fixed.begin(), grid.inner_fixed.end(), 1);
     if (held < kLeastHeld)
       throw geometry::Refusal(geometry::refusal::kBadTemplate,
                               "the template " + pattern.name + " holds " + std::to_string(held) +
-                                  " nodes: 'fixed' has to mark three or more");
+                                  " inner nodes: the surface of its 'bone' runs through three or more");
   }
   geometry::joined(grids);
 }

@@ -29,8 +29,9 @@ geometry::ControlMesh grid_of(const Template& pattern);
 std::string where_of(const Template& pattern, const TemplateNode& node);
 
 /// What must hold of templates that are worn at once, whatever the body.
-/// \throw Refusal bad_template: two have a node, a region or a line of the same name, or one of them holds
-/// fewer than three nodes (with `bone`: three inner ones)
+/// \throw Refusal bad_template: two have a node, a region or a line of the same name, or one of them with
+/// `bone` holds fewer than three inner nodes. Whether enough nodes are held otherwise is for the solver to
+/// say: it depends on the tissue
 void check_together(const std::vector<Template>& patterns);
 
 }  // namespace tensegric_fit::control_mesh

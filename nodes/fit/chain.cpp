@@ -81,9 +81,9 @@ Fitting prepare(const Body& body, const std::vector<control_mesh::Template>& pat
   std::vector<geometry::ControlMesh> parts;
   {
     const Stopwatch watch(times.control_mesh);
+    const control_mesh::BodySkin skin(body.mesh.mesh, body.measures, body.model ? &*body.model : nullptr);
     for (const control_mesh::Template& pattern : patterns)
-      parts.push_back(control_mesh::fit_template(pattern, body.mesh.mesh, body.measures,
-                                                 settings.control_mesh, body.model ? &*body.model : nullptr));
+      parts.push_back(control_mesh::fit_template_for_each(pattern, skin, {settings.control_mesh}).front());
   }
   return prepare(body, geometry::joined(parts), settings, times);
 }

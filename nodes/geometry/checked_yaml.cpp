@@ -40,24 +40,27 @@ struct PassedOver : YAML::EventHandler {
   using Anchor = YAML::anchor_t;
   using Style = YAML::EmitterStyle::value;
 
+  bool has_content = false;  // other than nothing at all, or null
+
   void OnDocumentStart(const Mark&) override {}
   void OnDocumentEnd() override {}
   void OnNull(const Mark&, Anchor) override {}
-  void OnAlias(const Mark&, Anchor) override {}
-  void OnScalar(const Mark&, const std::string&, Anchor, const std::string&) override {}
-  void OnSequenceStart(const Mark&, const std::string&, Anchor, Style) override {}
+  void OnAlias(const Mark&, Anchor) override { has_content = true; }
+  void OnScalar(const Mark&, const std::string&, Anchor, const std::string&) override { has_content = true; }
+  void OnSequenceStart(const Mark&, const std::string&, Anchor, Style) override { has_content = true; }
   void OnSequenceEnd() override {}
-  void OnMapStart(const Mark&, const std::string&, Anchor, Style) override {}
+  void OnMapStart(const Mark&, const std::string&, Anchor, Style) override { has_content = true; }
   void OnMapEnd() override {}
 };
 
-/// Is there anything behind the first document? LoadFile does not look, and LoadAllFromFile may never end: of
-/// "{a: 1}," it makes one document after the other.
+/// Is there anything behind the first document but an empty one, as a last '---' makes? LoadFile does not
+/// look, and LoadAllFromFile may never end: of "{a: 1}," it makes one empty document after the other.
 bool goes_on(const std::string& path) {
   std::ifstream file(path);
   YAML::Parser parser(file);
   PassedOver first, second;
-  return parser.HandleNextDocument(first) && parser.HandleNextDocument(second);
+  return parser.HandleNextDocument(first) && parser.HandleNextDocument(second) &&
+         (second.has_content || bool(parser));
 }
 
 }  // namespace

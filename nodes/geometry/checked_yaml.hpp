@@ -11,7 +11,7 @@
 namespace tensegric_fit::geometry {
 
 /// A file that must hold one YAML map. \throw Refusal `code`: not there, not YAML, not a map, a second
-/// document
+/// document that is not empty
 YAML::Node load_yaml_map(const std::string& path, const std::string& code);
 
 /// \throw Refusal `code` naming `where` and the first key of `map` that is not in `known` or is given twice

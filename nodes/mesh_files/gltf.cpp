@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -25,6 +26,9 @@ constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;
 constexpr int kTriangles = 4, kStrip = 5, kFan = 6;
 constexpr std::size_t kMostJson = 64UL << 20;  // bytes; parsed, it takes ten times as much
 constexpr int kDeepest = 64;                   // levels of JSON and of nodes; real files have a dozen
+constexpr double kAlike =
+    1e-5;  // of the size of places that are one: float32 has 6e-8, and joints stand in rows
+constexpr std::size_t kMatrix = 64;  // bytes of a MAT4 of float32
 
 std::string from_base64(std::string_view text, const std::string& path) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -143,7 +147,8 @@ class Reader {
     Accessor found{};
     found.component = static_cast<int>(number(entry, "componentType"));
     found.count = number(entry, "count");
-    const std::size_t item = type == "VEC3"              ? 12
+    const std::size_t item = type == "MAT4"              ? kMatrix
+                             : type == "VEC3"            ? 12
                              : found.component == kByte  ? 1
                              : found.component == kShort ? 2
                                                          : 4;
@@ -190,7 +195,7 @@ class Reader {
       const Json& shape = at(array("meshes"), number(node, "mesh"));
       for (const Json& primitive : list(shape, "primitives")) {
         check_is_shown(node, shape, primitive);
-        add_primitive(primitive, place);
+        add_primitive(primitive, hangs_on_skin(node, primitive) ? bound(number(node, "skin")) : place);
       }
     }
     for (const Json& child : list(node, "children")) add_node(index(child), place, depth + 1);
@@ -202,12 +207,70 @@ class Reader {
     return extras != node.end() && extras->is_object() && extras->value("surface", Json(true)) == Json(false);
   }
 
-  // A skeleton or weights make another shape of the saved one, and only renderers work out which. That some
-  // skeletons leave it as it is would have to be worked out, too.
-  void check_is_shown(const Json& node, const Json& shape, const Json& primitive) const {
+  static bool hangs_on_skin(const Json& node, const Json& primitive) {
     const auto attributes = primitive.find("attributes");
-    if (node.contains("skin") && attributes != primitive.end() && attributes->contains("JOINTS_0"))
+    return node.contains("skin") && attributes != primitive.end() && attributes->contains("JOINTS_0");
+  }
+
+  // Where a skin puts what hangs on it while its joints stand as they were bound: all move it alike, and
+  // where its own node stands does not matter. Otherwise it is another shape, which only renderers work out.
+  const Eigen::Affine3d& bound(std::size_t i) {
+    if (const auto known = bound_.find(i); known != bound_.end()) return known->second;
+    const Json& skin = at(array("skins"), i);
+    const Json& joints = list(skin, "joints");
+    const bool has_inverses = skin.contains("inverseBindMatrices");  // else they are the identity
+    Accessor inverses{};
+    if (has_inverses) inverses = accessor(number(skin, "inverseBindMatrices"), "MAT4");
+    if (has_inverses && (inverses.component != kFloat || inverses.count < joints.size()))
+      throw broken("a skin has matrices that are missing or not float32");
+    Eigen::Affine3d first = Eigen::Affine3d::Identity();
+    double reach = 0, turned = 0, shifted = 0;  // of joints; the most that two places differ by
+    bool alike = !joints.empty();
+    for (std::size_t j = 0; j < joints.size() && alike; ++j) {
+      const Eigen::Affine3d& joint = in_world(index(joints[j]), 0);
+      Eigen::Affine3d place = joint;
+      if (has_inverses) {
+        Eigen::Matrix4f numbers;
+        std::memcpy(numbers.data(), inverses.first + j * inverses.stride, kMatrix);
+        Eigen::Affine3d inverse = Eigen::Affine3d::Identity();
+        inverse.matrix() = numbers.cast<double>();
+        place = joint * inverse;
+      }
+      if (j == 0) first = place;
+      alike = place.matrix().allFinite();
+      reach = std::max({reach, joint.translation().norm(), place.translation().norm()});
+      turned = std::max(turned, (place.linear() - first.linear()).norm());
+      shifted = std::max(shifted, (place.translation() - first.translation()).norm());
+    }
+    if (!alike || turned > kAlike * first.linear().norm() || shifted > kAlike * reach)
       throw broken("is posed by a skeleton: save the posed shape itself");
+    return bound_.emplace(i, first).first->second;
+  }
+
+  const Eigen::Affine3d& in_world(std::size_t i, int depth) {
+    if (const auto known = worlds_.find(i); known != worlds_.end()) return known->second;
+    if (depth > kDeepest || ++visits_ > kMostVisits)
+      throw broken("its nodes contain each other or are too many");
+    const Json& nodes = array("nodes");
+    Eigen::Affine3d place = placed(at(nodes, i));
+    if (parents_.empty()) find_parents(nodes);
+    if (parents_[i] < nodes.size()) place = in_world(parents_[i], depth + 1) * place;
+    return worlds_.emplace(i, place).first->second;
+  }
+
+  void find_parents(const Json& nodes) {
+    parents_.assign(nodes.size(), nodes.size());
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      for (const Json& child : list(nodes[n], "children")) {
+        const std::size_t c = index(child);
+        at(nodes, c);
+        if (parents_[c] < nodes.size()) throw broken("a node of it is the child of two");
+        parents_[c] = n;
+      }
+  }
+
+  // Weights make another shape of the saved one, and only renderers work out which.
+  void check_is_shown(const Json& node, const Json& shape, const Json& primitive) const {
     const Json& own = list(node, "weights");
     const Json& weights = own.empty() ? list(shape, "weights") : own;
     const auto has_effect = [](const Json& weight) { return weight != Json(0); };
@@ -280,6 +343,8 @@ class Reader {
   std::vector<std::unique_ptr<std::string>> decoded_;
   std::vector<std::string_view> buffers_;
   geometry::TriangleMesh mesh_;
+  std::map<std::size_t, Eigen::Affine3d> bound_, worlds_;  // by skin; by node
+  std::vector<std::size_t> parents_;                       // of nodes, as many as there are nodes: none
   int visits_ = 0;
 };
 

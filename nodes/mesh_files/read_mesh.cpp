@@ -63,6 +63,18 @@ TriangleMesh joined(TriangleMesh mesh, const std::vector<int>& first) {
   return geometry::submesh(mesh, std::vector<char>(triangles.size(), 1));
 }
 
+std::string in_words(std::size_t count) {
+  constexpr std::size_t kMillion = 1'000'000;
+  return count % kMillion == 0 ? std::to_string(count / kMillion) + " million" : std::to_string(count);
+}
+
+void check_against(std::size_t most_vertices, std::size_t vertices, std::size_t triangles,
+                   const std::string& path) {
+  if (vertices <= most_vertices && triangles <= kMostTriangles) return;
+  throw Refusal(refusal::kTooManyPoints, path + ": has more than " + in_words(most_vertices) +
+                                             " vertices or " + in_words(kMostTriangles) + " triangles");
+}
+
 }  // namespace
 
 TriangleMesh tidy(TriangleMesh mesh) {
@@ -70,7 +82,7 @@ TriangleMesh tidy(TriangleMesh mesh) {
   return joined(std::move(mesh), first);
 }
 
-TriangleMesh checked_and_tidy(TriangleMesh mesh, const std::string& path) {
+TriangleMesh checked_and_tidy(TriangleMesh mesh, const std::string& path, std::size_t most_vertices) {
   if (!std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const auto& p) { return p.allFinite(); }))
     throw Refusal(refusal::kNonFinite, path + ": has a coordinate that is not finite");
   const int count = static_cast<int>(mesh.vertices.size());
@@ -80,7 +92,7 @@ TriangleMesh checked_and_tidy(TriangleMesh mesh, const std::string& path) {
   const std::vector<int> first = first_in_place(mesh.vertices);
   std::size_t places = 0;
   for (int v = 0; v < count; ++v) places += first[v] == v ? 1 : 0;
-  check_count(places, mesh.triangles.size(), path);
+  check_against(most_vertices, places, mesh.triangles.size(), path);
   TriangleMesh result = joined(std::move(mesh), first);
   if (result.triangles.empty()) throw Refusal(refusal::kBadMesh, path + ": has no faces");
   return result;
@@ -99,10 +111,7 @@ bool is_mesh_name(const std::string& path) {
 }
 
 void check_count(std::size_t vertices, std::size_t triangles, const std::string& path) {
-  if (vertices <= kMostVertices && triangles <= kMostTriangles) return;
-  throw Refusal(refusal::kTooManyPoints, path + ": has more than " + std::to_string(kMostVertices / 1000000) +
-                                             " million vertices or " +
-                                             std::to_string(kMostTriangles / 1000000) + " million triangles");
+  check_against(kMostVertices, vertices, triangles, path);
 }
 
 TriangleMesh read_mesh(const std::string& path) {

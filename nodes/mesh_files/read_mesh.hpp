@@ -2,6 +2,7 @@
 /// scan_files).
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "geometry/triangle_mesh.hpp"
@@ -29,8 +30,10 @@ geometry::TriangleMesh read_mesh(const std::string& path);
 /// out. \pre each corner is a vertex
 geometry::TriangleMesh tidy(geometry::TriangleMesh mesh);
 
-/// The same of a mesh as it is in the file `path`. \throw Refusal non_finite, bad_mesh, too_many_points
-geometry::TriangleMesh checked_and_tidy(geometry::TriangleMesh mesh, const std::string& path);
+/// The same of a mesh as it is in the file `path`. `most_vertices`: once those in one place are one.
+/// \throw Refusal non_finite, bad_mesh, too_many_points
+geometry::TriangleMesh checked_and_tidy(geometry::TriangleMesh mesh, const std::string& path,
+                                        std::size_t most_vertices = kMostVertices);
 
 /// Text with x y z at the start of each line, parted by blanks, commas or semicolons; further columns are
 /// left out, and a first line that is a heading or a count. \throw Refusal broken_file, too_many_points

@@ -26,13 +26,8 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 TensionLaw law_in(const GarmentLine& line) {
   TensionLaw law;
-  const bool has_table = !line.stretch.empty() || !line.tension.empty();
-  if (line.law.empty() && (line.stiffness != 0 || has_table))
+  if (line.law.empty() && (line.stiffness != 0 || !line.stretch.empty() || !line.tension.empty()))
     refuse(line, "has a stiffness or a table, and no 'law' that says so");
-  if (line.stiffness != 0 && line.law != GarmentLine::STIFFNESS && !line.law.empty())
-    refuse(line, fmt::format("law '{}' has no stiffness", line.law));
-  if (has_table && line.law != GarmentLine::TABLE && !line.law.empty())
-    refuse(line, fmt::format("law '{}' has no table", line.law));
   if (line.law.empty() || line.law == GarmentLine::RIGID) return law;
   if (line.law == GarmentLine::STIFFNESS) {
     if (line.stiffness == 0) refuse(line, "law 'stiffness' needs a stiffness");

@@ -14,10 +14,10 @@ namespace {
 using geometry::Refusal;
 namespace refusal = geometry::refusal;
 
-// Of a band without a limit of its own. Round a hip of 0.16 m one of 30 mm would press by 36 kPa with it,
-// twice what stops the blood (120 mmHg), and taut hips at a request of 0.95 pull a seventh of it. In newtons:
-// a pseudo force is as many fewer as the control mesh is finer.
-constexpr double kTightestHold = 175;     // N
+// Of a band without a limit of its own. Round a hip of 0.16 m one of 30 mm would press by 54 kPa with it, three
+// times what stops the blood (120 mmHg); taut hips at a request of 0.95 pull a seventh of it. In newtons: of a
+// pseudo force there are the fewer the finer the control mesh is.
+constexpr double kTightestHold = 260;     // N
 constexpr double kTightestUniform = 200;  // pseudo force, of the papers' units, which have no newtons
 
 void check_regions(const geometry::ControlMesh& control, const Garment& garment) {

@@ -72,6 +72,7 @@ TensegricHandler::Setup TensegricHandler::setup_from(Parameters& parameters) {
   setup.garment = parameters.text("garment", setup.garment);
   setup.kept = parameters.text("worn", "");
   setup.heard = parameters.text("heard", "");
+  if (!setup.kept.empty() && !kept_garment(setup.kept, setup.garment)) setup.heard.clear();  // another start
   setup.garment_directory = parameters.text("garment_directory", geometry::shipped_folder("garments"));
   parameters.check_all_known();
   return setup;
@@ -106,6 +107,7 @@ std::optional<TensegricHandler::Input> TensegricHandler::newly_complete() {
   fresh_ = false;
   if (worn_.of && worn_.of->empty()) worn_.of = control_->scan_id;
   const std::string why = unwearable();
+  unseen_ = false;
   if (!why.empty()) worn_ = first_;
   Input complete = input();
   complete.taken_off = why;
@@ -117,6 +119,7 @@ std::string TensegricHandler::unwearable() const {
   const std::string& name = worn_.garment.name;
   if (worn_.of && points_in_scan(*worn_.of) != points_in_scan(control_->scan_id))
     return fmt::format("garment '{}' has lines by points, which lie on the body of an earlier scan", name);
+  if (!unseen_) return "";  // a scan that lacks a region is refused by name, and the garment stays on
   try {
     tensegric::check_names(control_in(*control_), worn_.garment);
     return "";
@@ -150,7 +153,8 @@ std::optional<TensegricHandler::Input> TensegricHandler::put_on(const SetGarment
 std::optional<TensegricHandler::Input> TensegricHandler::wear(GarmentRequest request) {
   check(request.garment);
   worn_ = std::move(request);
-  if (!complete()) return std::nullopt;
+  unseen_ = !complete();
+  if (unseen_) return std::nullopt;
   return input();
 }
 

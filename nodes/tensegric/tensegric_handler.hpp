@@ -43,7 +43,7 @@ class TensegricHandler {
   std::optional<Input> add(const TriangleMesh::ConstPtr& body);
 
   /// A garment with lines by points is of the newest body: on the next the first garment takes its place, as
-  /// it does of one that came before any control mesh and names what this one lacks.
+  /// it does of one that came unseen, before this control mesh, and names what this one lacks.
   /// A message with a stamp that the same publisher sent last is one that it latched: nothing comes of it.
   /// \throw Refusal unknown_line, bad_garment, bad_option: the garment worn before stays
   std::optional<Input> put_on(const Garment& garment, const std::string& publisher = "");
@@ -100,6 +100,7 @@ class TensegricHandler {
   const Setup setup_;
   const GarmentRequest first_;
   GarmentRequest worn_;
+  bool unseen_ = false;  // worn_ was put on where no control mesh could say whether it fits
   HeardGarments heard_;
   ControlMesh::ConstPtr control_, coarse_;  // newest of each
   Landmarks::ConstPtr landmarks_;

@@ -13,12 +13,14 @@ std::string input_name(Input input) {
 }
 
 Score score_of(const Family& family, const std::string& name, Input input,
-               const std::vector<control_mesh::Template>& patterns) {
+               const std::vector<control_mesh::Template>& patterns, bool* made) {
   Score score{family.name(), input_name(input), name, "", {}};
   Subject subject;
   fit::StageTimes times;
+  if (made != nullptr) *made = false;
   try {
     subject = family.body(name, input);
+    if (made != nullptr) *made = true;
     const fit::Body body = input == Input::surface ? fit::measure_mesh(std::move(subject.surface), {}, times)
                                                    : fit::measure_scan(subject.scan, {}, times);
     score.figures = figures_of(body.measures, subject.truth);

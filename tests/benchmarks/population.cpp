@@ -84,8 +84,9 @@ std::vector<Score> measured(const population::Family& family, const Request& req
       if (!request.totals) std::cout << fmt::format("{} {}; no file has it\n", family.name(), name);
       continue;
     }
-    scores.push_back(population::score_of(family, name, request.input(), patterns));
-    if (!request.out.empty()) population::append_score(request.out, scores.back());
+    bool made = false;  // what could not be read or made is tried again by the next run
+    scores.push_back(population::score_of(family, name, request.input(), patterns, &made));
+    if (made && !request.out.empty()) population::append_score(request.out, scores.back());
     if (!request.totals) std::cout << line_of(scores.back()) << std::flush;
   }
   if (missing > 0 && request.totals)
@@ -129,9 +130,9 @@ int main(int argc, char** argv) {
       app.add_flag("--mesh-only", request.mesh_only, "the true surface: what landmarks alone do wrong");
   app.add_flag("--merged", request.merged, "clouds as they come, columns not moved onto each other")
       ->excludes(surface);
-  auto* out = app.add_option(
-      "--out", request.out,
-      "a line of JSON a body is added to this file; bodies that it has are not measured again");
+  auto* out = app.add_option("--out", request.out,
+                             "a line of JSON a body is added to this file; bodies that it has are not "
+                             "measured again, and those that cannot be read or made are not added");
   auto* shard = app.add_option_function<std::string>(
       "--shard",
       [&](const std::string& text) {

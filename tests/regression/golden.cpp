@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -49,15 +51,36 @@ bool is_recorded(const Row& row) {
   return row.expectation.golden || row.expectation.metric.rfind("shape/", 0) == 0;
 }
 
+bool is_not_finite(const Row& row) {
+  const double* number = row.found ? std::get_if<double>(&*row.found) : nullptr;
+  return number != nullptr && !std::isfinite(*number);
+}
+
+// Where nothing was recorded before, no metric says so.
+bool has_finite_skin(const Recording& recording) {
+  const auto& skin =
+      recording.deformed.empty() ? recording.body->vertices : recording.deformed.back()->vertices;
+  return std::all_of(skin.begin(), skin.end(), [](float number) { return std::isfinite(number); });
+}
+
 }  // namespace
 
 std::vector<std::string> against_update(const Case& asked, const Recording& recording,
                                         const Verdict& verdict) {
   std::vector<std::string> reasons = verdict.faults;
   for (const Row& row : verdict.rows)
-    if (row.expectation.golden && !row.found) reasons.push_back(row.expectation.metric + " was not found");
+    if (row.expectation.golden && !row.found)
+      reasons.push_back(row.expectation.metric + " was not found");
+    else if (is_recorded(row) && is_not_finite(row))
+      reasons.push_back(row.expectation.metric + " is not finite" +
+                        (row.expectation.golden
+                             ? ""
+                             : ": where the body's parts are others on purpose, remove shapes/" + asked.name +
+                                   ".yaml first"));
   if (wants_shape(asked) && !recording.body)
     reasons.push_back("there is no body whose skin could be recorded");
+  else if (wants_shape(asked) && !has_finite_skin(recording))
+    reasons.push_back("the skin has a coordinate that is not finite");
   return reasons;
 }
 

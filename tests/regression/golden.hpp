@@ -9,8 +9,8 @@
 
 namespace tensegric_fit::regression {
 
-/// Why nothing of a run may be recorded, a sentence each: its faults, values and skin that did not come out.
-/// Empty: it may.
+/// Why nothing of a run may be recorded, a sentence each: its faults, values and skin that did not come out
+/// or are not finite. Empty: it may.
 std::vector<std::string> against_update(const Case& asked, const Recording& recording,
                                         const Verdict& verdict);
 

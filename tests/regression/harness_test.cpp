@@ -160,6 +160,16 @@ TEST_F(HarnessTest, NothingIsRecordedFromABadRun) {
   const Case shaped =
       read(with("metrics:\n  shape/centre: {expected: 0, tolerance: 0.001, reason: asked}", "metrics:"));
   EXPECT_EQ(against_update(shaped, {}, judge(shaped, "bag", found)).size(), 1u) << "no body";
+  found["girth/bust"] = std::nan("");
+  EXPECT_EQ(against_update(asked, {}, judge(asked, "bag", found)).size(), 1u) << "a value that is not finite";
+  found = metrics(0.95);
+  found["shape/centre"] = HUGE_VAL;
+  EXPECT_EQ(against_update(shaped, {}, judge(shaped, "bag", found)).size(), 2u) << "no body, nor finite";
+  const auto body = boost::make_shared<TriangleMesh>();
+  body->vertices = {0, 0, std::nanf("")};
+  Recording recording;
+  recording.body = body;
+  EXPECT_EQ(against_update(shaped, recording, judge(shaped, "bag", metrics(0.95))).size(), 1u) << "its skin";
 }
 
 TEST_F(HarnessTest, ARecordedShapeIsComparedByPartsOfTheBody) {

@@ -127,11 +127,12 @@ def columns():
 
 
 def rows_of(path):
-    """What was done so far, without a last row that was cut off."""
+    """What was done so far, without a last row that was cut off. A file of an earlier version may lack a column."""
     if not path.exists():
         return []
     with open(path, encoding="utf-8", newline="") as file:
-        return [row for row in csv.DictReader(file) if all(row.get(column) for column in columns())]
+        reader = csv.DictReader(file)
+        return [row for row in reader if all(row.get(column) for column in reader.fieldnames)]
 
 
 @functools.lru_cache(maxsize=None)
@@ -147,6 +148,8 @@ def cloud_of(points, body):
 
 def record(chain, points, scans, path):
     rows = rows_of(path)
+    if rows and list(rows[0]) != columns():
+        raise RuntimeError(f"{path} has other columns: begin another file, or this one with --anew")
     part = int(rows[-1]["part"]) + chain.is_new if rows else 1
     with open(path, "w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, columns())
@@ -180,7 +183,7 @@ def constant(rows, part, out):
     first, last = settled[:count], settled[-count:]
     fine = True
     print(f"part {part}: {len(rows)} scans; medians of {count} rows, after {len(rows) - len(settled)} and at the end", file=out)
-    for column in columns()[2:]:
+    for column in [column for column in columns()[2:] if column in rows[0]]:
         before, after = (statistics.median(float(row[column]) for row in part_of) for part_of in (first, last))
         judged = count >= FEWEST or column.endswith(("_descriptors", "_threads"))
         allowed = SLOWER.get(column, MEMORY if column.endswith("_kB") else 0)
@@ -210,7 +213,11 @@ def main():
             return 2
         finally:
             chain.stop()
-    return 0 if verdict(rows_of(arguments.out), sys.stdout) else 1
+    rows = rows_of(arguments.out)
+    if not rows:
+        print(f"{arguments.out} has no scans", file=sys.stderr)
+        return 2
+    return 0 if verdict(rows, sys.stdout) else 1
 
 
 if __name__ == "__main__":

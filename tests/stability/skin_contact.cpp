@@ -150,7 +150,7 @@ class Bodies {
       return;
     }
     fmt::print(stderr, "{}: {} pairs cross at rest, {:.2f} mm\n", name, rest->pairs.size(),
-               1e3 * *std::max_element(rest->depths.begin(), rest->depths.end()));
+               rest->depths.empty() ? 0 : 1e3 * *std::max_element(rest->depths.begin(), rest->depths.end()));
     std::map<std::string, fit::Fitting> fittings;  // by region
     for (const std::string& word : garments) {
       tensegric::Garment garment = tensegric::take_garment(word, geometry::shipped_folder("garments"));

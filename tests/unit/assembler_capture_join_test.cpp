@@ -172,16 +172,20 @@ TEST(CaptureJoinTest, OptionsOutOfRangeAreRefused) {
 
 TEST(CaptureQueueTest, WhileOneIsAssembledTheNewestOfTheOthersWaits) {
   assembler::CaptureQueue queue;
-  const auto put = [&queue](std::uint64_t stamp) { queue.put({stamp, stamp, {}}, "some warning"); };
+  // the stamp of what made room; 0: nothing did
+  const auto put = [&queue](std::uint64_t stamp) {
+    const auto replaced = queue.put({stamp, stamp, {}}, "some warning");
+    return replaced ? replaced->capture.first : std::uint64_t{0};
+  };
   EXPECT_FALSE(queue.next());
-  put(1);
+  EXPECT_EQ(put(1), 0u);
   std::shared_ptr<const assembler::CaptureTurn> turn = queue.next();
   ASSERT_TRUE(turn);
   EXPECT_EQ(turn->capture.first, 1u);
   EXPECT_EQ(turn->warning, "some warning");
   EXPECT_EQ(turn->left_out, 0);
   for (const std::uint64_t stamp : {2, 3, 4}) {
-    put(stamp);
+    EXPECT_EQ(put(stamp), stamp == 2 ? 0 : stamp - 1) << "the one at work makes no room";
     EXPECT_FALSE(queue.next()) << stamp;
   }
   turn.reset();  // published, refused, or dropped
@@ -189,7 +193,7 @@ TEST(CaptureQueueTest, WhileOneIsAssembledTheNewestOfTheOthersWaits) {
   ASSERT_TRUE(turn);
   EXPECT_EQ(turn->capture.first, 4u);
   EXPECT_EQ(turn->left_out, 2);
-  put(5);
+  EXPECT_EQ(put(5), 0u);
   turn.reset();
   turn = queue.next();
   ASSERT_TRUE(turn);
@@ -199,11 +203,11 @@ TEST(CaptureQueueTest, WhileOneIsAssembledTheNewestOfTheOthersWaits) {
   EXPECT_FALSE(queue.next());
 }
 
-TEST(SharedFramesTest, AFrameOfSeveralCloudsAndTheScansOwnAreNoViewpoints) {
-  const auto shared_in = [](const std::vector<std::string>& frames) {
+TEST(SharedFramesTest, AFrameOfSeveralCloudsAndTheBoothsAreNoViewpoints) {
+  const auto shared_in = [](const std::vector<std::string>& frames, const std::string& scan_frame = "booth") {
     Capture capture{kStart, kStart, {nullptr}};  // the first sensor is missing
     for (const std::string& frame : frames) capture.clouds.push_back(cloud(0, frame));
-    return assembler::warning_of(assembler::shared_frames(capture, "booth"), {"0", "1", "2", "3", "4"});
+    return assembler::warning_of(assembler::shared_frames(capture, scan_frame), {"0", "1", "2", "3", "4"});
   };
   const std::string end = ": where their sensors stood is unknown, normals are left out";
   EXPECT_EQ(shared_in({"left", "right", "back"}), "");
@@ -212,6 +216,12 @@ TEST(SharedFramesTest, AFrameOfSeveralCloudsAndTheScansOwnAreNoViewpoints) {
   EXPECT_EQ(
       shared_in({"left", "left", "left", "booth"}),
       "clouds of 4 are in the scan's own frame (booth), clouds of 1, 2 and 3 are in one frame (left)" + end);
+  EXPECT_EQ(shared_in({"left", "shop/booth"}, "shop/booth"),
+            "clouds of 2 are in the scan's own frame (shop/booth)" + end);
+  EXPECT_EQ(shared_in({"left", "right"}, "left"), "") << "calibrated relative to that sensor";
+  EXPECT_EQ(shared_in({"left", "photobooth"}, "photobooth"), "");
+  EXPECT_EQ(shared_in({"left", "right", "left"}, "left"),
+            "clouds of 1 and 3 are in the scan's own frame (left)" + end);
 }
 
 }  // namespace

@@ -87,9 +87,9 @@ TEST_F(CaptureWatchTest, CloudsOfTheScanThatCameBeforeTheGoalCount) {
   HeardSensors heard;
   CaptureWatch before = watch(sensors);
   heard.follow(sensors, 0, before);
-  heard.add("left", 5 * kSecond);
-  heard.add("right", 3 * kSecond);  // of the customer before
-  heard.add("nobody", 5 * kSecond);
+  heard.add("left", 5 * kSecond, 99);
+  heard.add("right", 3 * kSecond, 97);  // of the customer before
+  heard.add("nobody", 5 * kSecond, 99);
 
   CaptureWatch capture = watch(sensors);
   heard.follow(sensors, 100, capture);
@@ -101,6 +101,24 @@ TEST_F(CaptureWatchTest, CloudsOfTheScanThatCameBeforeTheGoalCount) {
   capture.add_cloud("right", 5 * kSecond);
   EXPECT_EQ(code(capture, 101), "well");
   EXPECT_EQ(capture.end(101)->message, "");
+}
+
+TEST_F(CaptureWatchTest, CloudsThatCameLongBeforeTheGoalAreAnothersWhoseScanIsLate) {
+  const std::vector<std::string> sensors = {"left", "right"};
+  HeardSensors heard;
+  CaptureWatch before = watch(sensors);
+  heard.follow(sensors, 0, before);
+  heard.add("left", 5 * kSecond, 90);
+  heard.add("right", 5 * kSecond, 89.5);
+  const auto missing_of_a_goal_at = [&](double begins) {
+    CaptureWatch capture = watch(sensors);
+    heard.follow(sensors, begins, capture);
+    capture.add_scan("a", 5 * kSecond, 102);
+    return capture.progress(102).missing;
+  };
+  EXPECT_EQ(missing_of_a_goal_at(99.5), std::vector<std::string>{});
+  EXPECT_EQ(missing_of_a_goal_at(100), std::vector<std::string>{"right"});
+  EXPECT_EQ(missing_of_a_goal_at(101), sensors);
 }
 
 TEST_F(CaptureWatchTest, ASensorThatIsBeingConnectedToIsNotMissing) {
@@ -129,7 +147,7 @@ TEST_F(CaptureWatchTest, OfASensorThatSendsAllTheTimeTheNewestCloudsAreKnown) {
   HeardSensors heard;
   CaptureWatch before = watch(sensors);
   heard.follow(sensors, 0, before);
-  for (std::uint64_t stamp = 1; stamp <= 1000; ++stamp) heard.add("left", stamp * kSecond);
+  for (std::uint64_t stamp = 1; stamp <= 1000; ++stamp) heard.add("left", stamp * kSecond, 99);
   for (const std::uint64_t stamp : {1, 1000}) {
     CaptureWatch capture = watch(sensors);
     heard.follow(sensors, 100, capture);
@@ -194,6 +212,11 @@ TEST_F(CaptureWatchTest, ARefusalOfTheScanIsTheAnswer) {
 TEST_F(CaptureWatchTest, ARefusalBeforeThereIsAScanCountsOnceAndOnlyWhenItIsNew) {
   EXPECT_TRUE(say("assembler", "refused", "1.0", 0, "missing_sensor"));
   EXPECT_FALSE(say("assembler", "refused", "1.0", 0.5, "missing_sensor"));  // says so again every second
+  StageReport refused{"scan_player", "refused", "no_stamp: none", "1.0", false, "none", "no_stamp"};
+  EXPECT_TRUE(board_.report(refused, 0));
+  refused.last_error = "capture 0.5: a newer one came";
+  refused.code = "superseded";
+  EXPECT_FALSE(board_.report(refused, 0.5)) << "what it dropped since is no refusal";
   CaptureWatch capture = watch();
   EXPECT_EQ(code(capture), "under way");
   ASSERT_TRUE(say("assembler", "refused", "2.0", 1, "missing_sensor"));

@@ -118,6 +118,21 @@ TEST(NodesOnTheModel, VerticesAreThoseOfTheModelAndMirrored) {
       1e-4);  // m; components are kept as bytes
 }
 
+TEST(NodesOnTheModel, OneSkinLaysEachTemplateAsItWouldBeAlone) {
+  const Posed posed(0.8);
+  const int tip = posed.body.model->skin_points.front().vertices.front().first;
+  control_mesh::Options coarse;
+  coarse.control_triangles = 4;
+  const control_mesh::BodySkin skin(posed.mesh, posed.measures, &posed.body);
+  for (const std::string& point : {std::string("bust_point_L"), std::to_string(tip)}) {
+    const auto pattern = small_template(point);
+    const auto laid = control_mesh::fit_template_for_each(pattern, skin, {coarse}).front();
+    const auto alone = control_mesh::fit_template(pattern, posed.mesh, posed.measures, coarse, &posed.body);
+    EXPECT_EQ(laid.outer, alone.outer) << point;  // to the bit
+    EXPECT_EQ(laid.inner, alone.inner) << point;
+  }
+}
+
 TEST(NodesOnTheModel, StandInForLandmarksThatAreMissing) {
   Posed posed(0);
   const auto pattern =

@@ -228,13 +228,16 @@ TEST(BustTemplate, RefusesMoreThanAnyBodyNeeds) {
             std::string::npos);
 }
 
-TEST(BustTemplate, WithOthersItSharesNoNameAndEachOfThemIsHeld) {
+TEST(BustTemplate, WithOthersItSharesNoNameAndItsBoneIsHeld) {
   const auto refused = [](const std::vector<control_mesh::Template>& patterns) {
     return refusal_of([&] { control_mesh::check_together(patterns); });
   };
   const auto bust = control_mesh::load_template(kBust), hips = control_mesh::load_template(kHips);
   EXPECT_EQ(refused({bust, hips}), "accepted");
   EXPECT_EQ(refused({bust, bust}), "bad_template");
+  auto namesake = hips;
+  namesake.lines.front().name = bust.lines.front().name;
+  EXPECT_EQ(refused({bust, namesake}), "bad_template") << "two lines of one name";
   auto loose = bust;
   for (std::string& row : loose.fixed) row.assign(row.size(), '.');
   EXPECT_EQ(refused({loose}), "bad_template");
@@ -242,6 +245,9 @@ TEST(BustTemplate, WithOthersItSharesNoNameAndEachOfThemIsHeld) {
   EXPECT_EQ(refused({loose}), "accepted");
   loose.inner_fixed = false;
   EXPECT_EQ(refused({loose}), "bad_template") << "a bone hangs on inner nodes";
+  loose.bone.reset();
+  for (std::string& row : loose.fixed) row.assign(row.size(), '.');
+  EXPECT_EQ(refused({loose}), "accepted") << "bound tissue holds all inner nodes";
 }
 
 TEST(BustTemplate, RefusesAFileThatIsNotThere) {

@@ -85,7 +85,7 @@ TEST(CrossingTriangles, AreTheSameAsWhenEachPairIsAsked) {
 
 TEST(CrossingTriangles, LargeOnesAmongSmallOnesDoNotFillTheMemory) {
   SCOPED_TRACE(testing::Message() << "seed " << kSeed);
-  constexpr int kSmall = 20000, kLarge = 300;
+  constexpr int kSmall = 4000, kLarge = 100;
   std::mt19937 random(kSeed);
   std::uniform_real_distribution<double> unit(-0.5, 0.5);
   const auto point = [&] { return Vector3d(unit(random), unit(random), unit(random)); };
@@ -107,7 +107,7 @@ TEST(CrossingTriangles, LargeOnesAmongSmallOnesDoNotFillTheMemory) {
   const std::vector<char> all(heap.vertices.size(), 1);
   const gauge::Growth growth;
   const auto pairs = crossing_pairs(heap.vertices, heap.triangles, all);
-  EXPECT_LT(growth.mebibytes(), 400);  // each large one in all cells: 1500
+  EXPECT_LT(growth.mebibytes(), 50);  // each large one in all 19,683 cells: 105
   std::vector<std::pair<int, int>> of_large;
   for (const auto& [a, b] : pairs)
     if (a >= kSmall) of_large.emplace_back(a - kSmall, b - kSmall);

@@ -65,7 +65,10 @@ TEST_F(YamlBombs, ASecondDocument) {
   EXPECT_EQ(refused("a: 1\n---\nb: 2\n"), "bad_garment");
   EXPECT_EQ(refused("a: 1\n...\nb: 2\n"), "bad_garment");
   EXPECT_EQ(refused("{a: 1},\n"), "bad_garment") << "of which yaml-cpp makes documents without end";
+  EXPECT_EQ(refused("a: 1\n---\n---\nb: 2\n"), "bad_garment") << "behind an empty one";
   EXPECT_EQ(refused("# one\n---\na: 1\n...\n"), "");
+  for (const char* end : {"---", "---\n", "--- # the end\n", "---\n# the end\n", "---\n...\n"})
+    EXPECT_EQ(refused(std::string("a: 1\n") + end), "") << end;
 }
 
 TEST_F(YamlBombs, SizeAndWhatIsNoFile) {

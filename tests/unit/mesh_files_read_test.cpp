@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/status.hpp"
+#include "mesh_files/formats.hpp"
 #include "mesh_files/frame.hpp"
 #include "mesh_files/glb.hpp"
 #include "mesh_files/maker_files.hpp"
@@ -194,37 +197,53 @@ TEST_F(MeshFile, RefusesOddStlByName) {
   EXPECT_EQ(refusal_of("nan.stl", bad), "non_finite");
 }
 
-// Facets that share no corner, as few as have more than 10 million corners.
-TEST_F(MeshFile, RefusesAnStlOfMoreJoinedVerticesThanArePlannedFor) {
-  constexpr auto kFacets = static_cast<std::uint32_t>(kMostVertices / 3 + 1);
-  std::string bytes(84 + 50UL * kFacets, '\0');
-  std::memcpy(&bytes[80], &kFacets, sizeof kFacets);
-  for (std::size_t c = 0; c < 3UL * kFacets; ++c) {
-    const auto x = static_cast<float>(c);  // exact below 2^24
-    std::memcpy(&bytes[84 + 50 * (c / 3) + 12 + 12 * (c % 3)], &x, sizeof x);
+// As STL has them: each facet with corners of its own, which do not count before they are joined.
+TEST(MeshOfAFile, IsRefusedWithMoreJoinedVerticesThanArePlannedFor) {
+  const TriangleMesh mesh = corner();
+  TriangleMesh facets;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    const int v = static_cast<int>(facets.vertices.size());
+    for (int k = 0; k < 3; ++k) facets.vertices.push_back(mesh.vertices[t[k]]);
+    facets.triangles.emplace_back(v, v + 1, v + 2);
   }
-  EXPECT_EQ(refusal_of("many.stl", bytes), "too_many_points");
+  EXPECT_EQ(checked_and_tidy(facets, "many.stl", 4).vertices.size(), 4U);
+  try {
+    checked_and_tidy(facets, "many.stl", 3);
+    ADD_FAILURE() << "accepted";
+  } catch (const geometry::Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), "too_many_points");
+    EXPECT_EQ(std::string(refusal.what()), "many.stl: has more than 3 vertices or 20 million triangles");
+  }
 }
 
-// What lies beyond the bounds is not looked at: its first corner is not there.
-TEST_F(MeshFile, CountsTrianglesOfStripsAndFansBeforeTheyAreRead) {
+// What lies beyond the bounds is not looked at: its first corner is not there. 20 MB, a byte a corner, are
+// the smallest that have too many; they are not written to a file.
+TEST(MeshOfAFile, HasItsTrianglesOfStripsAndFansCountedBeforeTheyAreRead) {
   const std::size_t corners = kMostTriangles + 3;
-  for (const int mode : {5, 6}) {
-    WrittenGlb glb;
-    const std::size_t start = glb.data.size();
-    glb.data.resize((start + corners + 3) / 4 * 4, '\xFF');
-    glb.text["buffers"][0]["byteLength"] = glb.data.size();
-    json& primitive = glb.text["meshes"][0]["primitives"][0];
+  WrittenGlb glb;
+  const std::size_t start = glb.data.size();
+  glb.data.resize((start + corners + 3) / 4 * 4, '\xFF');
+  glb.text["buffers"][0]["byteLength"] = glb.data.size();
+  json& primitive = glb.text["meshes"][0]["primitives"][0];
+  primitive["indices"] = glb.text["accessors"].size();
+  glb.text["accessors"].push_back({{"bufferView", glb.text["bufferViews"].size()},
+                                   {"componentType", 5121},
+                                   {"count", corners},
+                                   {"type", "SCALAR"}});
+  glb.text["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", start}, {"byteLength", corners}});
+  const auto judged = [&](int mode, std::size_t count) -> std::string {
     primitive["mode"] = mode;
-    primitive["indices"] = glb.text["accessors"].size();
-    glb.text["accessors"].push_back({{"bufferView", glb.text["bufferViews"].size()},
-                                     {"componentType", 5121},
-                                     {"count", corners},
-                                     {"type", "SCALAR"}});
-    glb.text["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", start}, {"byteLength", corners}});
-    EXPECT_EQ(refusal_of("long.glb", glb.bytes()), "too_many_points") << mode;
-    glb.text["accessors"].back()["count"] = corners - 1;  // as many triangles as are planned for
-    EXPECT_EQ(refusal_of("long.glb", glb.bytes()), "bad_mesh") << mode;
+    glb.text["accessors"].back()["count"] = count;
+    try {
+      glb_mesh(glb.bytes(), "long.glb");
+    } catch (const geometry::Refusal& refusal) {
+      return refusal.code();
+    }
+    return "accepted";
+  };
+  for (const int mode : {5, 6}) {
+    EXPECT_EQ(judged(mode, corners), "too_many_points") << mode;
+    EXPECT_EQ(judged(mode, corners - 1), "bad_mesh") << mode << ": as many triangles as are planned for";
   }
 }
 
@@ -251,6 +270,71 @@ TEST_F(MeshFile, RefusesGlbThatIsShownInAnotherShapeThanItsOwn) {
   EXPECT_EQ(judged(posed, none, none), "accepted") << "no vertex hangs on it";
   EXPECT_EQ(judged(posed, none, {{"attributes", {{"POSITION", 0}, {"JOINTS_0", 1}}}}), "broken_file");
   EXPECT_EQ(judged(none, none, {{"attributes", {{"POSITION", 0}, {"JOINTS_0", 1}}}}), "accepted");
+}
+
+/// The corner on two joints that stand as they were bound, in an armature that doubles it and lifts it by 1.
+struct RiggedGlb : WrittenGlb {
+  RiggedGlb() {
+    const Eigen::Affine3d lower(Eigen::Translation3d(0, 1, 0) *
+                                Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ()));
+    const Eigen::Affine3d upper = lower * Eigen::Translation3d(0.5, 0, 0);
+    const std::size_t start = data.size();
+    for (const Eigen::Affine3d& joint : {lower, upper}) {
+      const Eigen::Matrix4f inverse = joint.inverse().matrix().cast<float>();
+      data.append(reinterpret_cast<const char*>(inverse.data()), sizeof(float) * 16);
+    }
+    text["buffers"][0]["byteLength"] = data.size();
+    const std::size_t view = text["bufferViews"].size(), matrices = text["accessors"].size();
+    text["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", start}, {"byteLength", 128}});
+    text["accessors"].push_back(
+        {{"bufferView", view}, {"componentType", 5126}, {"count", 2}, {"type", "MAT4"}});
+    text["skins"] = json::parse(R"([{"joints": [2, 3]}])");
+    text["skins"][0]["inverseBindMatrices"] = matrices;
+    text["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"] = 0;
+    json& nodes = text["nodes"];
+    nodes[0]["skin"] = 0;
+    nodes[0]["translation"] = {7, 7, 7};  // does not count
+    nodes.push_back(json::parse(R"({"children": [2], "scale": [2, 2, 2], "translation": [0, 0, 1]})"));
+    nodes.push_back(json::parse(R"({"children": [3], "translation": [0, 1, 0]})"));
+    nodes[2]["rotation"] = {0, 0, std::sqrt(0.5), std::sqrt(0.5)};
+    nodes.push_back(json::parse(R"({"translation": [0.5, 0, 0]})"));
+    text["scenes"][0]["nodes"] = json::parse("[0, 1]");
+  }
+};
+
+TEST_F(MeshFile, GlbOnASkeletonThatStandsAsItWasBoundIsWhereItsJointsPutIt) {
+  const TriangleMesh plain = read_mesh(write("plain.glb", WrittenGlb().bytes()));
+  const auto expect_at = [&](const RiggedGlb& glb, const Vector3d& shift) {
+    const TriangleMesh mesh = read_mesh(write("rigged.glb", glb.bytes()));
+    ASSERT_EQ(mesh.vertices.size(), plain.vertices.size());
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+      EXPECT_NEAR((mesh.vertices[v] - (2.0 * plain.vertices[v] + shift)).norm(), 0, 1e-5) << v;
+  };
+  expect_at({}, {0, 0, 1});
+  RiggedGlb raised;
+  raised.text["nodes"][2]["translation"] = {0, 2, 0};  // and all that hangs on it
+  expect_at(raised, {0, 2, 1});
+}
+
+TEST_F(MeshFile, RefusesGlbThatASkeletonPoses) {
+  const auto judged = [&](const char* pointer, const json& value) {
+    RiggedGlb glb;
+    glb.text[json::json_pointer(pointer)] = value;
+    return refusal_of("posed.glb", glb.bytes());
+  };
+  EXPECT_EQ(judged("/nodes/3/name", "hand"), "accepted");
+  EXPECT_EQ(judged("/nodes/3/translation", json::array({0.5, 0, 0.0001})), "broken_file");
+  EXPECT_EQ(judged("/nodes/3/rotation", json::array({0.1, 0, 0, 0.995})), "broken_file");
+  EXPECT_EQ(judged("/nodes/3/translation", json::array({1e308, 0, 0})), "broken_file");
+  EXPECT_EQ(judged("/skins/0/joints", json::array()), "broken_file");
+  EXPECT_EQ(judged("/skins/0/joints", json::array({2, 99})), "broken_file");
+  EXPECT_EQ(judged("/skins/0/joints", json::array({2, 3, 3})), "broken_file") << "two matrices";
+  EXPECT_EQ(judged("/nodes/3/children", json::array({2})), "broken_file") << "each other's child";
+  RiggedGlb bare;
+  bare.text["skins"][0].erase("inverseBindMatrices");
+  EXPECT_EQ(refusal_of("bare.glb", bare.bytes()), "broken_file");
+  bare.text["skins"][0]["joints"] = json::array({3});
+  EXPECT_EQ(refusal_of("bare.glb", bare.bytes()), "accepted") << "no matrix is the identity";
 }
 
 TEST_F(MeshFile, RefusesGlbThatLies) {

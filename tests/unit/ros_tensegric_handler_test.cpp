@@ -389,15 +389,31 @@ TEST_F(TensegricHandlerTest, LatchedGarmentsOfSeveralPublishersStayOffAfterForge
 }
 
 TEST_F(TensegricHandlerTest, WhatWasAcceptedUnseenAndNamesNothingOfTheMeshIsTakenOff) {
-  TensegricHandler stage = handler("garment: B2");
+  TensegricHandler stage = handler("garment: B1");
   Garment typo = chest_at(0.95);
   typo.lines[0].through = {"side_L", "sternun", "side_R"};
   stage.put_on(typo);  // nothing is known so far that it could not be worn on
   stage.add(body_of("A"));
   const auto input = stage.add(control_of("A"));
   ASSERT_TRUE(input);
-  EXPECT_EQ(input->request.garment.name, "B2");
+  EXPECT_EQ(input->request.garment.name, "B1");
   EXPECT_NE(input->taken_off.find("sternun"), std::string::npos) << input->taken_off;
+}
+
+TEST_F(TensegricHandlerTest, AScanThatLacksARegionDoesNotTakeTheShopsGarmentOff) {
+  TensegricHandler stage = handler("garment: B2");
+  stage.add(body_of("A"));
+  stage.add(control_of("A"));
+  stage.put_on(chest_at(0.95));
+  const auto lacking = boost::make_shared<ControlMesh>(*control_of("B"));
+  for (auto& region : lacking->regions) region.name = "other";
+  stage.add(body_of("B"));
+  const auto refused = stage.add(ControlMesh::ConstPtr(lacking));
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->taken_off, "");
+  EXPECT_EQ(code_of([&] { stage.handle(*refused, kGoOn, kSilent); }), geometry::refusal::kBadGarment);
+  stage.add(body_of("C"));
+  EXPECT_EQ(stage.add(control_of("C"))->request.garment.name, "band");
 }
 
 TEST_F(TensegricHandlerTest, RefusedGarmentsLeaveTheOldOneOn) {
