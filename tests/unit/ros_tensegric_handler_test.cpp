@@ -9,6 +9,7 @@
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
 #include "ros/body_messages.hpp"
+#include "ros_messages.hpp"
 #include "tensegric/kept_garment_message.hpp"
 #include "tensegric/tensegric_handler.hpp"
 #include "tensegric_bust.hpp"
@@ -391,7 +392,7 @@ TEST_F(TensegricHandlerTest, LatchedGarmentsOfSeveralPublishersStayOffAfterForge
 TEST_F(TensegricHandlerTest, WhatWasAcceptedUnseenAndNamesNothingOfTheMeshIsTakenOff) {
   TensegricHandler stage = handler("garment: B1");
   Garment typo = chest_at(0.95);
-  typo.lines[0].through = {"side_L", "sternun", "side_R"};
+  typo.lines[0].through = {"axilla_L", "sternun", "axilla_R"};
   stage.put_on(typo);  // nothing is known so far that it could not be worn on
   stage.add(body_of("A"));
   const auto input = stage.add(control_of("A"));
