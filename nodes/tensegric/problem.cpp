@@ -14,9 +14,9 @@ namespace {
 using geometry::Refusal;
 namespace refusal = geometry::refusal;
 
-// Of a band without a limit of its own. Round a hip of 0.16 m one of 30 mm would press by 54 kPa with it, three
-// times what stops the blood (120 mmHg); taut hips at a request of 0.95 pull a seventh of it. In newtons: of a
-// pseudo force there are the fewer the finer the control mesh is.
+// Of a band without a limit of its own. Round a hip of 0.16 m one of 30 mm would press by 54 kPa with it,
+// three times what stops the blood (120 mmHg); taut hips at a request of 0.95 pull a seventh of it. In
+// newtons: of a pseudo force there are the fewer the finer the control mesh is.
 constexpr double kTightestHold = 260;     // N
 constexpr double kTightestUniform = 200;  // pseudo force, of the papers' units, which have no newtons
 
