@@ -331,11 +331,11 @@ def two_panels_at_once(shop):
     rospy.Subscriber("garment", Garment, lambda garment: asked.append(garment.lines[0].ratio))
     shop.press("alt+1", "Left", "Left")
     shop.comes_to(0.94)
-    time.sleep(1)
+    time.sleep(3)  # the other panel has followed, on a busy machine, too
     with shop.at(other):
         shop.press("alt+1", "Left")  # from where the first one left it
         shop.comes_to(0.935)
-        time.sleep(1)
+        time.sleep(3)
         shop.picture(os.path.join(shop.out, "second_panel.png"), "430x709+850+62")
     shop.press("Right", "Right", "Right")
     shop.comes_to(0.95)

@@ -334,7 +334,7 @@ TEST_F(Folding, ContradictingLinesEndInABalance) {
     const Solution s = solve(model, garment, {});
     EXPECT_EQ(s.status, Status::infeasible) << s.note;
     expect_balance(s);
-    EXPECT_LE(s.iterations, 200);
+    EXPECT_LE(s.iterations, 250);  // below the cap: they pull against each other up to the limit of 260 N
   }
 }
 
