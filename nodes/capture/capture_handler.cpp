@@ -78,14 +78,14 @@ void CaptureHandler::add(const std::string& sensor, const sensor_msgs::PointClou
   if (watch_) watch_->add_cloud(sensor, stamp);
 }
 
-void CaptureHandler::add(const sensor_msgs::PointCloud2& scan, double now) {
+void CaptureHandler::add(const sensor_msgs::PointCloud2& scan) {
   const std::string scan_id = tag_of(scan).scan_id;
   if (std::find(seen_.begin(), seen_.end(), scan_id) != seen_.end())
     return;  // a node sends its last one again
   seen_.push_back(scan_id);
   if (seen_.size() > kRemembered) seen_.pop_front();
   if (!watch_) return;
-  watch_->add_scan(scan_id, scan.header.stamp.toNSec(), now);
+  watch_->add_scan(scan_id, scan.header.stamp.toNSec());
   if (watch_->scan_id().empty()) return;
   for (auto it = landmarks_.begin(); it != landmarks_.end();)
     it = it->first == watch_->scan_id() ? std::next(it) : landmarks_.erase(it);

@@ -50,8 +50,7 @@ class CaptureHandler {
   /// `now`: when it came; just before the next goal where it is left out.
   void add(const std::string& sensor, const sensor_msgs::PointCloud2& cloud,
            double now = std::numeric_limits<double>::infinity());
-  /// `now` as for capture::CaptureWatch::add_scan.
-  void add(const sensor_msgs::PointCloud2& scan, double now = std::numeric_limits<double>::infinity());
+  void add(const sensor_msgs::PointCloud2& scan);
   void add(const Landmarks::ConstPtr& landmarks);
   void add(const DeformedMesh& deformed);
   void add(const diagnostic_msgs::DiagnosticArray& message, double now);

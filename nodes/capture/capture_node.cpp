@@ -130,7 +130,7 @@ class CaptureNode {
   }
 
   void on_scan(const PointCloud2::ConstPtr& scan) {
-    if (!HeldScan::of_process().is_forgotten(tag_of(*scan).scan_id)) handler_.add(*scan, now());
+    if (!HeldScan::of_process().is_forgotten(tag_of(*scan).scan_id)) handler_.add(*scan);
   }
   void on_landmarks(const Landmarks::ConstPtr& landmarks) { handler_.add(landmarks); }
   void on_deformed(const DeformedMesh::ConstPtr& deformed) { handler_.add(*deformed); }

@@ -55,7 +55,7 @@ void CaptureWatch::add_earlier_cloud(const std::string& sensor, std::uint64_t st
   if (stamp != 0) earlier_clouds_[sensor].push_back(stamp);  // without a stamp it is of any scan, or none
 }
 
-void CaptureWatch::add_scan(const std::string& scan_id, std::uint64_t stamp, double now) {
+void CaptureWatch::add_scan(const std::string& scan_id, std::uint64_t stamp) {
   if (is_early(stamp)) return note_early(stamp, kInFlight + 1);
   if (scan_id == scan_id_ || refused_) return;
   if (!scan_id_.empty()) {
@@ -66,7 +66,6 @@ void CaptureWatch::add_scan(const std::string& scan_id, std::uint64_t stamp, dou
   }
   scan_id_ = scan_id;
   stamp_ = stamp;
-  came_ = now;
 }
 
 void CaptureWatch::add_refusal(const StageReport& report) {
@@ -93,15 +92,10 @@ bool CaptureWatch::was_heard(const std::string& sensor) const {
   return false;
 }
 
-bool CaptureWatch::may_have_been_missed(const std::string& sensor) const {
-  const auto connected = connected_.find(sensor);
-  return !scan_id_.empty() && connected != connected_.end() && came_ < connected->second;
-}
-
 std::vector<std::string> CaptureWatch::missing() const {
   std::vector<std::string> names;
   for (const std::string& sensor : goal_.sensors)
-    if (!was_heard(sensor) && !may_have_been_missed(sensor)) names.push_back(sensor);
+    if (!was_heard(sensor)) names.push_back(sensor);
   return names;
 }
 
@@ -165,10 +159,6 @@ std::string CaptureWatch::warnings() const {
     if (report != nullptr && report->scan_id == scan_id_ && report->warns)
       words += (words.empty() ? "" : "; ") + report->message;
   }
-  for (const std::string& sensor : goal_.sensors)
-    if (!was_heard(sensor))
-      words += fmt::format("{}{} was connected to as the scan came: whether it is in it is not known",
-                           words.empty() ? "" : "; ", sensor);
   return words;
 }
 

@@ -47,12 +47,7 @@ class CaptureWatch {
   void add_cloud(const std::string& sensor, std::uint64_t stamp);
   /// One that was heard before the goal came: it counts if it is of the scan.
   void add_earlier_cloud(const std::string& sensor, std::uint64_t stamp);
-  /// Until then clouds of that sensor may be missed, as it is being connected to: a scan that comes sooner
-  /// does not lack it.
-  void connects(const std::string& sensor, double until) { connected_[sensor] = until; }
-  /// `now`: when it came; all sensors were connected to where it is left out.
-  void add_scan(const std::string& scan_id, std::uint64_t stamp,
-                double now = std::numeric_limits<double>::infinity());
+  void add_scan(const std::string& scan_id, std::uint64_t stamp);
   void add_landmarks(const std::string& scan_id) { measured_.insert(scan_id); }
   void add_fit(const std::string& scan_id) { fitted_.insert(scan_id); }
   /// A stage has just refused something: StageBoard::report. Only a stage before the scan ends the wait for
@@ -68,7 +63,6 @@ class CaptureWatch {
   bool is_early(std::uint64_t stamp) const;
   void note_early(std::uint64_t stamp, int count);
   bool was_heard(const std::string& sensor) const;
-  bool may_have_been_missed(const std::string& sensor) const;
   std::vector<std::string> missing() const;
   std::string stage() const;
   std::string waiting_for(double now) const;
@@ -81,10 +75,8 @@ class CaptureWatch {
   const std::uint64_t slop_;
   const double start_;
   std::map<std::string, std::vector<std::uint64_t>> clouds_, earlier_clouds_;  // stamps, by sensor
-  std::map<std::string, double> connected_;                                    // when, by sensor
   std::string scan_id_;
   std::uint64_t stamp_ = 0;                  // of the scan
-  double came_ = 0;                          // the scan
   std::set<std::string> measured_, fitted_;  // scans; a message may overtake its scan
   std::optional<CaptureEnd> refused_;
   std::uint64_t early_ = 0;  // the newest stamp that did not count, though a scan was asked for

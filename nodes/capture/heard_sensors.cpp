@@ -9,9 +9,7 @@ constexpr std::size_t kCloudsKept = 256;  // of a sensor: eight seconds of one t
 
 void HeardSensors::follow(const std::vector<std::string>& sensors, double now, CaptureWatch& watch) {
   for (const std::string& sensor : sensors) {
-    const Heard& heard = heard_.try_emplace(sensor, Heard{now, {}}).first->second;
-    watch.connects(sensor, heard.since + kConnecting);
-    for (const Cloud& cloud : heard.clouds)
+    for (const Cloud& cloud : heard_[sensor])
       if (now - cloud.came <= kOfThisCustomer) watch.add_earlier_cloud(sensor, cloud.stamp);
   }
 }
@@ -19,7 +17,7 @@ void HeardSensors::follow(const std::vector<std::string>& sensors, double now, C
 void HeardSensors::add(const std::string& sensor, std::uint64_t stamp, double now) {
   const auto heard = heard_.find(sensor);
   if (heard == heard_.end()) return;
-  std::deque<Cloud>& clouds = heard->second.clouds;
+  std::deque<Cloud>& clouds = heard->second;
   clouds.push_back({stamp, now});
   if (clouds.size() > kCloudsKept) clouds.pop_front();
 }

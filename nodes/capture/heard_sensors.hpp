@@ -32,11 +32,7 @@ class HeardSensors {
     std::uint64_t stamp;
     double came;
   };
-  struct Heard {
-    double since;
-    std::deque<Cloud> clouds;
-  };
-  std::map<std::string, Heard> heard_;
+  std::map<std::string, std::deque<Cloud>> heard_;
 };
 
 }  // namespace tensegric_fit::capture

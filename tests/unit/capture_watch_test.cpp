@@ -94,7 +94,7 @@ TEST_F(CaptureWatchTest, CloudsOfTheScanThatCameBeforeTheGoalCount) {
   CaptureWatch capture = watch(sensors);
   heard.follow(sensors, 100, capture);
   EXPECT_EQ(capture.progress(101).missing, sensors) << "what came may be the customer's before";
-  capture.add_scan("a", 5 * kSecond, 101);
+  capture.add_scan("a", 5 * kSecond);
   capture.add_landmarks("a");
   EXPECT_EQ(capture.progress(101).missing, std::vector<std::string>{"right"});
   EXPECT_EQ(code(capture, 101), "missing_sensor");
@@ -113,33 +113,12 @@ TEST_F(CaptureWatchTest, CloudsThatCameLongBeforeTheGoalAreAnothersWhoseScanIsLa
   const auto missing_of_a_goal_at = [&](double begins) {
     CaptureWatch capture = watch(sensors);
     heard.follow(sensors, begins, capture);
-    capture.add_scan("a", 5 * kSecond, 102);
+    capture.add_scan("a", 5 * kSecond);
     return capture.progress(102).missing;
   };
   EXPECT_EQ(missing_of_a_goal_at(99.5), std::vector<std::string>{});
   EXPECT_EQ(missing_of_a_goal_at(100), std::vector<std::string>{"right"});
   EXPECT_EQ(missing_of_a_goal_at(101), sensors);
-}
-
-TEST_F(CaptureWatchTest, ASensorThatIsBeingConnectedToIsNotMissing) {
-  const std::vector<std::string> sensors = {"left", "right"};
-  HeardSensors heard;
-  CaptureWatch early = watch(sensors), again = watch(sensors), late = watch(sensors);
-  heard.follow(sensors, 0, early);
-  heard.follow(sensors, 1, again);  // not a new connection
-  heard.follow(sensors, 1, late);
-  for (CaptureWatch* capture : {&early, &again, &late}) {
-    capture->add_cloud("left", 5 * kSecond);
-    EXPECT_EQ(capture->progress(1).missing, std::vector<std::string>{"right"});
-    capture->add_scan("a", 5 * kSecond, capture == &late ? HeardSensors::kConnecting : 1.5);
-    capture->add_landmarks("a");
-  }
-  EXPECT_EQ(code(late, 3), "missing_sensor");
-  for (const CaptureWatch* capture : {&early, &again}) {
-    EXPECT_EQ(code(*capture, 3), "well");
-    EXPECT_NE(capture->end(3)->message.find("right was connected to as the scan came"), std::string::npos);
-    EXPECT_EQ(capture->end(3)->message.find("left"), std::string::npos);
-  }
 }
 
 TEST_F(CaptureWatchTest, OfASensorThatSendsAllTheTimeTheNewestCloudsAreKnown) {
@@ -151,7 +130,7 @@ TEST_F(CaptureWatchTest, OfASensorThatSendsAllTheTimeTheNewestCloudsAreKnown) {
   for (const std::uint64_t stamp : {1, 1000}) {
     CaptureWatch capture = watch(sensors);
     heard.follow(sensors, 100, capture);
-    capture.add_scan("a", stamp * kSecond, 101);
+    capture.add_scan("a", stamp * kSecond);
     capture.add_landmarks("a");
     EXPECT_EQ(code(capture, 101), stamp == 1 ? "missing_sensor" : "well");
   }
