@@ -7,7 +7,7 @@
 namespace tensegric_fit::assembler {
 namespace {
 
-constexpr const char* kBooth = "booth";  // what the assembler calls the scan's frame unless told otherwise
+constexpr const char* kBooth = "booth";  // default of the assembler's frame_id
 
 }  // namespace
 

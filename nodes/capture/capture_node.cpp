@@ -21,8 +21,9 @@ namespace {
 
 using sensor_msgs::PointCloud2;
 
-constexpr double kLatched = 1;  // s until a node that starts has heard what was there before
-constexpr double kTick = 0.1;   // s
+constexpr double kLatched = 1;     // s until a node that starts has heard what was there before
+constexpr double kConnecting = 2;  // s that sensors may take to be connected to before the trigger is pulled
+constexpr double kTick = 0.1;      // s
 
 double now() {
   return ros::SteadyTime::now().toSec();
@@ -140,9 +141,7 @@ class CaptureNode {
 
   void pull_trigger() {
     for (const std::string& sensor : goal_->sensors)
-      if (sensors_[sensor].getNumPublishers() == 0 &&
-          now() - handler_.begun() < capture::HeardSensors::kConnecting)
-        return;
+      if (sensors_[sensor].getNumPublishers() == 0 && now() - handler_.begun() < kConnecting) return;
     const std::uint64_t stamp = ros::Time::now().toNSec();
     if (trigger_.pull()) handler_.pulled(stamp);  // else an earlier customer's is still held
   }

@@ -8,10 +8,9 @@ constexpr std::size_t kCloudsKept = 256;  // of a sensor: eight seconds of one t
 }  // namespace
 
 void HeardSensors::follow(const std::vector<std::string>& sensors, double now, CaptureWatch& watch) {
-  for (const std::string& sensor : sensors) {
+  for (const std::string& sensor : sensors)
     for (const Cloud& cloud : heard_[sensor])
       if (now - cloud.came <= kOfThisCustomer) watch.add_earlier_cloud(sensor, cloud.stamp);
-  }
 }
 
 void HeardSensors::add(const std::string& sensor, std::uint64_t stamp, double now) {

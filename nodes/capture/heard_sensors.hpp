@@ -15,13 +15,12 @@ namespace tensegric_fit::capture {
 /// are seconds of any steady clock. For one thread.
 class HeardSensors {
  public:
-  static constexpr double kConnecting = 2;  ///< s that sensors may take to be connected to
   /// s before a goal within which the clouds of its scan came: longer than a capture takes, from its first
   /// cloud on; shorter than it takes until the next customer stands there. What came sooner is another's.
   static constexpr double kOfThisCustomer = 10;
 
-  /// Sensors that are new are listened to from now on. Tells a watch that begins what was heard of each
-  /// within kOfThisCustomer.
+  /// Remembers the clouds of these sensors from now on, and gives the watch those of the last
+  /// kOfThisCustomer.
   void follow(const std::vector<std::string>& sensors, double now, CaptureWatch& watch);
 
   /// Nothing where the sensor is not listened to. `now`: when the cloud came.

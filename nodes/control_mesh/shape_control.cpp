@@ -9,6 +9,7 @@
 #include "geometry/checked_yaml.hpp"
 #include "geometry/decimate.hpp"
 #include "geometry/status.hpp"
+#include "geometry/winding_number.hpp"
 
 namespace tensegric_fit::control_mesh {
 namespace {
@@ -29,19 +30,6 @@ double mean_edge(const geometry::TriangleMesh& mesh) {
   const auto edges = geometry::edges_of(mesh);
   for (const geometry::Edge& e : edges) sum += (mesh.vertices[e.first] - mesh.vertices[e.second]).norm();
   return sum / static_cast<double>(edges.size());
-}
-
-// How often a closed mesh goes round a point: its solid angle over that of a sphere (van Oosterom, Strackee
-// 1983). 1 inside, 0 outside.
-double turns_round(const geometry::TriangleMesh& mesh, const Eigen::Vector3d& point) {
-  double sum = 0;
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    const Eigen::Vector3d a = mesh.vertices[t[0]] - point, b = mesh.vertices[t[1]] - point,
-                          c = mesh.vertices[t[2]] - point;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return sum / (2 * M_PI);
 }
 
 std::vector<geometry::TriangleMesh> closed_pieces(const geometry::TriangleMesh& mesh) {
@@ -77,7 +65,7 @@ void check_outside(const geometry::TriangleMesh& mesh) {
     if (!has_negative_volume(piece)) continue;
     double turns = 0;
     for (const geometry::TriangleMesh& other : pieces)
-      if (&other != &piece) turns += turns_round(other, piece.vertices.front());
+      if (&other != &piece) turns += geometry::winding_number(other, piece.vertices.front());
     if (turns < 0.5)
       throw Refusal(geometry::refusal::kBadMesh,
                     "a piece of the shape is inside out, and is no hollow of another one: its triangles must "

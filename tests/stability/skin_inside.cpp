@@ -7,7 +7,7 @@
 #include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/surface_tree.hpp"
-#include "winding_number.hpp"
+#include "geometry/winding_number.hpp"
 
 namespace tensegric_fit::stability {
 namespace {
@@ -23,7 +23,7 @@ geometry::Corners corners(const TriangleMesh& mesh, int triangle) {
 }
 
 bool is_inside(const TriangleMesh& mesh, const Vector3d& point) {
-  return test::winding_number(mesh, point) > 0.5;
+  return geometry::winding_number(mesh, point) > 0.5;
 }
 
 }  // namespace

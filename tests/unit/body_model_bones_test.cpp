@@ -10,7 +10,7 @@
 #include "body_model/registration.hpp"
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
-#include "winding_number.hpp"
+#include "geometry/winding_number.hpp"
 
 namespace tensegric_fit::body_model {
 namespace {
@@ -89,7 +89,7 @@ TEST(Bones, LieUnderTheSkinOfEveryWomanInEveryPose) {
         EXPECT_GE((tree.nearest(p).position - p).norm(), kThinnestTissue - 1e-9)
             << "woman " << woman << ", " << bone.name << ", point " << i;
         if (i % 8 != 0) continue;
-        EXPECT_GT(test::winding_number(skin, p), 0.5)
+        EXPECT_GT(geometry::winding_number(skin, p), 0.5)
             << "woman " << woman << ", " << bone.name << ", point " << i;
       }
     }

@@ -1,16 +1,11 @@
-/// Whether a place is inside a closed mesh.
-#pragma once
+#include "geometry/winding_number.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "geometry/triangle_mesh.hpp"
+namespace tensegric_fit::geometry {
 
-namespace tensegric_fit::test {
-
-/// Solid angle of a closed mesh seen from a point over that of a sphere: 1 inside, 0 outside (van Oosterom,
-/// Strackee 1983).
-inline double winding_number(const geometry::TriangleMesh& mesh, const Eigen::Vector3d& point) {
+double winding_number(const TriangleMesh& mesh, const Eigen::Vector3d& point) {
   double sum = 0;
   for (const Eigen::Vector3i& t : mesh.triangles) {
     const Eigen::Vector3d a = mesh.vertices[t[0]] - point, b = mesh.vertices[t[1]] - point,
@@ -21,4 +16,4 @@ inline double winding_number(const geometry::TriangleMesh& mesh, const Eigen::Ve
   return sum / (2 * M_PI);
 }
 
-}  // namespace tensegric_fit::test
+}  // namespace tensegric_fit::geometry
