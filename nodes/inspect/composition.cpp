@@ -1,8 +1,9 @@
 #include "inspect/composition.hpp"
 
+#include <png.h>
+
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <vector>
@@ -82,9 +83,19 @@ cv::Mat with_distance_scale(const cv::Mat& picture) {
 }
 
 std::string png_bytes(const cv::Mat& picture) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", picture, bytes)) throw std::runtime_error("a picture cannot be encoded");
-  return {bytes.begin(), bytes.end()};
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = picture.cols;
+  image.height = picture.rows;
+  image.format = PNG_FORMAT_BGR;
+  image.flags = PNG_IMAGE_FLAG_FAST;  // a larger file in a third of the time
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::string bytes(size, '\0');
+  const auto stride = static_cast<png_int_32>(picture.step1());
+  if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.data, stride, nullptr))
+    throw std::runtime_error(std::string("a picture cannot be encoded: ") + image.message);
+  bytes.resize(size);
+  return bytes;
 }
 
 }  // namespace tensegric_fit::inspect

@@ -19,7 +19,7 @@ cv::Mat with_distortion_scale(const cv::Mat& picture);
 /// The same with the fixed scale of distance_colour, millimetres.
 cv::Mat with_distance_scale(const cv::Mat& picture);
 
-/// The picture as a PNG file's bytes. \throw std::runtime_error: it cannot be encoded
+/// The picture (8 bits, BGR) as a PNG file's bytes. \throw std::runtime_error: it cannot be encoded
 std::string png_bytes(const cv::Mat& picture);
 
 }  // namespace tensegric_fit::inspect
