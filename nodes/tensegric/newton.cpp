@@ -78,7 +78,12 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
       defect = kkt_.defect(at, load);
       continue;
     }
-    if (is_rounding(step) && is_balance(at, load, defect)) return settled(true);
+    if (is_rounding(step) && within(defect, kWanted)) {
+      if (!change_holds(at, load)) return settled(true);
+      if (++changes > kMostHoldChanges) return false;
+      defect = kkt_.defect(at, load);
+      continue;
+    }
     if (!advance(at, load, defect, step)) {
       step = kkt_.step(at, load, defect, within(defect, kAtSaddle), false);
       if (!step.move.allFinite() || !step.multipliers.allFinite() || !advance(at, load, defect, step))
