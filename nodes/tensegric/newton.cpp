@@ -78,11 +78,13 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
       defect = kkt_.defect(at, load);
       continue;
     }
-    if (is_rounding(step) && within(defect, kWanted)) {
-      if (!change_holds(at, load)) return settled(true);
-      if (++changes > kMostHoldChanges) return false;
-      defect = kkt_.defect(at, load);
-      continue;
+    if (is_rounding(step)) {  // no nearer than this
+      if (change_holds(at, load)) {
+        if (++changes > kMostHoldChanges) return false;
+        defect = kkt_.defect(at, load);
+        continue;
+      }
+      if (within(defect, kWanted)) return settled(true);
     }
     if (!advance(at, load, defect, step)) {
       step = kkt_.step(at, load, defect, within(defect, kAtSaddle), false);
