@@ -83,12 +83,13 @@ cv::Mat with_distance_scale(const cv::Mat& picture) {
 }
 
 std::string png_bytes(const cv::Mat& picture) {
+  if (picture.type() != CV_8UC3) throw std::runtime_error("a picture that is not 8 bits of BGR");
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = picture.cols;
   image.height = picture.rows;
   image.format = PNG_FORMAT_BGR;
-  image.flags = PNG_IMAGE_FLAG_FAST;  // a larger file in a third of the time
+  image.flags = PNG_IMAGE_FLAG_FAST;  // a fifth larger than the smallest file, in a third of the time
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
   std::string bytes(size, '\0');
   const auto stride = static_cast<png_int_32>(picture.step1());

@@ -78,7 +78,7 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
       defect = kkt_.defect(at, load);
       continue;
     }
-    if (is_rounding(step)) {  // no nearer than this
+    if (is_rounding(step)) {  // holds need not wait for a residual that rounding forbids
       if (change_holds(at, load)) {
         if (++changes > kMostHoldChanges) return false;
         defect = kkt_.defect(at, load);
@@ -149,18 +149,19 @@ bool Newton::advance(Balance& at, const Load& load, KktResidual& defect, const S
   double longest = 0;
   for (int i = 0; i < problem_.free_nodes; ++i)
     longest = std::max(longest, step.move.segment<3>(3 * i).norm());
-  // Pushes go the whole step, however short the way of the nodes is: where a barrier stops them, what the
-  // unit has to push is known at once.
-  Eigen::VectorXd pushes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem_.units.size()));
-  for (std::size_t k = 0; k < step.lines.size(); ++k)
-    pushes[step.lines[k].unit] = step.lines[k].push + step.push_change[static_cast<Eigen::Index>(k)];
   double length = longest > longest_move_ ? longest_move_ / longest : 1;
   for (int halving = 0; halving < kMostHalvings; ++halving, length /= 2) {
     Balance trial = at;
     move(trial.x, length * step.move);
     trial.pressures += length * step.multipliers.head(regions);
     trial.tensions += length * step.multipliers.tail(static_cast<Eigen::Index>(problem_.bands.size()));
-    trial.pushes = pushes;
+    // A push goes the whole step, however short the way of the nodes is: cut with it, it would
+    // take ten steps to hold a node at its barrier. One that would end goes as far as the nodes do.
+    trial.pushes.setZero(static_cast<Eigen::Index>(problem_.units.size()));
+    for (std::size_t k = 0; k < step.lines.size(); ++k) {
+      const double push = step.lines[k].push, change = step.push_change[static_cast<Eigen::Index>(k)];
+      trial.pushes[step.lines[k].unit] = push + change > 0 ? push + change : push + length * change;
+    }
     KktResidual there = kkt_.defect(trial, load);
     if (length == 1) {
       Eigen::VectorXd broken = there.conditions;

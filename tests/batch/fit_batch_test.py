@@ -213,7 +213,7 @@ class FitBatch(unittest.TestCase):
             file.truncate(84 + 50 * facets)
         manifest, folder = self.folder / "large.csv", self.folder / "memory"
         manifest.write_text("mesh,garment\nlarge.stl,B1\nw1/body.ply,B1\n")
-        self.assertEqual(fit_batch(manifest, "--out", folder, "--jobs", 1, "--memory", 1.5).returncode, 0)
+        self.assertEqual(fit_batch(manifest, "--out", folder, "--jobs", 1, "--memory", 1).returncode, 0)
         lines = {line["row"]: line for line in lines_of(folder)}
         self.assertEqual({row: line["status"] for row, line in lines.items()}, {1: "out_of_memory", 2: "ok"}, lines[1]["reason"])
 

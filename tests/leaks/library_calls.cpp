@@ -171,7 +171,7 @@ std::vector<Call> calls_in(const std::filesystem::path& folder) {
       {"poisson, as we call it", "PCL in a child process",
        [=] { reconstruction::PoissonWorker().surface(cloud, 6); }},
       {"decimation", "OpenMesh", [=] { geometry::with_triangles(mesh, 800); }},
-      {"picture", "OpenCV (draw, PNG)",
+      {"picture", "OpenCV (draw), libpng",
        [=] { inspect::png_bytes(inspect::draw(mesh, {}, {}, view, 200, 200)); }},
       {"depth image", "OpenCV (undistort, remap)", [=] { node::rectified(image, info); }},
       {"bag", "rosbag, ros_msg conversions", [=] { node::check_bag(bag); }},

@@ -93,7 +93,7 @@ class Chain:
         cloud.header.stamp = self.stamp = self.rospy.Time.now()
         begin = time.monotonic()
         self.publisher.publish(cloud)
-        if not self.done.wait(seconds) and not self.done.wait(5):  # the second for a run that was stopped meanwhile (SIGSTOP)
+        if not self.done.wait(seconds) and not self.done.wait(5):  # this process may have been stopped (SIGSTOP): 5 s for what came meanwhile
             raise TimeoutError("no deformed body")
         return time.monotonic() - begin
 

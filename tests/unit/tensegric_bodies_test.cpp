@@ -11,7 +11,7 @@ namespace {
 const std::string kLaunch = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/";
 
 // On fine meshes some units are nearly flat at rest, and rounding ends their balance above the residual that
-// is aimed at. A line that has to be let go or held there waited for it: 280 iterations, load steps halved.
+// is aimed at. Holds waited for that residual: load steps ran to 80 iterations and were halved, 280 in all.
 TEST(TightGarment, LinesAtTheirGreatestPullTakeFewIterations) {
   fit::Settings settings;
   settings.control_mesh.control_triangles = 480;
