@@ -22,8 +22,8 @@ constexpr double kSole = 0.006;  // m over the lowest point of the feet at rest:
 // Deviations: of 100 women who stand upright one seems to lean by 2.5 (fit_standing.py). Round that the
 // scan's vertical gives way by degrees, so that a rounding error of the scan moves no measure by much.
 constexpr double kUpright = 2, kLeaning = 3;
-constexpr double kLeastDeviation =
-    0.01;                          // degrees, as it is divided by; stances vary by hundreds of times that
+// degrees, as it is divided by; stances vary by hundreds of times that
+constexpr double kLeastDeviation = 0.01;
 constexpr std::size_t kStray = 9;  // points that may lie below the feet
 
 constexpr double kApart = 3;  // deviations: of a normal variable one value in 370 is beyond

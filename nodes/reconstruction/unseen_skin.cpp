@@ -23,8 +23,8 @@ constexpr double kBeyond =
 constexpr double kUnseenSpacing = 0.004;  // m
 constexpr double kInside = 0.03;          // m under other skin that faces the other way: parts that touch
 constexpr int kAround = 100;              // samples within that
-// Cosine of two normals of skins that face each other: 107 degrees, by which skin rounder than 19 mm does not
-// turn within kInside. Hands, which are less round, are left out.
+// Cosine of two normals of skins that face each other: 107 degrees, by which skin with a radius above 19 mm
+// does not turn within kInside. Hands, whose radii are smaller, are left out.
 constexpr double kOpposed = -0.3;
 
 /// The normals of a cell's samples lie in this box, each axis by itself.

@@ -61,11 +61,14 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
     return balanced;
   };
   KktResidual defect = kkt_.defect(at, load);
+  const auto goes_on = [&] {  // after holds have changed
+    defect = kkt_.defect(at, load);
+    return ++changes <= kMostHoldChanges;
+  };
   for (int i = 0; i <= most; ++i) {
     while ((within(defect, tolerance) && change_holds(at, load)) ||
            (i >= kStepsBeyondLimit && stop_at_limits(at, load))) {
-      if (++changes > kMostHoldChanges) return false;
-      defect = kkt_.defect(at, load);
+      if (!goes_on()) return false;
     }
     if (within(defect, tolerance)) return settled(true);
     stop_ = spent();
@@ -74,14 +77,12 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
     passes_branch = passes_branch || (!step.minimum && within(defect, kNearBalance));
     if (!step.move.allFinite() || !step.multipliers.allFinite()) return false;
     if (release_contradicted(at, load, step)) {
-      if (++changes > kMostHoldChanges) return false;
-      defect = kkt_.defect(at, load);
+      if (!goes_on()) return false;
       continue;
     }
     if (is_rounding(step)) {  // holds need not wait for a residual that rounding forbids
       if (change_holds(at, load)) {
-        if (++changes > kMostHoldChanges) return false;
-        defect = kkt_.defect(at, load);
+        if (!goes_on()) return false;
         continue;
       }
       if (within(defect, kWanted)) return settled(true);
@@ -155,8 +156,8 @@ bool Newton::advance(Balance& at, const Load& load, KktResidual& defect, const S
     move(trial.x, length * step.move);
     trial.pressures += length * step.multipliers.head(regions);
     trial.tensions += length * step.multipliers.tail(static_cast<Eigen::Index>(problem_.bands.size()));
-    // A push goes the whole step, however short the way of the nodes is: cut with it, it would
-    // take ten steps to hold a node at its barrier. One that would end goes as far as the nodes do.
+    // A push goes the whole step, however short the way of the nodes is: cut with it, it would take ten steps
+    // to hold a node at its barrier. One that would end goes as far as the nodes do.
     trial.pushes.setZero(static_cast<Eigen::Index>(problem_.units.size()));
     for (std::size_t k = 0; k < step.lines.size(); ++k) {
       const double push = step.lines[k].push, change = step.push_change[static_cast<Eigen::Index>(k)];
