@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Many scans through one launched chain: does a node grow, keep descriptors or threads, or get slower?
 
-Usage: build/devel/env.sh python3 tests/soak/soak.py [--scans N] [--points N] [--config FILE.yaml] [--out FILE.csv]
+Usage: build/devel/env.sh python3 tests/soak/soak.py [--scans N] [--points N] [--config FILE.yaml] [--group N] [--out FILE.csv]
 
-The same few scans come again and again, each when the one before is through; every 33rd is of full size. After each a row: seconds from scan to deformed body,
-seconds of the processor that the nodes and their children took, which other work on the machine hardly changes, and of each node anonymous memory (kB,
-/proc/PID/smaps_rollup), descriptors and threads. A run that was stopped goes on where it was: with the
+The same few scans come again and again; every 33rd is of full size. In groups: within one a scan is sent when the body before has its mesh, so that
+stages work side by side; the next group waits until the chain is at rest. A row is a scan: seconds from scan to deformed body. The last row of a group also has
+the processor's seconds per scan that the nodes and their children took, which other work on the machine hardly changes, and of each node, at rest,
+anonymous memory (kB, /proc/PID/smaps_rollup), descriptors and threads. A run that was stopped goes on after its last whole group: with the
 same chain where that still runs (the chain outlives a run that is killed), else with a new one, whose rows are another part. The verdict
 is by part; it leaves out the first scans of it, while heaps fill up, and compares medians of the first and the last rows after them.
 Exit: 0 all constant, 1 something grew, 2 no answer."""
@@ -29,13 +30,15 @@ from launched import free_port, nodes_at, points_of, program, wait_until
 NODES = ("reconstruction", "landmarks", "control_mesh", "tensegric", "tffd", "vault")
 POINTS, BODIES = 9000, 4
 FULL_POINTS, FULL_EVERY = 180000, 33  # 303 of 10,000 scans are of full size
+GROUP = 9  # scans; prime to the bodies, so that last scans are of each of them
+REST = 0.2  # s, after a group: stages give memory back after 50 ms
 MEMORY = 0.01  # a node may have so much more at the end
 FEWEST = 100  # medians of fewer rows say nothing of memory: heaps still fill up
 SLOWER = {"seconds": 0.25, "processor_s": 0.1}  # and a scan take so much longer: machines are shared
 
 
 class Chain:
-    """roslaunch with a master of its own, and a client that sends scans and waits for the deformed body."""
+    """roslaunch with a master of its own, and a client that sends scans and waits for their meshes and deformed bodies."""
 
     def __init__(self, out, config):
         self.note, self.is_new = out.with_suffix(".chain"), False  # where it runs
@@ -43,13 +46,15 @@ class Chain:
         self.address(port)
         import rospy  # after the master's address is set
         from sensor_msgs.msg import PointCloud2
-        from tensegric_fit.msg import DeformedMesh
+        from tensegric_fit.msg import DeformedMesh, TriangleMesh
         self.rospy, self.cloud_type = rospy, PointCloud2
         wait_until(self.has_master, "the master", 30)
         rospy.init_node("soak", anonymous=True, disable_signals=True)
-        self.done, self.stamp = threading.Event(), None
+        self.changed = threading.Condition()
+        self.seen = {"mesh": {}, "deformed": {}}  # stamp -> when the message came
         self.publisher = rospy.Publisher("scan/points", PointCloud2, queue_size=1)
-        rospy.Subscriber("body/deformed", DeformedMesh, self.take)
+        rospy.Subscriber("body/mesh", TriangleMesh, lambda message: self.take("mesh", message))
+        rospy.Subscriber("body/deformed", DeformedMesh, lambda message: self.take("deformed", message))
         wait_until(lambda: self.publisher.get_num_connections() > 0 and len(self.processes()) == len(NODES), "the nodes", 60)
 
     @staticmethod
@@ -79,23 +84,30 @@ class Chain:
     def has_master():
         return subprocess.run(["rosnode", "list"], capture_output=True, check=False).returncode == 0
 
-    def take(self, message):
-        if message.header.stamp == self.stamp:
-            self.done.set()
+    def take(self, what, message):
+        with self.changed:
+            self.seen[what][message.header.stamp] = time.monotonic()
+            self.changed.notify()
 
     @staticmethod
     def processes():
         """Node -> process."""
         return {name.strip("/"): process for name, process in nodes_at(os.environ["ROS_MASTER_URI"], NODES).items()}
 
-    def scan(self, cloud, seconds):
-        self.done.clear()
-        cloud.header.stamp = self.stamp = self.rospy.Time.now()
+    def send(self, cloud):
+        """Stamp of the scan, and when it was sent."""
+        cloud.header.stamp = self.rospy.Time.now()
         begin = time.monotonic()
         self.publisher.publish(cloud)
-        if not self.done.wait(seconds) and not self.done.wait(5):  # this process may have been stopped (SIGSTOP): 5 s for what came meanwhile
-            raise TimeoutError("no deformed body")
-        return time.monotonic() - begin
+        return cloud.header.stamp, begin
+
+    def wait(self, what, stamp, seconds):
+        """When that scan's message came."""
+        with self.changed:
+            for patience in (seconds, 5):  # this process may have been stopped (SIGSTOP): 5 s for what came meanwhile
+                if self.changed.wait_for(lambda: stamp in self.seen[what], patience):
+                    return self.seen[what].pop(stamp)
+        raise TimeoutError(f"no {what} body")
 
     def stop(self):
         os.kill(self.pid, signal.SIGINT)
@@ -127,12 +139,14 @@ def columns():
 
 
 def rows_of(path):
-    """What was done so far, without a last row that was cut off. A file of an earlier version may lack a column."""
+    """What was done so far, without a last group that was cut off. A file of an earlier version may lack a column."""
     if not path.exists():
         return []
     with open(path, encoding="utf-8", newline="") as file:
         reader = csv.DictReader(file)
-        return [row for row in reader if all(row.get(column) for column in reader.fieldnames)]
+        rows = list(reader)
+        whole = [i for i, row in enumerate(rows) if all(row[column] for column in reader.fieldnames)]
+        return rows[:whole[-1] + 1] if whole else []
 
 
 @functools.lru_cache(maxsize=None)
@@ -146,7 +160,7 @@ def cloud_of(points, body):
         return point_cloud2.create_cloud_xyz32(Header(frame_id="booth"), points_of(pathlib.Path(folder) / "scan.ply"))
 
 
-def record(chain, points, scans, path):
+def record(chain, points, scans, group, path):
     rows = rows_of(path)
     if rows and list(rows[0]) != columns():
         raise RuntimeError(f"{path} has other columns: begin another file, or this one with --anew")
@@ -156,17 +170,25 @@ def record(chain, points, scans, path):
         writer.writeheader()
         writer.writerows(rows)
         processes = chain.processes()
-        for i in range(len(rows), scans):
-            is_full = i % FULL_EVERY == FULL_EVERY - 1
-            cloud = cloud_of(FULL_POINTS if is_full else points, i % BODIES)
-            before = processor_seconds(processes.values())
-            seconds = chain.scan(cloud, 120)
-            time_taken = [f"{seconds:.3f}", f"{processor_seconds(processes.values()) - before:.2f}"]
-            costs = [value for node in NODES for value in costs_of(processes[node])]
-            writer.writerow(dict(zip(columns(), [part, i, *time_taken] + costs)))
+        for start in range(len(rows), scans, group):
+            writer.writerows({"part": part, **row} for row in rows_of_group(chain, points, range(start, min(start + group, scans)), processes))
             file.flush()
         if chain.processes() != processes:
             raise RuntimeError("a node died")
+
+
+def rows_of_group(chain, points, scans, processes):
+    sent = []
+    before = processor_seconds(processes.values())
+    for i in scans:
+        sent.append(chain.send(cloud_of(FULL_POINTS if i % FULL_EVERY == FULL_EVERY - 1 else points, i % BODIES)))
+        chain.wait("mesh", sent[-1][0], 120)
+    rows = [{"scan": i, "seconds": f"{chain.wait('deformed', stamp, 120) - begin:.3f}"} for i, (stamp, begin) in zip(scans, sent)]
+    rows[-1]["processor_s"] = f"{(processor_seconds(processes.values()) - before) / len(scans):.2f}"
+    time.sleep(REST)
+    for node in NODES:
+        rows[-1].update(zip((f"{node}_kB", f"{node}_descriptors", f"{node}_threads"), costs_of(processes[node])))
+    return rows
 
 
 def verdict(rows, out):
@@ -184,7 +206,7 @@ def constant(rows, part, out):
     fine = True
     print(f"part {part}: {len(rows)} scans; medians of {count} rows, after {len(rows) - len(settled)} and at the end", file=out)
     for column in [column for column in columns()[2:] if column in rows[0]]:
-        before, after = (statistics.median(float(row[column]) for row in part_of) for part_of in (first, last))
+        before, after = (statistics.median(float(row[column]) for row in part_of if row[column]) for part_of in (first, last))
         judged = count >= FEWEST or column.endswith(("_descriptors", "_threads"))
         allowed = SLOWER.get(column, MEMORY if column.endswith("_kB") else 0)
         grew = judged and after > before * (1 + allowed)
@@ -197,6 +219,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scans", type=int, default=10000, help="rows of the file in all")
     parser.add_argument("--points", type=int, default=POINTS, help="of a scan")
+    parser.add_argument("--group", type=int, default=GROUP, help="so many scans between two rests of the chain")
     parser.add_argument("--config", type=pathlib.Path, help="of the chain; launch/config/pipeline.yaml without it")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("soak.csv"))
     parser.add_argument("--anew", action="store_true", help="does not go on where an earlier run was stopped")
@@ -207,7 +230,7 @@ def main():
     if not arguments.verdict:
         chain = Chain(arguments.out, [f"config:={arguments.config.resolve()}"] if arguments.config else [])
         try:
-            record(chain, arguments.points, arguments.scans, arguments.out)
+            record(chain, arguments.points, arguments.scans, arguments.group, arguments.out)
         except (TimeoutError, RuntimeError) as error:
             print(error, file=sys.stderr)
             return 2
