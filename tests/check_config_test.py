@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""A file of parameters with a name that no node has ends roslaunch before anything starts, with that name; the package's own files load.
+
+Usage: env.sh check_config_test.py"""
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+LAUNCH = pathlib.Path(__file__).resolve().parents[1] / "launch"
+
+
+def loaded(text, launch_file="pipeline.launch", argument="config"):
+    """Whether roslaunch would start with such a file, and what it says."""
+    with tempfile.TemporaryDirectory(prefix="check config ") as folder:  # with a blank
+        path = pathlib.Path(folder) / "own.yaml"
+        path.write_text(text, encoding="utf-8")
+        extra = ["simulate:=true"] if launch_file == "booth.launch" else []
+        done = subprocess.run(["roslaunch", "--dump-params", "tensegric_fit", launch_file, f"{argument}:={path}", *extra], capture_output=True, text=True,
+                              timeout=60, check=False)
+        return "Unable to load file" not in done.stdout + done.stderr, done.stdout + done.stderr  # the exit code is 0 in any case
+
+
+class CheckConfig(unittest.TestCase):
+    def test_own_files_load(self):
+        for path in sorted((LAUNCH / "config").glob("*.yaml")):
+            with self.subTest(path.name):
+                done = subprocess.run([LAUNCH / "check_config.py", path], capture_output=True, text=True, timeout=60, check=False)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_sound_file(self):
+        fine, words = loaded("reconstruction: {body_triangles: 6000}\n")
+        self.assertTrue(fine, words)
+        self.assertIn("/reconstruction/body_triangles: 6000", words)
+
+    def test_unknown_node(self):
+        for launch_file, argument in (("pipeline.launch", "config"), ("booth.launch", "sensors")):
+            with self.subTest(launch_file):
+                fine, words = loaded("reconstruciton: {body_triangles: 6000}\n", launch_file, argument)
+                self.assertFalse(fine)
+                self.assertIn("'reconstruciton', which is none of the nodes: ", words)
+                self.assertIn("reconstruction", words.partition("none of the nodes: ")[2])
+
+    def test_no_parameters_by_node(self):
+        for text in ("- 3\n", "a: [", "just words\n", "3\n"):
+            with self.subTest(text):
+                fine, words = loaded(text)
+                self.assertFalse(fine)
+                self.assertIn("own.yaml", words)
+                self.assertNotIn("Traceback", words)
+
+
+if __name__ == "__main__":
+    unittest.main()
