@@ -9,6 +9,7 @@
 #include "tensegric/band_length.hpp"
 #include "tensegric/band_pressure.hpp"
 #include "tensegric/equilibrium.hpp"
+#include "tensegric/near_origin.hpp"
 #include "tensegric/problem.hpp"
 #include "tensegric/relaxation.hpp"
 #include "tensegric/shape_check.hpp"
@@ -149,6 +150,22 @@ Outcome relax_and_check(Problem& problem, const Solution* start, Recorder& recor
   return outcome;
 }
 
+// Near the origin.
+Solution solve_here(const Model& model, const Garment& garment, const SolverOptions& options,
+                    const Solution* start, const Progress& progress,
+                    const std::vector<PosedVolume>& body_volumes, const std::vector<geometry::LaidLine>& laid,
+                    const SkinFolds& folds) {
+  Problem problem = lay_garment(model, garment, options, body_volumes, laid);
+  problem.folds = folds;
+  Recorder recorder(problem, progress);
+  recorder.record(0, start == nullptr ? problem.rest : positions_of(*start),
+                  start == nullptr ? 0 : start->residual);
+  const Outcome outcome = options.solver == SolverName::equilibrium
+                              ? find_equilibrium(problem, start, recorder)
+                              : relax_and_check(problem, start, recorder);
+  return report(problem, outcome, std::move(recorder.history));
+}
+
 }  // namespace
 
 std::string to_string(SolverName name) {
@@ -170,15 +187,16 @@ Solution solve(const Model& model, const Garment& garment, const SolverOptions& 
                const Solution* start, const Progress& progress, const std::vector<PosedVolume>& body_volumes,
                const std::vector<geometry::LaidLine>& laid, const SkinFolds& folds) {
   if (start != nullptr) check_start(model, *start);
-  Problem problem = lay_garment(model, garment, options, body_volumes, laid);
-  problem.folds = folds;
-  Recorder recorder(problem, progress);
-  recorder.record(0, start == nullptr ? problem.rest : positions_of(*start),
-                  start == nullptr ? 0 : start->residual);
-  const Outcome outcome = options.solver == SolverName::equilibrium
-                              ? find_equilibrium(problem, start, recorder)
-                              : relax_and_check(problem, start, recorder);
-  return report(problem, outcome, std::move(recorder.history));
+  const Eigen::Vector3d by = offset_to_origin(model.control.outer);
+  if (by.isZero(0)) return solve_here(model, garment, options, start, progress, body_volumes, laid, folds);
+  SolverOptions near = options;
+  near.bones = moved(options.bones, by);
+  Solution from;
+  if (start != nullptr) from = moved(*start, by);
+  return moved(solve_here(moved(model, by), garment, near, start == nullptr ? nullptr : &from,
+                          asked_unmoved(progress, by), asked_unmoved(body_volumes, by), moved(laid, by),
+                          asked_unmoved(folds, by)),
+               -by);
 }
 
 }  // namespace tensegric_fit::tensegric
