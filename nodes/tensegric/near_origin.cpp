@@ -1,5 +1,6 @@
 #include "tensegric/near_origin.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tensegric_fit::tensegric {
@@ -7,11 +8,21 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Tolerances. At 16 m balances round ten times as far as in a booth (residual 1e-9, of 1e-8 that is let
-// pass). Below, results stay what they are in a scan's own frame. Multiples of 8 m leave coordinates of at
-// most 4 m and the body's own, smaller than what they came from: differences are exact, and so is the way
-// back.
-constexpr double kFar = 16, kGrid = 8;  // m
+// Of two, so that sums with its multiples are exact; small enough that a chest's middle is near one.
+constexpr double kGrid = 0.25;  // m
+
+// Along one axis. A difference from a multiple is exact, and so is the way back, where it is no larger than
+// what it is taken from; where it would be, the points are near already.
+double offset_of(const std::vector<Vector3d>& points, int axis) {
+  double low = points.front()[axis], high = low, nearest = std::abs(low);
+  for (const Vector3d& point : points) {
+    low = std::min(low, point[axis]);
+    high = std::max(high, point[axis]);
+    nearest = std::min(nearest, std::abs(point[axis]));
+  }
+  const double by = -kGrid * std::round((low + high) / (2 * kGrid));
+  return std::max(std::abs(low + by), std::abs(high + by)) <= nearest ? by : 0;
+}
 
 void move(std::vector<Vector3d>& points, const Vector3d& by) {
   for (Vector3d& point : points) point += by;
@@ -24,10 +35,10 @@ std::vector<Vector3d> moved(std::vector<Vector3d> points, const Vector3d& by) {
 
 }  // namespace
 
-Vector3d offset_to_origin(const std::vector<Vector3d>& points) {
-  Vector3d mean = Vector3d::Zero();
-  for (const Vector3d& point : points) mean += point / static_cast<double>(points.size());
-  return mean.unaryExpr([](double at) { return std::abs(at) < kFar ? 0 : -kGrid * std::round(at / kGrid); });
+Vector3d offset_to_origin(const geometry::ControlMesh& control) {
+  std::vector<Vector3d> points = control.outer;
+  points.insert(points.end(), control.inner.begin(), control.inner.end());
+  return {offset_of(points, 0), offset_of(points, 1), offset_of(points, 2)};
 }
 
 Model moved(Model model, const Vector3d& by) {

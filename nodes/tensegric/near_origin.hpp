@@ -1,4 +1,4 @@
-/// Scans far from their frame's origin, solved near it: coordinates round by their size, and a balance by
+/// A scan, solved about the middle of its control mesh: coordinates round by their size, and a balance by
 /// what they round to.
 #pragma once
 
@@ -9,9 +9,9 @@
 
 namespace tensegric_fit::tensegric {
 
-/// What the scan is moved by so that it lies near the origin; zero where it does. Sums with it and
-/// differences from it are exact for points within 7 m of the mean of `points`.
-Eigen::Vector3d offset_to_origin(const std::vector<Eigen::Vector3d>& points);
+/// What the nodes are moved by so that they lie about the origin, to 0.125 m along each axis, or not at all:
+/// there and back they are the same to the last bit.
+Eigen::Vector3d offset_to_origin(const geometry::ControlMesh& control);
 
 Model moved(Model model, const Eigen::Vector3d& by);
 Solution moved(Solution solution, const Eigen::Vector3d& by);

@@ -150,7 +150,7 @@ Outcome relax_and_check(Problem& problem, const Solution* start, Recorder& recor
   return outcome;
 }
 
-// Near the origin.
+// Where the nodes lie near the origin.
 Solution solve_here(const Model& model, const Garment& garment, const SolverOptions& options,
                     const Solution* start, const Progress& progress,
                     const std::vector<PosedVolume>& body_volumes, const std::vector<geometry::LaidLine>& laid,
@@ -187,7 +187,7 @@ Solution solve(const Model& model, const Garment& garment, const SolverOptions& 
                const Solution* start, const Progress& progress, const std::vector<PosedVolume>& body_volumes,
                const std::vector<geometry::LaidLine>& laid, const SkinFolds& folds) {
   if (start != nullptr) check_start(model, *start);
-  const Eigen::Vector3d by = offset_to_origin(model.control.outer);
+  const Eigen::Vector3d by = offset_to_origin(model.control);
   if (by.isZero(0)) return solve_here(model, garment, options, start, progress, body_volumes, laid, folds);
   SolverOptions near = options;
   near.bones = moved(options.bones, by);

@@ -8,6 +8,7 @@
 #include <chrono>
 
 #include "geometry/shipped_files.hpp"
+#include "geometry/status.hpp"
 #include "geometry/tffd_reach.hpp"
 #include "ros/body_messages.hpp"
 #include "tensegric/kept_garment_message.hpp"

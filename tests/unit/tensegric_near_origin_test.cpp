@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "tensegric/near_origin.hpp"
 #include "tensegric_bust.hpp"
@@ -72,12 +73,37 @@ class FarScan : public testing::Test {
   const Model near_ = model_at(Vector3d::Zero()), far_ = model_at(kThere);
 };
 
-TEST_F(FarScan, IsMovedByWholeStepsOnly) {
-  EXPECT_EQ(offset_to_origin(near_.control.outer), Vector3d::Zero());
-  EXPECT_EQ(offset_to_origin(far_.control.outer), -kThere);
-  const Model back = moved(moved(far_, -kThere), kThere);
-  EXPECT_EQ(back.control.outer, far_.control.outer);
+TEST_F(FarScan, IsMovedThereAndBackToTheLastBit) {
+  EXPECT_EQ(offset_to_origin(near_.control), Vector3d(0, 0, -1.25));  // heights of 1.07 to 1.33 m
+  EXPECT_EQ(offset_to_origin(far_.control), Vector3d(0, 0, -1.25) - kThere);
+  EXPECT_EQ(moved(moved(far_, -kThere), kThere).control.outer, far_.control.outer);
   EXPECT_EQ(moved(far_, -kThere).control.outer, near_.control.outer);
+}
+
+TEST(ScanAnywhere, IsMovedThereAndBackToTheLastBit) {
+  const unsigned seed = 5;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> decades(-2, 4), signs(-1, 1);
+  int unmoved = 0;
+  for (int i = 0; i < 1000; ++i) {
+    geometry::ControlMesh control = bust_mesh();
+    Vector3d place;
+    for (double& at : place) at = std::copysign(std::pow(10, decades(random)), signs(random));
+    for (auto* layer : {&control.outer, &control.inner})
+      for (Vector3d& point : *layer) point += place;
+    const Vector3d by = offset_to_origin(control);
+    Model model;
+    model.control = control;
+    const geometry::ControlMesh there = moved(model, by).control;
+    EXPECT_EQ(moved(moved(model, by), -by).control.outer, control.outer);
+    EXPECT_EQ(moved(moved(model, by), -by).control.inner, control.inner);
+    for (std::size_t n = 1; n < there.outer.size(); ++n)  // differences are exact, too
+      EXPECT_EQ(there.outer[n] - there.outer[n - 1], control.outer[n] - control.outer[n - 1]);
+    for (const Vector3d& point : there.outer) EXPECT_LT(point.cwiseAbs().maxCoeff(), 1);
+    unmoved += by.isZero(0);
+  }
+  EXPECT_LT(unmoved, 200);
 }
 
 TEST_F(FarScan, TheFitIsTheOneNearTheOrigin) {
