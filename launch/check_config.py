@@ -7,7 +7,7 @@ import pathlib
 import sys
 import xml.etree.ElementTree
 
-import rosparam
+import rosparam  # teaches yaml what rosparam reads, such as !degrees  # noqa: F401
 import yaml
 
 
@@ -23,14 +23,15 @@ def main():
         print(__doc__, file=sys.stderr)
         return 2
     try:
-        loaded = [values for values, _ in rosparam.load_file(sys.argv[1])]
-    except (rosparam.RosParamException, yaml.YAMLError, OSError, ValueError, TypeError) as error:
+        loaded = yaml.safe_load(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"))
+    except (yaml.YAMLError, OSError, ValueError) as error:
         print(f"{sys.argv[1]} cannot be read: {error}", file=sys.stderr)
         return 1
-    if not all(isinstance(values, (dict, type(None))) for values in loaded):
+    if not isinstance(loaded, (dict, type(None))):
         print(f"{sys.argv[1]} does not hold parameters by node", file=sys.stderr)
         return 1
-    unknown = [name for values in loaded for name in values or {} if name not in nodes()]
+    names = [str(name).strip("/").split("/")[0] for name in loaded or {}]  # also "node/parameter"
+    unknown = [name for name in names if name not in nodes()]
     if unknown:
         print(f"{sys.argv[1]} has parameters of '{unknown[0]}', which is none of the nodes: {', '.join(nodes())}", file=sys.stderr)
         return 1

@@ -28,10 +28,18 @@ class CheckConfig(unittest.TestCase):
                 done = subprocess.run([LAUNCH / "check_config.py", path], capture_output=True, text=True, timeout=60, check=False)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
 
-    def test_sound_file(self):
-        fine, words = loaded("reconstruction: {body_triangles: 6000}\n")
-        self.assertTrue(fine, words)
-        self.assertIn("/reconstruction/body_triangles: 6000", words)
+    def test_sound_files(self):
+        for text in ("reconstruction: {body_triangles: 6000}\n", "reconstruction/body_triangles: 6000\n", "/reconstruction: {body_triangles: 6000}\n"):
+            with self.subTest(text):
+                fine, words = loaded(text)
+                self.assertTrue(fine, words)
+                self.assertIn("/reconstruction/body_triangles: 6000", words)
+
+    def test_files_without_parameters(self):
+        for text in ("", "# nothing\n", "---\n", "null\n"):
+            with self.subTest(text):
+                fine, words = loaded(text)
+                self.assertTrue(fine, words)
 
     def test_unknown_node(self):
         for launch_file, argument in (("pipeline.launch", "config"), ("booth.launch", "sensors")):

@@ -1,5 +1,5 @@
-/// A scan, solved about the middle of its control mesh: coordinates round by their size, and a balance by
-/// what they round to.
+/// Solves near the origin: the smaller coordinates are, the less they round, and the nearer a balance can
+/// come.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,8 +9,8 @@
 
 namespace tensegric_fit::tensegric {
 
-/// What the nodes are moved by so that they lie about the origin, to 0.125 m along each axis, or not at all:
-/// there and back they are the same to the last bit.
+/// What moves the middle of the control mesh to within 0.125 m of the origin, along each axis where that
+/// makes no coordinate larger, and 0 along the others: nodes at rest go there and back to the last bit.
 Eigen::Vector3d offset_to_origin(const geometry::ControlMesh& control);
 
 Model moved(Model model, const Eigen::Vector3d& by);
@@ -18,9 +18,9 @@ Solution moved(Solution solution, const Eigen::Vector3d& by);
 geometry::BoneFrames moved(const geometry::BoneFrames& bones, const Eigen::Vector3d& by);
 std::vector<geometry::LaidLine> moved(std::vector<geometry::LaidLine> lines, const Eigen::Vector3d& by);
 
-/// What is asked about a shape that was moved by `by` is asked where it came from; empty where `asked` is.
-Progress asked_unmoved(const Progress& asked, const Eigen::Vector3d& by);
-SkinFolds asked_unmoved(const SkinFolds& asked, const Eigen::Vector3d& by);
-std::vector<PosedVolume> asked_unmoved(const std::vector<PosedVolume>& asked, const Eigen::Vector3d& by);
+/// Functions of shapes in the scan's frame, for shapes that were moved by `by`; empty where they are.
+Progress seen_from_scan(const Progress& function, const Eigen::Vector3d& by);
+SkinFolds seen_from_scan(const SkinFolds& function, const Eigen::Vector3d& by);
+std::vector<PosedVolume> seen_from_scan(const std::vector<PosedVolume>& function, const Eigen::Vector3d& by);
 
 }  // namespace tensegric_fit::tensegric

@@ -150,7 +150,7 @@ Outcome relax_and_check(Problem& problem, const Solution* start, Recorder& recor
   return outcome;
 }
 
-// Where the nodes lie near the origin.
+// With the nodes where they are.
 Solution solve_here(const Model& model, const Garment& garment, const SolverOptions& options,
                     const Solution* start, const Progress& progress,
                     const std::vector<PosedVolume>& body_volumes, const std::vector<geometry::LaidLine>& laid,
@@ -194,8 +194,8 @@ Solution solve(const Model& model, const Garment& garment, const SolverOptions& 
   Solution from;
   if (start != nullptr) from = moved(*start, by);
   return moved(solve_here(moved(model, by), garment, near, start == nullptr ? nullptr : &from,
-                          asked_unmoved(progress, by), asked_unmoved(body_volumes, by), moved(laid, by),
-                          asked_unmoved(folds, by)),
+                          seen_from_scan(progress, by), seen_from_scan(body_volumes, by), moved(laid, by),
+                          seen_from_scan(folds, by)),
                -by);
 }
 

@@ -113,12 +113,13 @@ using Progress = std::function<bool(const Iterate&, const std::vector<Eigen::Vec
                                     const std::vector<Eigen::Vector3d>& inner)>;
 
 /// Deforms the model under the garment's lines at constant region volumes. Pieces of the control mesh that no
-/// line touches stay at rest, bit for bit, where there is no gravity and no posture. `start` is null (from
-/// rest) or an earlier solution of the same model (warm start). `body_volumes`: for KeptVolume::body, one a
-/// region of the control mesh. `laid`: the garment's lines that lie on the body. `folds`: where it
-/// says so of the shape asked for, the equilibrium solver goes back along the load to the last shape of which
-/// it does not (infeasible); the others, and under gravity or in a posture, keep the shape, infeasible too.
-/// Never returns a non-finite position. \throw Refusal unknown_line, bad_garment, bad_option
+/// line touches stay at rest, outer and inner nodes bit for bit, where there is no gravity and no posture.
+/// `start` is null (from rest) or an earlier solution of the same model (warm start). `body_volumes`: for
+/// KeptVolume::body, one a region of the control mesh. `laid`: the garment's lines that lie on the body.
+/// `folds`: where it says so of the shape asked for, the equilibrium solver goes back along the load to the
+/// last shape of which it does not (infeasible); the others, and under gravity or in a posture, keep the
+/// shape, infeasible too. Never returns a non-finite position. \throw Refusal unknown_line, bad_garment,
+/// bad_option
 Solution solve(const Model& model, const Garment& garment, const SolverOptions& options,
                const Solution* start = nullptr, const Progress& progress = {},
                const std::vector<PosedVolume>& body_volumes = {},

@@ -13,8 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-const Vector3d kThere(4000, -1304, 48);  // multiples of 8 m, as the solver moves by
-constexpr double kRounding = 1e-12;      // m; coordinates of 4 km are 5e-13 apart
+// Multiples of what the solver moves by: what it solves is the same to the last bit.
+const Vector3d kThere(4000, -1304, 48);
+constexpr double kFarRounding = 1e-12;  // m; coordinates of 4 km are 5e-13 apart
 
 /// Coordinates that are the same to the last bit after the way there and back.
 std::vector<Vector3d> short_numbers(std::vector<Vector3d> points) {
@@ -38,7 +39,8 @@ Model model_at(const Vector3d& place) {
 
 void expect_moved(const std::vector<Vector3d>& near, const std::vector<Vector3d>& far) {
   ASSERT_EQ(near.size(), far.size());
-  for (std::size_t i = 0; i < near.size(); ++i) EXPECT_LE((near[i] + kThere - far[i]).norm(), kRounding) << i;
+  for (std::size_t i = 0; i < near.size(); ++i)
+    EXPECT_LE((near[i] + kThere - far[i]).norm(), kFarRounding) << i;
 }
 
 void expect_moved(const Solution& near, const Solution& far) {
@@ -85,7 +87,6 @@ TEST(ScanAnywhere, IsMovedThereAndBackToTheLastBit) {
   SCOPED_TRACE(seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> decades(-2, 4), signs(-1, 1);
-  int unmoved = 0;
   for (int i = 0; i < 1000; ++i) {
     geometry::ControlMesh control = bust_mesh();
     Vector3d place;
@@ -101,9 +102,7 @@ TEST(ScanAnywhere, IsMovedThereAndBackToTheLastBit) {
     for (std::size_t n = 1; n < there.outer.size(); ++n)  // differences are exact, too
       EXPECT_EQ(there.outer[n] - there.outer[n - 1], control.outer[n] - control.outer[n - 1]);
     for (const Vector3d& point : there.outer) EXPECT_LT(point.cwiseAbs().maxCoeff(), 1);
-    unmoved += by.isZero(0);
   }
-  EXPECT_LT(unmoved, 200);
 }
 
 TEST_F(FarScan, TheFitIsTheOneNearTheOrigin) {
@@ -123,9 +122,22 @@ TEST_F(FarScan, AWarmStartIsOneThereToo) {
   const Solution here = solve(near_, chest(0.94), {}, &near), there = solve(far_, chest(0.94), {}, &far);
   EXPECT_EQ(there.status, Status::converged);
   EXPECT_EQ(here.iterations, there.iterations);
+  EXPECT_LT(there.iterations, solve(far_, chest(0.94), {}).iterations);
   ASSERT_EQ(here.outer.size(), there.outer.size());
   for (std::size_t i = 0; i < here.outer.size(); ++i)  // balances to 1e-10 of the mean tension
     EXPECT_LE((here.outer[i] + kThere - there.outer[i]).norm(), 1e-8);
+}
+
+TEST_F(FarScan, AnyPlaceWillDo) {
+  const Solution near = solve(near_, chest(0.9), {});
+  for (const Vector3d& place : {Vector3d(4000.1, -1303.87, 48.3), Vector3d(0.31, -0.77, -1.06)}) {
+    const Solution s = solve(model_at(place), chest(0.9), {});
+    EXPECT_EQ(s.status, Status::converged);
+    EXPECT_EQ(s.iterations, near.iterations);
+    ASSERT_EQ(s.outer.size(), near.outer.size());
+    for (std::size_t i = 0; i < s.outer.size(); ++i)
+      EXPECT_LE((near.outer[i] + place - s.outer[i]).norm(), 1e-8);
+  }
 }
 
 TEST_F(FarScan, WhereNothingActsNodesAreTheSameToTheLastBit) {
@@ -202,7 +214,8 @@ TEST_F(FarScan, WhoIsAskedSeesTheScansFrame) {
   const Solution near = solve_and_look(near_, asked_near), far = solve_and_look(far_, asked_far);
   EXPECT_EQ(near.status, Status::converged);
   EXPECT_EQ(far.status, Status::converged);
-  EXPECT_EQ(asked_near, asked_far);
+  EXPECT_LE(std::abs(near.iterations - far.iterations), 2);  // the body's volume rounds by its place
+  EXPECT_GT(asked_near, 0);
   EXPECT_GT(asked_far, 0);
   for (std::size_t i = 0; i < near.outer.size(); ++i)  // volumes of 4 km coordinates round to some 1e-12
     EXPECT_LE((near.outer[i] + kThere - far.outer[i]).norm(), 1e-9);
