@@ -150,6 +150,20 @@ Outcome relax_and_check(Problem& problem, const Solution* start, Recorder& recor
   return outcome;
 }
 
+constexpr double kKeptVolume = 1e-9;  // what a balance promises (README.md, Exactness)
+
+// By how much volumes change where the shape rounds on its way back, relative.
+double volume_rounding(const Model& model, const Solution& found, const Solution& rounded) {
+  double largest = 0;
+  for (const geometry::ControlRegion& part : model.control.regions) {
+    const RegionVolume region = region_volume_of(model, part);
+    const double change =
+        control_volume(region, positions_of(rounded)) - control_volume(region, positions_of(found));
+    largest = std::max(largest, std::abs(change) / volume_scale(region));
+  }
+  return largest;
+}
+
 // With the nodes where they are.
 Solution solve_here(const Model& model, const Garment& garment, const SolverOptions& options,
                     const Solution* start, const Progress& progress,
@@ -193,10 +207,14 @@ Solution solve(const Model& model, const Garment& garment, const SolverOptions& 
   near.bones = moved(options.bones, by);
   Solution from;
   if (start != nullptr) from = moved(*start, by);
-  return moved(solve_here(moved(model, by), garment, near, start == nullptr ? nullptr : &from,
-                          seen_from_scan(progress, by), seen_from_scan(body_volumes, by), moved(laid, by),
-                          seen_from_scan(folds, by)),
-               -by);
+  const Model model_near = moved(model, by);
+  const Solution found =
+      solve_here(model_near, garment, near, start == nullptr ? nullptr : &from, seen_from_scan(progress, by),
+                 seen_from_scan(body_volumes, by), moved(laid, by), seen_from_scan(folds, by));
+  const Solution there = moved(found, -by);
+  if (volume_rounding(model_near, found, moved(there, by)) <= kKeptVolume) return there;
+  // Coordinates there are too coarse for a shape as small: what can be had of it is found among them.
+  return solve_here(model, garment, options, start, progress, body_volumes, laid, folds);
 }
 
 }  // namespace tensegric_fit::tensegric
