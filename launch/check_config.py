@@ -31,10 +31,11 @@ def main():
         print(f"{sys.argv[1]} does not hold parameters by node", file=sys.stderr)
         return 1
     names = [str(name).strip("/").split("/")[0] for name in loaded or {}]  # also "node/parameter"
-    unknown = [name for name in names if name not in nodes()]
-    if unknown:
-        print(f"{sys.argv[1]} has parameters of '{unknown[0]}', which is none of the nodes: {', '.join(nodes())}", file=sys.stderr)
-        return 1
+    known = nodes()
+    for name in names:
+        if name not in known:
+            print(f"{sys.argv[1]} has parameters of '{name}', which is none of the nodes: {', '.join(known)}", file=sys.stderr)
+            return 1
     print("known", end="")
     return 0
 

@@ -10,6 +10,7 @@
 #include "tensegric/band_pressure.hpp"
 #include "tensegric/equilibrium.hpp"
 #include "tensegric/near_origin.hpp"
+#include "tensegric/newton.hpp"
 #include "tensegric/problem.hpp"
 #include "tensegric/relaxation.hpp"
 #include "tensegric/shape_check.hpp"
@@ -150,8 +151,6 @@ Outcome relax_and_check(Problem& problem, const Solution* start, Recorder& recor
   return outcome;
 }
 
-constexpr double kKeptVolume = 1e-9;  // what a balance promises (README.md, Exactness)
-
 // By how much volumes change where the shape rounds on its way back, relative.
 double volume_rounding(const Model& model, const Solution& found, const Solution& rounded) {
   double largest = 0;
@@ -212,7 +211,7 @@ Solution solve(const Model& model, const Garment& garment, const SolverOptions& 
       solve_here(model_near, garment, near, start == nullptr ? nullptr : &from, seen_from_scan(progress, by),
                  seen_from_scan(body_volumes, by), moved(laid, by), seen_from_scan(folds, by));
   const Solution there = moved(found, -by);
-  if (volume_rounding(model_near, found, moved(there, by)) <= kKeptVolume) return there;
+  if (volume_rounding(model_near, found, moved(there, by)) <= kWanted.volume) return there;
   // Coordinates there are too coarse for a shape as small: what can be had of it is found among them.
   return solve_here(model, garment, options, start, progress, body_volumes, laid, folds);
 }

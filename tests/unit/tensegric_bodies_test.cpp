@@ -10,44 +10,33 @@ namespace {
 
 const std::string kLaunch = std::string(TENSEGRIC_FIT_SOURCE_DIR) + "/launch/";
 
-class TightGarment : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    settings_ = new fit::Settings;
-    settings_->control_mesh.control_triangles = 480;
-    fit::take_tissue(kLaunch + "tissue/fine.yaml", *settings_);
-    fit::StageTimes times;
-    body_ =
-        new fit::Body(fit::measure_mesh(test::KnownBody{"model", "4"}.surface().surface, *settings_, times));
-    const std::vector<control_mesh::Template> patterns{
-        control_mesh::load_template(kLaunch + "templates/hips.yaml")};
-    fitting_ = new fit::Fitting(fit::prepare(*body_, patterns, *settings_, times));
-  }
-  static void TearDownTestSuite() {
-    delete fitting_;
-    delete body_;
-    delete settings_;
-  }
+fit::Settings fine_settings() {
+  fit::Settings settings;
+  settings.control_mesh.control_triangles = 480;
+  fit::take_tissue(kLaunch + "tissue/fine.yaml", settings);
+  return settings;
+}
 
-  static Solution worn(const std::string& name, double ratio) {
-    Garment garment = load_garment(kLaunch + "garments/" + name + ".yaml");
-    set_ratio(garment, "", ratio);
-    return solve(fitting_->model, garment, settings_->solver, nullptr, {}, {},
-                 fit::laid_lines(*body_, *fitting_, garment));
-  }
-
-  static fit::Settings* settings_;
-  static fit::Body* body_;
-  static fit::Fitting* fitting_;
+/// A customer of the booth whose hips have 480 control triangles and three layers of tissue.
+struct FineHips {
+  fit::StageTimes times;
+  fit::Settings settings = fine_settings();
+  fit::Body body = fit::measure_mesh(test::KnownBody{"model", "4"}.surface().surface, settings, times);
+  fit::Fitting fitting =
+      fit::prepare(body, {control_mesh::load_template(kLaunch + "templates/hips.yaml")}, settings, times);
 };
 
-fit::Settings* TightGarment::settings_ = nullptr;
-fit::Body* TightGarment::body_ = nullptr;
-fit::Fitting* TightGarment::fitting_ = nullptr;
+Solution worn(const std::string& name, double ratio) {
+  static const FineHips hips;
+  Garment garment = load_garment(kLaunch + "garments/" + name + ".yaml");
+  set_ratio(garment, "", ratio);
+  return solve(hips.fitting.model, garment, hips.settings.solver, nullptr, {}, {},
+               fit::laid_lines(hips.body, hips.fitting, garment));
+}
 
 // On fine meshes some units are nearly flat at rest, and rounding ends their balance above the residual that
 // is aimed at. Holds waited for that residual: load steps ran to 80 iterations and were halved, 280 in all.
-TEST_F(TightGarment, LinesAtTheirGreatestPullTakeFewIterations) {
+TEST(TightGarment, LinesAtTheirGreatestPullTakeFewIterations) {
   const Solution solution = worn("H2", 0.80);
   EXPECT_EQ(to_string(solution.status), "infeasible");
   EXPECT_LT(solution.residual, 1e-8);
@@ -55,7 +44,7 @@ TEST_F(TightGarment, LinesAtTheirGreatestPullTakeFewIterations) {
 }
 
 // Where pushes of fold barriers were cut with the way of the nodes, it took 103 iterations.
-TEST_F(TightGarment, BarriersFindTheirPushesInAFewIterations) {
+TEST(TightGarment, BarriersFindTheirPushesInAFewIterations) {
   const Solution solution = worn("H3", 0.80);
   EXPECT_EQ(to_string(solution.status), "infeasible");
   EXPECT_LT(solution.residual, 1e-8);
