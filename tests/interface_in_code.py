@@ -354,7 +354,7 @@ def actions():
     for node, main in nodes().items():
         for file in files_of(main):
             if "SimpleActionServer" in source(file):
-                found |= {(text_in(arguments[1]), node) for _, arguments in calls(source(file), r"\bserver_")
+                found |= {(text_in(arguments[1]), node) for _, arguments in calls(source(file), r"\bmake_unique<Server>")
                           if len(arguments) == 3 and text_in(arguments[1])}
     return found
 

@@ -4,9 +4,11 @@
 #include <std_srvs/Trigger.h>
 #include <tensegric_fit/CaptureAction.h>
 
+#include <algorithm>
 #include <chrono>
 #include <future>
 #include <map>
+#include <memory>
 #include <thread>
 
 #include "capture/capture_handler.hpp"
@@ -24,6 +26,8 @@ using sensor_msgs::PointCloud2;
 constexpr double kLatched = 1;     // s until a node that starts has heard what was there before
 constexpr double kConnecting = 2;  // s that sensors may take to be connected to before the trigger is pulled
 constexpr double kTick = 0.1;      // s
+constexpr int kIdle = 3;           // ticks since the last goal: its result is on its way
+constexpr double kStep = 0.5;      // s that a clock is set back by; less is over before the next goal
 
 double now() {
   return ros::SteadyTime::now().toSec();
@@ -71,15 +75,12 @@ class CaptureNode {
   CaptureNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
       : node_(node),
         handler_(Parameters(private_node), node.getNamespace()),
-        trigger_(node, handler_.trigger()),
-        server_(node, "capture", false) {
+        trigger_(node, handler_.trigger()) {
     subscribers_ = {node.subscribe("scan/points", 4, &CaptureNode::on_scan, this),
                     node.subscribe("body/landmarks", 4, &CaptureNode::on_landmarks, this),
                     node.subscribe("/diagnostics", 100, &CaptureNode::on_diagnostics, this)};
-    server_.registerGoalCallback([this] { on_goal(); });
-    server_.registerPreemptCallback([this] { on_preempt(); });
     clock_ = node.createWallTimer(ros::WallDuration(kTick), [this](const ros::WallTimerEvent&) { go_on(); });
-    const auto open = [this](const ros::WallTimerEvent&) { server_.start(); };
+    const auto open = [this](const ros::WallTimerEvent&) { serve(); };
     opening_ = node.createWallTimer(ros::WallDuration(kLatched), open, true);
   }
 
@@ -91,8 +92,28 @@ class CaptureNode {
   }
 
  private:
+  void serve() {
+    server_.reset();  // first: the topics are the same
+    server_ = std::make_unique<Server>(node_, "capture", false);
+    server_->registerGoalCallback([this] { on_goal(); });
+    server_->registerPreemptCallback([this] { on_preempt(); });
+    server_->start();
+  }
+
+  /// actionlib drops goals that are stamped before its last one: for an hour where the clock was set back by
+  /// one.
+  void follow_clock() {
+    const double time = ros::Time::now().toSec();
+    went_back_ = went_back_ || time < newest_ - kStep;
+    newest_ = went_back_ ? time : std::max(newest_, time);
+    idle_ = handler_.is_busy() ? 0 : idle_ + 1;
+    if (!went_back_ || !server_ || idle_ < kIdle) return;
+    serve();
+    went_back_ = false;
+  }
+
   void on_goal() {
-    goal_ = server_.acceptNewGoal();
+    goal_ = server_->acceptNewGoal();
     try {
       handler_.begin(*goal_, now());
       for (const std::string& sensor : goal_->sensors) listen_to(sensor);
@@ -106,7 +127,7 @@ class CaptureNode {
 
   void on_preempt() {
     handler_.stop();
-    if (!server_.isNewGoalAvailable()) server_.setPreempted();  // else the new goal takes its place
+    if (!server_->isNewGoalAvailable()) server_->setPreempted();  // else the new goal takes its place
   }
 
   static CaptureResult refused(const std::string& code, const std::string& message) {
@@ -147,6 +168,7 @@ class CaptureNode {
   }
 
   void go_on() {
+    follow_clock();
     const std::string complaint = trigger_.complaint();
     if (!handler_.is_busy()) return;
     const bool waited = handler_.waits_for_trigger();
@@ -157,7 +179,7 @@ class CaptureNode {
     else if (const auto result = handler_.result(now()))
       finish(*result);
     else
-      server_.publishFeedback(handler_.feedback(now()));
+      server_->publishFeedback(handler_.feedback(now()));
   }
 
   void finish(const CaptureResult& result) {
@@ -165,9 +187,9 @@ class CaptureNode {
     ROS_INFO("capture: scan %s: %s %s", result.scan_id.c_str(),
              result.measured ? "measured" : result.code.c_str(), log_words(result.message).c_str());
     if (result.measured)
-      server_.setSucceeded(result);
+      server_->setSucceeded(result);
     else
-      server_.setAborted(result, result.code + ": " + result.message);
+      server_->setAborted(result, result.code + ": " + result.message);
   }
 
   using Server = actionlib::SimpleActionServer<CaptureAction>;
@@ -178,8 +200,11 @@ class CaptureNode {
   ros::Subscriber deformed_;
   std::vector<ros::Subscriber> subscribers_;
   BoothTrigger trigger_;
-  Server server_;
+  std::unique_ptr<Server> server_;  // null until it is opened
   Server::GoalConstPtr goal_;
+  double newest_ = 0;  // s, of the clock that goals are stamped by
+  bool went_back_ = false;
+  int idle_ = 0;  // ticks in a row
   ros::WallTimer clock_, opening_;
 };
 
