@@ -16,7 +16,7 @@ constexpr char kModelMagic[] = "tensegric_fit body model 1";
 constexpr double kRounding = 0.001;                          // that shares of a skin point are written with
 constexpr double kLeastStature = 1, kGreatestStature = 2.5;  // m
 constexpr double kByte = 255;  // weights are shares in 255ths (definition of the format: README.md)
-constexpr int kMost = 256;     // bones, parts: a vertex names them by a byte
+constexpr int kMost = 255;     // bones, parts: a vertex names them by a byte, 255 is a part that nobody knows
 
 bool is_index(double value, std::size_t size) {
   return value >= 0 && value < static_cast<double>(size);
@@ -50,14 +50,11 @@ void take_header(const Json& header, const Check& check, Model& model) {
 }
 
 void take_arrays(const ArrayFile& file, const Check& check, Model& model) {
-  const auto array = [&](const std::string& name, const std::vector<std::size_t>& shape) {
-    return file.numbers(name, shape);
-  };
   static_cast<Skinned&>(model) = skinned_in(file, "", model.bones.size(), check);
   const std::size_t vertices = model.mean.size(), components = static_cast<std::size_t>(model.components());
   const std::size_t inner = model.bones.size() + model.bone_points.size();
-  model.inner_mean = geometry::points(array("extra_mean", {inner, 3}));
-  const std::vector<double> inner_basis = array("extra_basis", {components, inner, 3});
+  model.inner_mean = geometry::points(file.numbers("extra_mean", {inner, 3}));
+  const std::vector<double> inner_basis = file.numbers("extra_basis", {components, inner, 3});
   model.inner_basis =
       Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
           inner_basis.data(), static_cast<Eigen::Index>(components), static_cast<Eigen::Index>(3 * inner));
@@ -72,7 +69,7 @@ void take_arrays(const ArrayFile& file, const Check& check, Model& model) {
       if (is_arm(model.carriers[v][j])) arm += model.weights[v][j];
     model.arm.push_back(arm);
   }
-  for (const double p : array("parts", {vertices})) {
+  for (const double p : file.numbers("parts", {vertices})) {
     check(is_index(p, model.parts.size()), "a vertex' part");
     model.part.push_back(static_cast<unsigned char>(p));
   }
@@ -85,11 +82,16 @@ void take_arrays(const ArrayFile& file, const Check& check, Model& model) {
     check(std::abs(sum - 1) < kRounding, "a skin point's shares");
     for (auto& share : point.vertices) share.second /= sum;
   }
-  for (const double v : array("fit_points", {0})) {
-    check(is_index(v, vertices), "a fit point");
+  std::vector<char> on_quad(vertices, 0);  // each fit point stands for the skin round it
+  for (const Eigen::Vector3i& t : model.triangles)
+    for (const int v : t) on_quad[v] = 1;
+  for (const double v : file.numbers("fit_points", {0})) {
+    check(is_index(v, vertices) && on_quad[static_cast<std::size_t>(v)], "a fit point of no quad, or twice");
     model.fit_points.push_back(static_cast<int>(v));
+    on_quad[model.fit_points.back()] = 0;
   }
-  model.fit_weights = array("fit_weights", {model.fit_points.size()});
+  model.fit_weights = file.numbers("fit_weights", {model.fit_points.size()});
+  check(*std::min_element(model.fit_weights.begin(), model.fit_weights.end()) >= 0, "a fit point's weight");
 }
 
 /// What other code asks for by name: a file without it would fail with the first customer.
@@ -97,27 +99,30 @@ void check_names(const Model& model, const Check& check) {
   const auto has = [](const auto& list, const std::string& name) {
     return std::any_of(list.begin(), list.end(), [&](const auto& entry) { return entry.name == name; });
   };
-  const auto needed = [&](const char* what, std::initializer_list<const char*> names, const char* separator,
+  const auto needed = [&](const std::string& what, std::initializer_list<const char*> names,
                           const auto& is_there) {
-    for (const char* name : names)
-      for (const char* side : {"L", "R"}) {
-        const std::string full = *separator ? name + std::string(separator) + side : name;
-        check(is_there(full), std::string(what) + " '" + full + "' is missing");
-      }
+    for (const char* name : names) check(is_there(name), what + " '" + name + "' is missing");
   };
   const auto is_bone = [&](const std::string& name) { return has(model.bones, name); };
   const auto is_group = [&](const std::string& name) { return model.group_named(name) >= 0; };
   const auto is_part = [&](const std::string& name) { return model.part_named(name) >= 0; };
   const auto is_skin_point = [&](const std::string& name) { return has(model.skin_points, name); };
   const auto is_bone_point = [&](const std::string& name) { return has(model.bone_points, name); };
-  needed("bone", {"upperarm01", "lowerarm01", "upperleg01", "lowerleg01", "foot"}, ".", is_bone);
-  needed("group", {"arm", "forearm"}, "_", is_group);
-  needed("part", {"head", "neck", "trunk"}, "", is_part);
-  needed("part", {"breast", "upper_arm", "forearm", "hand", "thigh", "shank", "foot"}, "_", is_part);
-  needed("skin point", {"crotch", "navel", "neck_front", "neck_back", "neck_ring_front", "neck_ring_back"},
-         "", is_skin_point);
-  needed("skin point", {"bust_point", "underbust", "neck_side", "neck_ring"}, "_", is_skin_point);
-  needed("bone point", {"acromion"}, "_", is_bone_point);
+  needed("bone",
+         {"upperarm01.L", "upperarm01.R", "lowerarm01.L", "lowerarm01.R", "upperleg01.L", "upperleg01.R",
+          "lowerleg01.L", "lowerleg01.R", "foot.L", "foot.R"},
+         is_bone);
+  needed("group", {"arm_L", "arm_R", "forearm_L", "forearm_R"}, is_group);
+  needed("part",
+         {"head", "neck", "trunk", "breast_L", "breast_R", "upper_arm_L", "upper_arm_R", "forearm_L",
+          "forearm_R", "hand_L", "hand_R", "thigh_L", "thigh_R", "shank_L", "shank_R", "foot_L", "foot_R"},
+         is_part);
+  needed("skin point",
+         {"crotch", "navel", "neck_front", "neck_back", "neck_side_L", "neck_side_R", "neck_ring_front",
+          "neck_ring_back", "neck_ring_L", "neck_ring_R", "bust_point_L", "bust_point_R", "underbust_L",
+          "underbust_R"},
+         is_skin_point);
+  needed("bone point", {"acromion_L", "acromion_R"}, is_bone_point);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "body_model/matching.hpp"
 #include "body_model/parts.hpp"
 #include "body_model/recognition.hpp"
 #include "geometry/status.hpp"
@@ -15,6 +16,10 @@ using body_model::RegisteredBody;
 using geometry::Refusal;
 
 constexpr double kUnit = 1e-6;  // of a length that is one
+// Numerical tolerances, far beyond what a registration finds: numbers outside them overflow, or ask for
+// memory by the size of a body that nobody has.
+constexpr double kLeastResidual = 1e-6;  // m
+constexpr double kLargestScale = 10, kLargestShape = 100;
 
 void check(bool holds, const std::string& what) {
   if (!holds) throw Refusal(geometry::refusal::kBadModel, "body model: " + what);
@@ -33,11 +38,6 @@ std::vector<std::string> names_of(const std::vector<Named>& named) {
   return names;
 }
 
-template <typename Numbers>
-Eigen::Vector3d vector_in(const Numbers& numbers) {
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
 void check_numbers(const BodyModel& message) {
   check_finite(message.turns, "turns");
   check_finite(message.shape, "shape");
@@ -49,6 +49,19 @@ void check_numbers(const BodyModel& message) {
   check_finite(std::initializer_list<double>{message.residual, message.ground, message.ground_deviation,
                                              message.scale},
                "residual, ground, its deviation or scale");
+}
+
+void check_ranges(const BodyModel& message) {
+  check(message.residual > kLeastResidual && message.residual <= body_model::Matching::kUnmatched,
+        "its residual is none of a registration");
+  check(message.ground_deviation >= 0 && message.ground_deviation <= kFarthest,
+        "its ground has no deviation that can be");
+  check(std::max(std::abs(message.ground),
+                 Eigen::Vector3d::Map(message.position.data()).cwiseAbs().maxCoeff()) <= kFarthest,
+        "it is 10,000 km away");
+  for (const auto* distances : {&message.off, &message.support})
+    check(*std::min_element(distances->begin(), distances->end()) >= 0, "a distance is below 0");
+  check(std::abs(Eigen::Vector3d::Map(message.up.data()).norm() - 1) < kUnit, "its `up` is no unit vector");
 }
 
 void check_sizes(const BodyModel& message, const body_model::Model& model) {
@@ -70,15 +83,15 @@ body_model::Parameters parameters_in(const BodyModel& message, const body_model:
   body_model::Parameters parameters(model);
   parameters.rotation =
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(message.rotation.data());
-  parameters.position = vector_in(message.position);
+  parameters.position = Eigen::Vector3d::Map(message.position.data());
   check(parameters.rotation.isUnitary(kUnit) && parameters.rotation.determinant() > 0,
         "its matrix is not a rotation");
-  check(message.scale > 0, "its scale is not above 0");
-  check(message.residual > 0, "its residual is not above 0");
+  check(message.scale > 1 / kLargestScale && message.scale < kLargestScale, "its scale is no person's");
   parameters.log_scale = std::log(message.scale);
   parameters.turns = points_in(message.turns);
   parameters.shape =
       Eigen::VectorXd::Map(message.shape.data(), static_cast<Eigen::Index>(message.shape.size()));
+  check(parameters.shape.norm() < kLargestShape, "its shape is no person's");
   return parameters;
 }
 
@@ -127,6 +140,7 @@ RegisteredBody registered_in(const BodyModel& message,
                                                       "'; send the scan anew, or its mesh alone");
   check_sizes(message, *model);
   check_numbers(message);
+  check_ranges(message);
   RegisteredBody body;
   body.model = model;
   body.parameters = parameters_in(message, *model);
@@ -138,10 +152,8 @@ RegisteredBody registered_in(const BodyModel& message,
   body.joints = points_in(message.joints);
   body.bone_points = points_in(message.bone_points);
   body.scanned = message.scanned != 0;
-  body.vertical = vector_in(message.up);
-  check(std::abs(body.vertical.norm() - 1) < kUnit, "its `up` is no unit vector");
+  body.vertical = Eigen::Vector3d::Map(message.up.data());
   body.ground = message.ground;
-  check(message.ground_deviation >= 0, "its ground has a deviation below 0");
   body.ground_deviation = message.ground_deviation;
   body.there = body_model::shares_there(body);
   return body;

@@ -62,6 +62,7 @@ std::vector<Eigen::Vector3d> even_steps(const std::vector<Eigen::Vector3d>& line
 std::vector<Eigen::Vector3d> first_harmonics(std::vector<Eigen::Vector3d> loop, int harmonics, int count) {
   loop.push_back(loop.front());
   const double whole = length_of(loop, false);
+  if (!(whole > 0)) return std::vector<Eigen::Vector3d>(count, loop.front());
   loop = even_steps(loop, whole / count, whole);
   count = static_cast<int>(loop.size());  // rounding may add one
   const Eigen::Vector3d middle = mean_of(loop);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geometry/even_steps.hpp"
+#include "geometry/status.hpp"
 
 namespace tensegric_fit::landmarks {
 namespace {
@@ -12,6 +14,7 @@ using Eigen::Vector3d;
 using geometry::SectionLoop;
 
 constexpr double kSlab = 0.02;           // m
+constexpr double kHighest = 10;          // m, numerical tolerance: memory is taken by height
 constexpr double kProfileSmoothing = 4;  // steps: deviation of the Gaussian that takes noise out of a profile
 constexpr std::size_t kFewest = 8;       // points of a loop; less are slivers where an arm was cut off
 
@@ -43,17 +46,20 @@ std::vector<SectionLoop> cut(const Surface& surface, const Vector3d& origin, con
   return without_slivers(geometry::plane_section(geometry::submesh(surface.mesh, through), origin, normal));
 }
 
-Trunk::Trunk(const Surface& surface) : surface_(surface) {
-  const auto box = geometry::bounding_box(surface.mesh.vertices);
+Trunk::Trunk(Surface surface) : surface_(std::move(surface)) {
+  const geometry::TriangleMesh& mesh = surface_.mesh;
+  const auto box = geometry::bounding_box(mesh.vertices);
   bottom_ = box[0].z();
+  if (!(box[1].z() - bottom_ < kHighest))
+    throw geometry::Refusal(geometry::refusal::kBadMesh, "the mesh is higher than 10 m");
   triangles_in_.resize(static_cast<std::size_t>((box[1].z() - bottom_) / kSlab) + 1);
-  for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i) {
-    const Eigen::Vector3i& t = surface.mesh.triangles[i];
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Eigen::Vector3i& t = mesh.triangles[i];
     if (!(*this)(t)) continue;
     double low = box[1].z(), high = bottom_;
     for (int k = 0; k < 3; ++k) {
-      low = std::min(low, surface.mesh.vertices[t[k]].z());
-      high = std::max(high, surface.mesh.vertices[t[k]].z());
+      low = std::min(low, mesh.vertices[t[k]].z());
+      high = std::max(high, mesh.vertices[t[k]].z());
     }
     for (auto s = static_cast<std::size_t>((low - bottom_) / kSlab);
          s <= static_cast<std::size_t>((high - bottom_) / kSlab); ++s)

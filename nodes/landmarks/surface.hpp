@@ -38,7 +38,8 @@ std::vector<geometry::SectionLoop> cut(const Surface& surface, const Eigen::Vect
 /// The trunk, legs and head: all but the triangles of arms.
 class Trunk {
  public:
-  explicit Trunk(const Surface& surface);
+  /// \throw Refusal bad_mesh: higher than 10 m
+  explicit Trunk(Surface surface);
   bool operator()(const Eigen::Vector3i& triangle) const;
 
   /// Level sections, however many are asked for: only triangles near the height are looked at.
@@ -51,7 +52,7 @@ class Trunk {
   const Surface& surface() const { return surface_; }
 
  private:
-  const Surface& surface_;
+  Surface surface_;
   double bottom_ = 0;
   std::vector<std::vector<int>> triangles_in_;  ///< of each slab: those that reach into it
 };

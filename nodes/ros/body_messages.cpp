@@ -53,7 +53,9 @@ std::vector<std::uint8_t> bytes_of(const std::vector<char>& flags) {
 }
 
 std::vector<char> flags_in(const std::vector<std::uint8_t>& bytes) {
-  return {bytes.begin(), bytes.end()};
+  std::vector<char> flags;
+  for (const std::uint8_t byte : bytes) flags.push_back(static_cast<char>(byte != 0));
+  return flags;
 }
 
 std::vector<std::uint32_t> numbers_of(const std::vector<int>& numbers) {

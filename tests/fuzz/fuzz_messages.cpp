@@ -140,6 +140,8 @@ const body_model::RegisteredBody& mean_woman() {
     mean.posed = mean.skin = posed.vertices();
     mean.off.assign(mean.skin.size(), 0);
     mean.support.assign(mean.skin.size(), 0);
+    mean.residual = 0.003;  // m; 0, which no registration leaves, is refused
+    mean.ground = geometry::bounding_box(mean.skin)[0].z();
     for (std::size_t b = 0; b < mean.model->bones.size(); ++b)
       mean.joints.push_back(posed.joint(static_cast<int>(b)));
     for (std::size_t i = 0; i < mean.model->bone_points.size(); ++i)
@@ -260,7 +262,8 @@ void carry_skin(fuzz::Input& input) {
 void find_landmarks(fuzz::Input& input) {
   static const LandmarksHandler fresh(Parameters(YAML::Load("{}"), "landmarks"));
   LandmarksHandler stage = fresh;
-  const auto mesh = boost::make_shared<TriangleMesh>(body());
+  const auto mesh = boost::make_shared<TriangleMesh>(
+      to_message(ScanTag(), {mean_woman().skin, mean_woman().model->triangles}, {}));
   const auto model = boost::make_shared<BodyModel>(sound_model());
   change(input, *mesh);
   change(input, *model);

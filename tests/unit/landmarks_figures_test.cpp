@@ -268,6 +268,10 @@ TEST_F(PrecisionFile, IsRefusedByTheNameOfWhatIsWrong) {
   expect_named(replaced(file_with(kFigure), "[0.003, 0.004]", "[0.003]"), "span: scan");
   expect_named("made: x\nbodies: y\nspan: {mesh: [1, 2], scan: [1, 2]}\nmesh: {}\n", "scan");
   expect_named("mesh: [1, 2]\nscan: {}\n", "mesh");
+  expect_named(replaced(file_with(kFigure), "[0.003, 0.004]", "[0.003, wide]"), "scan");
+  expect_named(file_with("{disagreement: 0.1, half_width: 2, half_width_of_model: 3}"), "mesh");
+  expect_named(replaced(file_with(kFigure), "scan:\n  girth bust:", "scan:\n  [girth, bust]:"), "name");
+  expect_named(file_with(kFigure) + "  girth bust: " + kFigure + "\n", "twice");
   expect_named("no map", path_);
   EXPECT_THROW(load_precision(path_ + ".none"), geometry::Refusal);
 }

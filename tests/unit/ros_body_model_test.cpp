@@ -160,9 +160,16 @@ TEST(BodyModelMessage, WhatDoesNotFitTheModelIsRefusedByName) {
     EXPECT_EQ(refused([&](BodyModel& bad) { std::swap((bad.*names)[0], (bad.*names)[1]); }), "bad_model");
   EXPECT_EQ(refused([](BodyModel& bad) { bad.rotation[0] = 2; }), "bad_model");
   EXPECT_EQ(refused([](BodyModel& bad) { bad.up[2] = 2; }), "bad_model");
-  EXPECT_EQ(refused([](BodyModel& bad) { bad.scale = 0; }), "bad_model");
-  EXPECT_EQ(refused([](BodyModel& bad) { bad.residual = 0; }), "bad_model");
-  EXPECT_EQ(refused([](BodyModel& bad) { bad.ground_deviation = -0.001; }), "bad_model");
+  for (const double scale : {0.0, -1.0, 1e-6, 1e6})
+    EXPECT_EQ(refused([scale](BodyModel& bad) { bad.scale = scale; }), "bad_model") << scale;
+  for (const double residual : {0.0, 1e-300, 0.06, 1e300})
+    EXPECT_EQ(refused([residual](BodyModel& bad) { bad.residual = residual; }), "bad_model") << residual;
+  for (const double deviation : {-0.001, 1e300})
+    EXPECT_EQ(refused([deviation](BodyModel& bad) { bad.ground_deviation = deviation; }), "bad_model");
+  EXPECT_EQ(refused([](BodyModel& bad) { bad.ground = 5e13; }), "bad_model");
+  EXPECT_EQ(refused([](BodyModel& bad) { bad.position[1] = -1e300; }), "bad_model");
+  EXPECT_EQ(refused([](BodyModel& bad) { bad.shape[2] = 1e300; }), "bad_model");
+  EXPECT_EQ(refused([](BodyModel& bad) { bad.support[3] = -1; }), "bad_model");
   for (double BodyModel::*number :
        {&BodyModel::residual, &BodyModel::ground, &BodyModel::ground_deviation, &BodyModel::scale})
     EXPECT_EQ(refused([&](BodyModel& bad) { bad.*number = std::nan(""); }), "non_finite");
@@ -235,6 +242,24 @@ TEST(LandmarksHandlerTest, RegistersTheModelToAMeshThatComesAlone) {
       landmarks::find_landmarks(her_mesh(), {}, woman(), landmarks::shipped_precision());
   for (const char* name : {"bust", "underbust", "crotch"})
     EXPECT_NEAR(output.measures.height(name), direct.height(name), 0.004) << name;  // ISO 20685
+}
+
+TEST(LandmarksHandlerTest, AMeshThatReachesHigherThanAnybodyIsRefused) {
+  const LandmarksHandler stage = landmarks_handler();
+  geometry::TriangleMesh mesh = her_mesh();
+  mesh.vertices.back().z() = 1e6;  // slabs of 2 cm would take gigabytes
+  const auto message = boost::make_shared<TriangleMesh>(to_message(tag("A"), mesh, {}));
+  EXPECT_EQ(code_of([&] { stage.handle({message, model_of("A")}); }), "bad_mesh");
+}
+
+TEST(TriangleMeshMessage, AnyByteButZeroIsAFlag) {
+  TriangleMesh message = to_message(tag("A"), her_mesh(), {});
+  message.filled[1] = 255;
+  message.filled[2] = 2;
+  const std::vector<char> filled = filled_in(message);
+  EXPECT_EQ(filled[0], 0);
+  EXPECT_EQ(filled[1], 1);
+  EXPECT_EQ(filled[2], 1);
 }
 
 // An older bag has the mesh without its model.
