@@ -22,11 +22,10 @@ constexpr double kScales[] = {0.03, 0.02, 0.015, 0.012};  // m, of distances
 constexpr int kDisplacementSamples = 20000;
 constexpr int kShared = 5;  // nodes that a vertex takes its displacement from
 
-/// Nearest node of each vertex along the skin, and how far, m.
-void nearest_nodes(const Model& model, std::vector<int>& node, std::vector<double>& distance) {
+/// Nearest node of each vertex along the skin.
+std::vector<int> nearest_nodes(const Model& model) {
   const auto around = geometry::neighbours_of(model.mean.size(), model.triangles);
-  node.assign(model.mean.size(), -1);
-  distance.assign(model.mean.size(), 1e9);
+  std::vector<int> node(model.mean.size(), -1);
   using Entry = std::tuple<double, int, int>;  // distance, vertex, node
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
   for (std::size_t i = 0; i < model.fit_points.size(); ++i)
@@ -36,18 +35,16 @@ void nearest_nodes(const Model& model, std::vector<int>& node, std::vector<doubl
     front.pop();
     if (node[v] >= 0) continue;
     node[v] = n;
-    distance[v] = far;
     for (const int w : around[v])
       if (node[w] < 0) front.emplace(far + (model.mean[v] - model.mean[w]).norm(), w, n);
   }
+  return node;
 }
 
 }  // namespace
 
 SkinField::SkinField(const Model& model) {
-  std::vector<int> node;
-  std::vector<double> distance;
-  nearest_nodes(model, node, distance);
+  const std::vector<int> node = nearest_nodes(model);
   area_.assign(model.fit_points.size(), 0);
   std::set<std::pair<int, int>> pairs;
   for (const Eigen::Vector3i& t : model.triangles) {
@@ -104,20 +101,6 @@ Eigen::SparseMatrix<double> SkinField::precision(double deviation, double range)
   return k.transpose() * inverse_area * k;
 }
 
-std::vector<Vector3d> SkinField::spread(const std::vector<Vector3d>& at_nodes) const {
-  std::vector<Vector3d> result(shares_.size(), Vector3d::Zero());
-  for (std::size_t v = 0; v < shares_.size(); ++v)
-    for (const auto& [n, w] : shares_[v]) result[v] += w * at_nodes[n];
-  return result;
-}
-
-std::vector<double> SkinField::spread(const std::vector<double>& at_nodes) const {
-  std::vector<double> result(shares_.size(), 0);
-  for (std::size_t v = 0; v < shares_.size(); ++v)
-    for (const auto& [n, w] : shares_[v]) result[v] += w * at_nodes[n];
-  return result;
-}
-
 Displaced displace(const Model& model, const SkinField& field, const Matcher& matcher,
                    const Parameters& parameters) {
   const PosedModel posed(model, parameters);
@@ -148,7 +131,7 @@ Displaced displace(const Model& model, const SkinField& field, const Matcher& ma
     solver.factorize(matrix);
     const Eigen::MatrixX3d solution = solver.solve(rhs);
     for (int i = 0; i < n; ++i) moved[i] = solution.row(i);
-    const std::vector<Vector3d> offsets = field.spread(moved);
+    const std::vector<Vector3d> offsets = field.spread<Vector3d>(moved, Vector3d::Zero());
     for (std::size_t v = 0; v < skin.size(); ++v) result.vertices[v] = skin[v] + offsets[v];
   }
   return result;

@@ -20,8 +20,13 @@ class SkinField {
   /// eq. 10).
   Eigen::SparseMatrix<double> precision(double deviation, double range) const;
   /// One value per vertex of the skin from one per node.
-  std::vector<Eigen::Vector3d> spread(const std::vector<Eigen::Vector3d>& at_nodes) const;
-  std::vector<double> spread(const std::vector<double>& at_nodes) const;
+  template <typename Value>
+  std::vector<Value> spread(const std::vector<Value>& at_nodes, const Value& zero = {}) const {
+    std::vector<Value> result(shares_.size(), zero);
+    for (std::size_t v = 0; v < shares_.size(); ++v)
+      for (const auto& [n, w] : shares_[v]) result[v] += w * at_nodes[n];
+    return result;
+  }
 
  private:
   std::vector<double> area_;                     ///< m^2, of the skin at rest that is nearest to a node

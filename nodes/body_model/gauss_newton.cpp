@@ -135,15 +135,13 @@ void normal_equations(const PosedModel& posed, const std::vector<int>& vertices,
 }  // namespace
 
 Fitted fit_stage(const Model& model, const Matcher& matcher, Parameters start, const Stage& stage) {
-  Fitted fitted{std::move(start), {}, 0, {}};
+  Fitted fitted{std::move(start), {}, 0};
   Parameters& p = fitted.parameters;
   const FitPoints points(model, p, stage.every);
   const double stature = p.log_scale;
   const int active = p.shape_at() + std::min(stage.components, model.components());
   for (int i = 0; i < stage.iterations; ++i) {
-    const double scale =
-        stage.from *
-        std::pow(stage.to / stage.from, stage.iterations < 2 ? 1.0 : double(i) / (stage.iterations - 1));
+    const double scale = stage.from * std::pow(stage.to / stage.from, double(i) / (stage.iterations - 1));
     const double noise = std::max(kNoisePerScale * scale, kLeastNoise);
     const PosedModel posed(model, p);
     fitted.matching = matcher.match(points.skin(posed), scale, stage.samples);
@@ -156,15 +154,13 @@ Fitted fit_stage(const Model& model, const Matcher& matcher, Parameters start, c
     matrix /= noise * noise;
     matrix.diagonal() += prior.precision.head(active);
     gradient = gradient / (noise * noise) + prior.precision.cwiseProduct(prior.off).head(active);
-    matrix.triangularView<Eigen::StrictlyUpper>() = matrix.transpose();
     VectorXd step = VectorXd::Zero(p.count());
-    step.head(active) = -matrix.ldlt().solve(gradient);
+    step.head(active) = -matrix.ldlt().solve(gradient);  // which reads the lower half
     const int turns = p.shape_at() - Parameters::kTurns;
     const double turn = std::max(step.head<3>().cwiseAbs().maxCoeff(),
                                  step.segment(Parameters::kTurns, turns).cwiseAbs().maxCoeff());
     if (turn > kLargestTurn) step *= kLargestTurn / turn;
     p = p.plus(step);
-    fitted.precision = std::move(matrix);
   }
   return fitted;
 }

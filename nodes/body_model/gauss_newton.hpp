@@ -9,10 +9,10 @@ namespace tensegric_fit::body_model {
 /// A part of the way, coarse to fine.
 struct Stage {
   double from, to;  ///< m, scale of distances in the first and the last iteration
-  int iterations;
-  int every;       ///< n-th fit point takes part
-  int samples;     ///< that look for the model in their turn
-  int components;  ///< of the shape that are free
+  int iterations;   ///< two at least
+  int every;        ///< n-th fit point takes part
+  int samples;      ///< that look for the model in their turn
+  int components;   ///< of the shape that are free
 };
 
 struct Fitted {
@@ -20,7 +20,6 @@ struct Fitted {
   Matching matching;  ///< of the last iteration, with the fit points that took part
   double surprise;    ///< minus the logarithm of its probability, but for a constant: samples and prior,
                       ///< whatever of the model they lack
-  Eigen::MatrixXd precision;  ///< of the parameters that were free: data and prior
 };
 
 /// \pre samples in random order

@@ -39,7 +39,6 @@ void in_parallel(std::size_t count, const Work& work) {
 }  // namespace
 
 Matcher::Matcher(const Samples& samples) : samples_(samples), tree_(samples.points, samples.normals) {}
-Matcher::~Matcher() = default;
 
 Matching Matcher::match(const ModelSkin& skin, double scale, int samples) const {
   const std::size_t count = skin.points.size();

@@ -1,7 +1,6 @@
 /// Which sample belongs to which point of the model, and what that asks of the point.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "body_model/samples.hpp"
@@ -37,7 +36,6 @@ class Matcher {
  public:
   /// The samples, in random order, must outlive it.
   explicit Matcher(const Samples& samples);
-  ~Matcher();
   /// Distances beyond some 2.5 times `scale` (m) say nothing, shorter ones less the longer they are.
   /// `samples`: how many look back.
   Matching match(const ModelSkin& skin, double scale, int samples) const;

@@ -49,42 +49,34 @@ constexpr double kLeastThing = 0.004;  // of the surface, 70 cm^2: more than fin
 constexpr double kArmsLength = 0.3;    // m: so far a limb may have turned away from where the model has it
 constexpr double kTurned = 0.5;        // cosine between two normals of one skin
 
-/// Head and limbs from the trunk outwards, each with the part that it hangs on.
+/// Head and limbs from the trunk outwards, each with the part that it hangs on and the arm or leg that it is
+/// of.
 struct Limb {
-  const char *part, *on;
+  const char *part, *on, *of;
 };
-constexpr Limb kLimbs[] = {{"trunk", ""},
-                           {"head", ""},
-                           {"upper_arm_L", ""},
-                           {"forearm_L", "upper_arm_L"},
-                           {"hand_L", "forearm_L"},
-                           {"upper_arm_R", ""},
-                           {"forearm_R", "upper_arm_R"},
-                           {"hand_R", "forearm_R"},
-                           {"thigh_L", ""},
-                           {"shank_L", "thigh_L"},
-                           {"foot_L", "shank_L"},
-                           {"thigh_R", ""},
-                           {"shank_R", "thigh_R"},
-                           {"foot_R", "shank_R"}};
+constexpr Limb kLimbs[] = {{"trunk", "", ""},
+                           {"head", "", ""},
+                           {"upper_arm_L", "", "arm_L"},
+                           {"forearm_L", "upper_arm_L", "arm_L"},
+                           {"hand_L", "forearm_L", "arm_L"},
+                           {"upper_arm_R", "", "arm_R"},
+                           {"forearm_R", "upper_arm_R", "arm_R"},
+                           {"hand_R", "forearm_R", "arm_R"},
+                           {"thigh_L", "", "leg_L"},
+                           {"shank_L", "thigh_L", "leg_L"},
+                           {"foot_L", "shank_L", "leg_L"},
+                           {"thigh_R", "", "leg_R"},
+                           {"shank_R", "thigh_R", "leg_R"},
+                           {"foot_R", "shank_R", "leg_R"}};
 
 std::size_t asked(const Samples& samples) {
   return std::min<std::size_t>(kJudgedSamples, samples.points.size());
 }
 
-/// Arm or leg that a part belongs to, "" for the others.
-std::string limb_of(const std::string& part) {
-  for (const char* arm : {"upper_arm", "forearm", "hand"})
-    if (part.rfind(arm, 0) == 0) return "arm" + part.substr(part.size() - 2);
-  for (const char* leg : {"thigh", "shank", "foot"})
-    if (part.rfind(leg, 0) == 0) return "leg" + part.substr(part.size() - 2);
-  return "";
-}
-
 /// Arm or leg that each part belongs to, "" for the others.
 std::vector<std::string> limbs_of(const Model& model) {
-  std::vector<std::string> limbs;
-  for (const std::string& part : model.parts) limbs.push_back(limb_of(part));
+  std::vector<std::string> limbs(model.parts.size());
+  for (const Limb& limb : kLimbs) limbs[model.part_named(limb.part)] = limb.of;
   return limbs;
 }
 
@@ -390,9 +382,15 @@ std::vector<char> lost_skin(const RegisteredBody& body) {
   return run_into_others(body, [&](int v) { return !part_is_there[body.model->part[v]]; });
 }
 
-bool lacks_feet(const RegisteredBody& body) {
+std::array<bool, 2> sides_there(const RegisteredBody& body, const std::string& part) {
   const std::vector<char> there = parts_there(body);
-  return !there[body.model->part_named("foot_L")] && !there[body.model->part_named("foot_R")];
+  const auto is_there = [&](const char* side) { return there[body.model->part_named(part + side)] != 0; };
+  return {is_there("_L"), is_there("_R")};
+}
+
+bool lacks_feet(const RegisteredBody& body) {
+  const auto [left, right] = sides_there(body, "foot");
+  return !left && !right;
 }
 
 }  // namespace tensegric_fit::body_model

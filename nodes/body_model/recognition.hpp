@@ -1,6 +1,8 @@
 /// What was registered: whether it is a person, what of her is not there, and what is there besides her.
 #pragma once
 
+#include <array>
+#include <string>
 #include <vector>
 
 #include "body_model/registered_body.hpp"
@@ -19,16 +21,19 @@ std::vector<char> recognise(RegisteredBody& body, const Samples& samples);
 std::vector<double> shares_there(const RegisteredBody& body);
 
 /// Head and limbs (upper_arm_L, forearm_L, hand_L, thigh_L, shank_L, foot_L, ..._R) of which the scan has
-/// less than half, and the trunk, and `crown`, the top of the head; what hangs on a missing part is named in
+/// less than 55 %, and the trunk, and `crown`, the top of the head; what hangs on a missing part is named in
 /// its reason.
 std::vector<geometry::Missing> missing_parts(const RegisteredBody& body);
 
-/// Of each part of the model, whether the scan has at least about half of it.
+/// Of each part of the model, whether the scan has 55 % of it or more.
 std::vector<char> parts_there(const RegisteredBody& body);
 
 /// Of each vertex of the skin, whether it is of a limb that is not there and lies in or on other skin, which
 /// is then not the limb's.
 std::vector<char> lost_skin(const RegisteredBody& body);
+
+/// Whether the scan has 55 % or more of her left and of her right one of a part, as "foot".
+std::array<bool, 2> sides_there(const RegisteredBody& body, const std::string& part);
 
 /// Neither foot is there: nothing shows where she stands.
 bool lacks_feet(const RegisteredBody& body);

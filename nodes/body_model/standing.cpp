@@ -28,28 +28,9 @@ constexpr std::size_t kStray = 9;  // points that may lie below the feet
 
 constexpr double kApart = 3;  // deviations: of a normal variable one value in 370 is beyond
 
-/// Which legs and feet are there, left and right.
-struct Legs {
-  explicit Legs(const RegisteredBody& body) {
-    const std::vector<char> there = parts_there(body);
-    for (const int side : {0, 1}) {
-      const auto has = [&](const char* part) {
-        return there[body.model->part_named(part + std::string(side == 0 ? "_L" : "_R"))] != 0;
-      };
-      thigh[side] = has("thigh");
-      shank[side] = has("shank");
-      foot[side] = has("foot");
-    }
-  }
-  std::array<bool, 2> thigh, shank, foot;
-};
-
-bool both(const std::array<bool, 2>& sides) {
-  return sides[0] && sides[1];
-}
-
-bool neither(const std::array<bool, 2>& sides) {
-  return !sides[0] && !sides[1];
+bool has_both(const RegisteredBody& body, const char* part) {
+  const auto [left, right] = sides_there(body, part);
+  return left && right;
 }
 
 /// Of the model's soles, left and right or one, where pose and shape have them.
@@ -110,10 +91,9 @@ Stance stance_of(const RegisteredBody& body) {
 }
 
 Vector3d upright(const RegisteredBody& body, const Standing& standing) {
-  const Legs there(body);
-  if (!both(there.thigh) || !both(there.shank)) return body.vertical;
+  if (!has_both(body, "thigh") || !has_both(body, "shank")) return body.vertical;
   const Stance stance = stance_of(body);
-  const bool has_soles = both(there.foot);
+  const bool has_soles = has_both(body, "foot");
   const Vector3d shown = has_soles ? stance.up : stance.legs, forward = body.left().cross(shown).normalized();
   const Vector3d up =
       (shown - std::tan(has_soles ? standing.forwards : standing.legs_forwards) * forward).normalized();
@@ -125,10 +105,10 @@ Vector3d upright(const RegisteredBody& body, const Standing& standing) {
 }
 
 Ground ground_by_soles(const RegisteredBody& body, const Standing& standing) {
-  const Legs there(body);
-  const double deviation = neither(there.thigh) ? standing.without_thighs : standing.without_feet;
-  return {ground_by(body, neither(there.foot) ? soles_of(body) : soles_of(body, there.foot), standing),
-          deviation};
+  const auto [left, right] = sides_there(body, "thigh");
+  return {ground_by(body, lacks_feet(body) ? soles_of(body) : soles_of(body, sides_there(body, "foot")),
+                    standing),
+          left || right ? standing.without_feet : standing.without_thighs};
 }
 
 double deviation_of_ground(const RegisteredBody& body, double by_lowest, double deviation,

@@ -8,7 +8,6 @@ namespace tensegric_fit::landmarks {
 namespace {
 
 using Eigen::Vector2d;
-using Eigen::Vector3d;
 
 constexpr double kSearch = 2.5;   // deviations from where it is expected
 constexpr double kBump = 0.007;   // m: deviation of a Gaussian bump like a nipple in its areola

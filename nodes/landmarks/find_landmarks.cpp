@@ -6,9 +6,8 @@
 
 #include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
-#include "landmarks/body_frame.hpp"
+#include "landmarks/body_surface.hpp"
 #include "landmarks/finders.hpp"
-#include "landmarks/labels.hpp"
 
 namespace tensegric_fit::landmarks {
 namespace {
@@ -39,22 +38,15 @@ constexpr double kFoldDepth = 0.003;  // m under the straight edge; less is nois
 constexpr double kLevelArm =
     M_PI / 3;  // rad; an arm held out more has its axilla on a plane that rises with it (definition)
 
+std::string sided(const std::string& name, Side side) {
+  return name + kSuffix[side];
+}
+
 template <typename T>
 std::optional<Vector3d> as_figure(const std::optional<T>& value) {
   if (!value) return std::nullopt;
   return Vector3d(*value, 0, 0);
 }
-
-double length(const Tape& tape) {
-  return geometry::length_of(tape, true);
-}
-
-/// One of the two surfaces that a figure is read on.
-struct Source {
-  Surface surface;
-  Trunk trunk;
-  explicit Source(Surface s) : surface(std::move(s)), trunk(surface) {}
-};
 
 class Reader {
  public:
@@ -66,8 +58,8 @@ class Reader {
         mesh_(labelled(mesh, filled, model, frame_)),
         skin_(skin_of(model, model.skin, frame_)),
         shape_(skin_of(model, model.posed, frame_)),
-        normals_(geometry::vertex_normals(skin_.surface.mesh.vertices, skin_.surface.mesh.triangles)),
-        tree_(skin_.surface.mesh.vertices) {}
+        normals_(geometry::vertex_normals(skin_.surface().mesh.vertices, skin_.surface().mesh.triangles)),
+        tree_(skin_.surface().mesh.vertices) {}
 
   Reading read() {
     for (const Side side : kSides) bust_point(side);
@@ -126,7 +118,7 @@ class Reader {
   }
   void lacks(const std::string& name, const std::string& reason) { missing_.push_back({name, reason}); }
   bool is_seen(const std::optional<Vector3d>& on_mesh) const {
-    return on_mesh && unseen_share(mesh_.surface, *on_mesh, kSeen) < 0.5;
+    return on_mesh && unseen_share(mesh_.surface(), *on_mesh, kSeen) < 0.5;
   }
   const Figure* find(Kind kind, const std::string& name) const {
     const auto found = std::find_if(figures_.begin(), figures_.end(),
@@ -153,24 +145,24 @@ class Reader {
   }
 
   void bust_point(Side side) {
-    const std::string name = std::string("bust_point") + kSuffix[side];
+    const std::string name = sided("bust_point", side);
     const Vector3d there = expected(name);
     Vector3d outward = Vector3d::Zero();
     for (std::size_t v = 0; v < normals_.size(); ++v)
-      if ((skin_.surface.mesh.vertices[v] - there).norm() < kBreast && skin_.surface.arm[v] < 0.5)
+      if ((skin_.surface().mesh.vertices[v] - there).norm() < kBreast && skin_.surface().arm[v] < 0.5)
         outward += normals_[v];
     const double deviation = kNippleSpreads * spread_of_model(name, support_at(there));
-    const auto nipple = find_nipple(mesh_.surface, there, deviation, outward.normalized());
+    const auto nipple = find_nipple(mesh_.surface(), there, deviation, outward.normalized());
     const auto on_mesh = nipple ? std::optional<Vector3d>(nipple->place) : std::nullopt;
     add(Kind::point, name, on_mesh, there, support_at(there), is_seen(on_mesh), nipple ? nipple->shift : 0);
   }
 
   void fold(Side side) {
-    const std::string name = std::string("underbust") + kSuffix[side];
-    const Vector3d tip = point(std::string("bust_point") + kSuffix[side]);
-    const Fold on_model = find_fold(shape_.trunk, tip, side, {shaped(name)}, kFoldOfModel);
+    const std::string name = sided("underbust", side);
+    const Vector3d tip = point(sided("bust_point", side));
+    const Fold on_model = find_fold(shape_, tip, side, {shaped(name)}, kFoldOfModel);
     const double reach = std::max(kFoldOfMesh, kFoldSpreads * spread_of_model(name, 0));
-    const Fold on_mesh = find_fold(mesh_.trunk, tip, side, on_model.places, reach);
+    const Fold on_mesh = find_fold(mesh_, tip, side, on_model.places, reach);
     lowest_[0][side] = on_mesh.places.empty() ? std::nullopt : std::optional<Vector3d>(on_mesh.lowest);
     lowest_[1][side] = on_model.places.empty() ? std::nullopt : std::optional<Vector3d>(on_model.lowest);
     if (on_model.places.empty()) return lacks(name, "no fold under the breast was found");
@@ -209,7 +201,7 @@ class Reader {
     for (int s = 0; s < 2; ++s)
       if (lowest_[s][0] && lowest_[s][1]) lowest[s] = std::min(lowest_[s][0]->z(), lowest_[s][1]->z());
     for (const Side side : kSides) {
-      if (base_of("underbust", Kind::point, std::string("underbust") + kSuffix[side]) == nullptr) return;
+      if (base_of("underbust", Kind::point, sided("underbust", side)) == nullptr) return;
       support = std::max(support, support_at(*lowest_[1][side]));
     }
     add(Kind::height, "underbust", as_figure(lowest[0]), as_figure(lowest[1]), support,
@@ -218,38 +210,38 @@ class Reader {
 
   void crotch() {
     const Vector3d there = shaped("crotch");
-    auto on_mesh = find_crotch(mesh_.surface, there);
-    if (on_mesh && unseen_share(mesh_.surface, *on_mesh, kPerineum) > 0.5)
+    auto on_mesh = find_crotch(mesh_.surface(), there);
+    if (on_mesh && unseen_share(mesh_.surface(), *on_mesh, kPerineum) > 0.5)
       on_mesh.reset();  // a filled gap has its own lowest place
     add_point("crotch", on_mesh, there, support_at(there));
     level("crotch", {"crotch"});
   }
 
   void buttock(Side side) {
-    const std::string name = std::string("buttock") + kSuffix[side];
-    const double lowest = expected("crotch").z() - kSeat, highest = expected("navel").z() - kBelowWaist;
+    const std::string name = sided("buttock", side);
+    const Vector3d crotch = expected("crotch");
+    const double lowest = crotch.z() - kSeat, highest = expected("navel").z() - kBelowWaist;
     const Vector3d* rearmost = nullptr;
     for (std::size_t v = 0; v < normals_.size(); ++v) {
-      const Vector3d& p = skin_.surface.mesh.vertices[v];
-      if (skin_.surface.arm[v] > 0.5 || kSign[side] * (p.y() - expected_crotch_y()) < kSeat ||
-          p.z() < lowest || p.z() > highest)
+      const Vector3d& p = skin_.surface().mesh.vertices[v];
+      if (skin_.surface().arm[v] > 0.5 || kSign[side] * (p.y() - crotch.y()) < kSeat || p.z() < lowest ||
+          p.z() > highest)
         continue;
       if (rearmost == nullptr || p.x() < rearmost->x()) rearmost = &p;
     }
     if (rearmost == nullptr) return lacks(name, "no skin between crotch and navel was found");
-    add_point(name, find_buttock(mesh_.trunk, *rearmost), find_buttock(skin_.trunk, *rearmost),
-              support_at(*rearmost), "apex of the buttock");
+    add_point(name, find_buttock(mesh_, *rearmost), find_buttock(skin_, *rearmost), support_at(*rearmost),
+              "apex of the buttock");
   }
-  double expected_crotch_y() const { return expected("crotch").y(); }
 
   void waist() {
     for (const char* end : {"hip", "underbust"})
       if (base_of("waist", Kind::height, end) == nullptr) return;
     const double low = height("hip") + kWaistAboveHip, high = height("underbust") - kWaistBelowUnderbust;
-    const auto on_mesh = find_waist(mesh_.trunk, low, high), on_model = find_waist(skin_.trunk, low, high);
+    const auto on_mesh = find_waist(mesh_, low, high), on_model = find_waist(skin_, low, high);
     if (on_mesh && on_model) {
       add(Kind::height, "waist", as_figure(on_mesh), as_figure(on_model),
-          support_along(skin_.trunk.tape_of_torso(*on_model)), false);
+          support_along(skin_.tape_of_torso(*on_model)), false);
     } else {
       add(Kind::height, "waist", std::nullopt, Vector3d(expected("navel").z(), 0, 0), kWorst, false);
     }
@@ -264,7 +256,7 @@ class Reader {
       double level = height("underbust");
       for (const Side side : kSides)
         if (lowest_[s][side]) level = std::min(level, lowest_[s][side]->z());
-      tapes[s] = (s == 0 ? mesh_ : shape_).trunk.tape_of_torso(level - kUnderbustBelowFold);
+      tapes[s] = (s == 0 ? mesh_ : shape_).tape_of_torso(level - kUnderbustBelowFold);
     }
     girth_of("underbust", tapes[0], tapes[1]);
   }
@@ -272,7 +264,7 @@ class Reader {
   template <typename TapeOf>
   void girth(const std::string& name, const TapeOf& tape_of) {
     if (find(Kind::height, name) == nullptr) return;  // missing by that name
-    girth_of(name, tape_of(mesh_.trunk), tape_of(skin_.trunk), support_of_level(name));
+    girth_of(name, tape_of(mesh_), tape_of(skin_), support_of_level(name));
   }
   /// What is read on a level that nobody knows is as unsure as that.
   double support_of_level(const std::string& name) const {
@@ -284,7 +276,7 @@ class Reader {
     if (on_mesh.size() < 3 && on_model.size() < 3)
       return lacks(name, "no skin to lay the tape of its girth round was found");
     const auto value = [](const Tape& t) {
-      return t.size() < 3 ? std::nullopt : std::optional<double>(length(t));
+      return t.size() < 3 ? std::nullopt : std::optional<double>(geometry::length_of(t, true));
     };
     const double support = std::max(support_along(on_model.size() < 3 ? on_mesh : on_model), least_support);
     add(Kind::girth, name, as_figure(value(on_mesh)), as_figure(value(on_model)), support, false);
@@ -293,9 +285,9 @@ class Reader {
   }
 
   void shoulder(Side side) {
-    const Vector3d bone = frame_ * body_.bone_point(std::string("acromion") + kSuffix[side]);
-    add_point(std::string("shoulder") + kSuffix[side], skin_above(mesh_.surface, bone),
-              skin_above(skin_.surface, bone), support_at(bone), "skin above the acromion");
+    const Vector3d bone = frame_ * body_.bone_point(sided("acromion", side));
+    add_point(sided("shoulder", side), skin_above(mesh_.surface(), bone), skin_above(skin_.surface(), bone),
+              support_at(bone), "skin above the acromion");
   }
 
   void axilla(Side side) {
@@ -304,20 +296,19 @@ class Reader {
         frame_.linear() * (body_.joint("lowerarm01." + arm) - body_.joint("upperarm01." + arm));
     const double raised = std::atan2(kSign[side] * way.y(), -way.z()),
                  rise = raised >= kLevelArm ? raised / 2 : 0;
-    const Vector3d bone = frame_ * body_.bone_point(std::string("acromion") + kSuffix[side]);
-    const auto lowest =
-        lowest_[1][side] ? lowest_[1][side]->z() : expected(std::string("bust_point") + kSuffix[side]).z();
+    const Vector3d bone = frame_ * body_.bone_point(sided("acromion", side));
+    const auto lowest = lowest_[1][side] ? lowest_[1][side]->z() : expected(sided("bust_point", side)).z();
     const auto on_mesh =
-        find_axilla(mesh_.surface, side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
+        find_axilla(mesh_.surface(), side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
     const auto on_model =
-        find_axilla(skin_.surface, side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
-    add_point(std::string("axilla") + kSuffix[side], on_mesh, on_model,
-              support_at(on_model ? *on_model : bone), "gap between arm and trunk");
+        find_axilla(skin_.surface(), side, lowest - kBelowFold, bone.z() + kAboveShoulder, rise);
+    add_point(sided("axilla", side), on_mesh, on_model, support_at(on_model ? *on_model : bone),
+              "gap between arm and trunk");
   }
 
   void upper_arm(Side side) {
-    const std::string arm = kSuffix[side] + 1, from = std::string("axilla") + kSuffix[side];
-    if (base_of(std::string("upper_arm") + kSuffix[side], Kind::point, from, "its girth") == nullptr) return;
+    const std::string arm = kSuffix[side] + 1, from = sided("axilla", side);
+    if (base_of(sided("upper_arm", side), Kind::point, from, "its girth") == nullptr) return;
     const Vector3d shoulder = frame_ * body_.joint("upperarm01." + arm);
     const Vector3d along = (frame_ * body_.joint("lowerarm01." + arm) - shoulder).normalized();
     const double down = along.dot(point(from) - shoulder) + kArmBelowAxilla * body_.stature();
@@ -350,27 +341,26 @@ class Reader {
       return round_limb(s, place, along, reach * body_.stature(),
                         [&](const Eigen::Vector3i& t) { return belongs(s, t); });
     };
-    girth_of(name + kSuffix[side], round(mesh_.surface), round(skin_.surface));
+    girth_of(name + kSuffix[side], round(mesh_.surface()), round(skin_.surface()));
   }
 
   void gluteal_fold(Side side) {
-    const std::string name = std::string("gluteal_fold") + kSuffix[side],
-                      buttock = std::string("buttock") + kSuffix[side];
+    const std::string name = sided("gluteal_fold", side), buttock = sided("buttock", side);
     if (base_of(name, Kind::point, buttock) == nullptr) return;
     const Vector3d seat = point(buttock);
     const double far = kUnderButtock * body_.stature();
-    std::optional<Vector3d> on_model = find_gluteal_fold(skin_.trunk, seat, far, 0);
-    if (!on_model) on_model = skin_under(skin_.trunk, seat, kFoldUnderButtock * body_.stature());
+    std::optional<Vector3d> on_model = find_gluteal_fold(skin_, seat, far, 0);
+    if (!on_model) on_model = skin_under(skin_, seat, kFoldUnderButtock * body_.stature());
     if (!on_model) return lacks(name, "no skin of the thigh under the buttock was found");
-    add_point(name, find_gluteal_fold(mesh_.trunk, seat, far, kFoldDepth), on_model, support_at(*on_model));
+    add_point(name, find_gluteal_fold(mesh_, seat, far, kFoldDepth), on_model, support_at(*on_model));
   }
 
   void farthest(const std::string& level, Side side) {
     const std::string name = level + "_side" + kSuffix[side];
     if (base_of(name, Kind::height, level) == nullptr) return;
-    const auto on_model = find_side(skin_.trunk, side, height(level));
+    const auto on_model = find_side(skin_, side, height(level));
     if (!on_model) return lacks(name, "no skin on its level was found");
-    add_point(name, find_side(mesh_.trunk, side, height(level)), on_model,
+    add_point(name, find_side(mesh_, side, height(level)), on_model,
               std::max(support_at(*on_model), support_of_level(level)));
   }
 
@@ -379,14 +369,14 @@ class Reader {
                    left = expected("neck_ring_L"), right = expected("neck_ring_R");
     const Vector3d base = (front + back + left + right) / 4,
                    along = (front - back).cross(left - right).normalized();
-    girth_of("neck", find_neck(mesh_.surface, base, along), find_neck(shape_.surface, base, along));
+    girth_of("neck", find_neck(mesh_.surface(), base, along), find_neck(shape_.surface(), base, along));
     add(Kind::height, "neck", std::nullopt, Vector3d(base.z(), 0, 0), support_at(front), false);
     for (const char* name : {"neck_front", "neck_back", "neck_side_L", "neck_side_R", "navel"})
       add_point(name, std::nullopt, expected(name), support_at(expected(name)));
   }
 
   void stature() {
-    const std::optional<Vector3d> on_mesh = crown(mesh_.surface), on_model = crown(skin_.surface);
+    const std::optional<Vector3d> on_mesh = crown(mesh_.surface()), on_model = crown(skin_.surface());
     if (!on_model) return lacks("stature", "no skin but of arms was found");
     const auto height = [](const Vector3d& p) { return Vector3d(p.z(), 0, 0); };
     add(Kind::height, "stature", on_mesh ? std::optional<Vector3d>(height(*on_mesh)) : std::nullopt,
@@ -407,8 +397,8 @@ class Reader {
   const RegisteredBody& body_;
   const Precision& precision_;
   Eigen::Isometry3d frame_;
-  Source mesh_, skin_;
-  Source shape_;  ///< for folds and the neck: what is displaced follows skin across a fold, and hair
+  Trunk mesh_, skin_;
+  Trunk shape_;  ///< for folds and the neck: what is displaced follows skin across a fold, and hair
   std::vector<Vector3d> normals_;
   geometry::PointTree tree_;
   std::vector<Figure> figures_;

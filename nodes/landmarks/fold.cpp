@@ -7,8 +7,6 @@
 namespace tensegric_fit::landmarks {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr double kMedial = 0.055;           // m inwards of the bust point (definition)
 constexpr double kSectionSpacing = 0.0025;  // m between two profiles
 constexpr double kRim = 0.020;              // m along the skin: the areola's own rim is hollow too

@@ -8,8 +8,6 @@
 namespace tensegric_fit::landmarks {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr double kLevels = 0.0025,
                  kSmoothing = 2;    // m between tapes; levels: deviation of the Gaussian over their girths
 constexpr int kEnd = 3;             // levels; a least girth this near the end of the search is the end's
@@ -49,10 +47,6 @@ Vector3d rearmost_near(const Surface& surface, const Vector3d& start) {
     if (step.norm() < 0.01) break;
   }
   return place;
-}
-
-double girth(const std::vector<Vector3d>& tape) {
-  return tape.size() < 3 ? -1 : geometry::length_of(tape, true);
 }
 
 }  // namespace
@@ -140,10 +134,10 @@ std::vector<Vector3d> round_limb(const Surface& surface, const Vector3d& origin,
 std::optional<double> find_waist(const Trunk& trunk, double lowest, double highest) {
   std::vector<double> heights, raw;
   for (double z = lowest; z <= highest + 1e-9; z += kLevels) {
-    const double g = girth(trunk.tape_of_torso(z));
-    if (g < 0) continue;
+    const std::vector<Vector3d> tape = trunk.tape_of_torso(z);
+    if (tape.size() < 3) continue;
     heights.push_back(z);
-    raw.push_back(g);
+    raw.push_back(geometry::length_of(tape, true));
   }
   const int count = static_cast<int>(raw.size());
   if (count <= 2 * kEnd + 2) return std::nullopt;
@@ -155,7 +149,7 @@ std::optional<double> find_waist(const Trunk& trunk, double lowest, double highe
       int j = i + k;  // mirrored at the ends
       if (j < 0) j = -1 - j;
       if (j >= count) j = 2 * count - 1 - j;
-      sum += w * raw[std::clamp(j, 0, count - 1)];
+      sum += w * raw[j];
       weight += w;
     }
     girths[i] = sum / weight;

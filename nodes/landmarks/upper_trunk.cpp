@@ -8,7 +8,6 @@
 namespace tensegric_fit::landmarks {
 namespace {
 
-using Eigen::Vector3d;
 using geometry::mean_of;
 using geometry::SectionLoop;
 

@@ -1,6 +1,8 @@
-#include "landmarks/body_frame.hpp"
+#include "landmarks/body_surface.hpp"
 
+#include "body_model/parts.hpp"
 #include "body_model/recognition.hpp"
+#include "geometry/points.hpp"
 
 namespace tensegric_fit::landmarks {
 
@@ -9,8 +11,7 @@ using Eigen::Vector3d;
 Eigen::Isometry3d body_frame(const body_model::RegisteredBody& body) {
   // Hips and feet say which way she faces: shoulders turn with the arms.
   Vector3d across = body.joint("upperleg01.L") - body.joint("upperleg01.R");
-  const std::vector<char> there = body_model::parts_there(body);
-  if (there[body.model->part_named("foot_L")] && there[body.model->part_named("foot_R")])
+  if (const auto [left, right] = body_model::sides_there(body, "foot"); left && right)
     across += body.joint("foot.L") - body.joint("foot.R");
   const Vector3d up = body.vertical, left = (across - up.dot(across) * up).normalized();
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
@@ -21,6 +22,18 @@ Eigen::Isometry3d body_frame(const body_model::RegisteredBody& body) {
   origin += (body.ground - up.dot(origin)) * up;
   frame.translation() = -(frame.linear() * origin);
   return frame;
+}
+
+Surface labelled(const geometry::TriangleMesh& mesh, const std::vector<char>& filled,
+                 const body_model::RegisteredBody& body, const Eigen::Isometry3d& body_from_scan) {
+  Surface surface{{geometry::moved(mesh.vertices, body_from_scan), mesh.triangles}, {}, filled};
+  for (const int v : body_model::nearest_skin(mesh, body)) surface.arm.push_back(body.model->arm[v]);
+  return surface;
+}
+
+Surface skin_of(const body_model::RegisteredBody& body, const std::vector<Vector3d>& skin,
+                const Eigen::Isometry3d& body_from_scan) {
+  return {{geometry::moved(skin, body_from_scan), body.model->triangles}, body.model->arm, {}};
 }
 
 }  // namespace tensegric_fit::landmarks
