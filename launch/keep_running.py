@@ -15,6 +15,7 @@ import signal
 import subprocess
 import sys
 import time
+import xml.parsers.expat
 import xmlrpc.client
 
 MARK = "TENSEGRIC_FIT_KEPT_BY"  # environment of all that is started here: roslaunch puts nodes into sessions of their own
@@ -47,16 +48,31 @@ def kept():
     return found
 
 
+def uri(port):
+    return f"http://localhost:{port}"
+
+
+def answers(port):
+    """Whether a ROS master does."""
+    try:
+        return xmlrpc.client.ServerProxy(uri(port), transport=Impatient()).getPid("/keep_running")[0] == 1
+    except (OSError, http.client.HTTPException, xmlrpc.client.Error, xml.parsers.expat.ExpatError, TypeError, LookupError):  # or another program
+        return False
+
+
 class Booth:
     """One life of master and nodes."""
 
     def __init__(self, port, arguments):
-        uri = f"http://localhost:{port}"
-        environment = dict(os.environ, ROS_MASTER_URI=uri, **{MARK: str(os.getpid())})
+        environment = dict(os.environ, ROS_MASTER_URI=uri(port), **{MARK: str(os.getpid())})
         self.began, self.misses = time.monotonic(), 0
-        self.master = xmlrpc.client.ServerProxy(uri, transport=Impatient())
+        self.port = port
         self.core = subprocess.Popen(["roscore", "-p", str(port)], env=environment, start_new_session=True)
-        self.launch = subprocess.Popen(["roslaunch", "--wait", *arguments], env=environment, start_new_session=True)
+        try:
+            self.launch = subprocess.Popen(["roslaunch", "--wait", *arguments], env=environment, start_new_session=True)
+        except OSError:
+            self.core.terminate()
+            raise
 
     def fault(self):
         """Why it cannot go on; empty: it can."""
@@ -64,17 +80,11 @@ class Booth:
             return "the ROS master has ended"
         if self.launch.poll() is not None:
             return f"roslaunch has ended ({self.launch.returncode})"
-        self.misses = 0 if self.answers() or self.starting() else self.misses + 1
+        self.misses = 0 if answers(self.port) or self.starting() else self.misses + 1
         return "the ROS master does not answer" if self.misses >= MISSES else ""
 
     def starting(self):
         return time.monotonic() - self.began < 10 * LOOK
-
-    def answers(self):
-        try:
-            return self.master.getPid("/keep_running")[0] == 1
-        except (OSError, http.client.HTTPException, xmlrpc.client.Error):
-            return False
 
     def stop(self):
         """Whole, whatever signals come meanwhile."""
@@ -118,6 +128,10 @@ def main():
     given = parser.parse_args()
     if not given.arguments:
         parser.error("what is to be launched?")
+    if answers(given.port):  # roslaunch would go to it, and take the place of what runs there
+        say(f"keep_running: a ROS master runs on port {given.port} already: end it and what it launched first, or choose another --port")
+        return 1
+    os.umask(0o077)  # logs of the master and of roslaunch
     ending = Ending()
     while not ending.asked:
         booth = Booth(given.port, given.arguments)
