@@ -7,6 +7,7 @@
 
 #include "assembler/assembler_handler.hpp"
 #include "assembler/capture_queue.hpp"
+#include "ros/held_scan.hpp"
 #include "ros/run_node.hpp"
 #include "ros/scan_tag.hpp"
 #include "ros/stage.hpp"
@@ -55,6 +56,7 @@ class AssemblerNode {
 
   /// If this node restarted, what sensors latch would be assembled again.
   void forget(const ForgetOrder& order, ForgetAnswer& done) {
+    HeldScan::of_process().forget(order.scan_id.substr(0, order.scan_id.rfind('-')));  // as id_of
     const std::lock_guard<std::mutex> lock(publishing_);
     if (published_ != order.scan_id) return;
     scan_.shutdown();

@@ -28,7 +28,7 @@ class Database {
     const int code = sqlite3_open(file.c_str(), &handle);
     handle_.reset(handle);
     if (code != SQLITE_OK) fail();
-    run("PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF; BEGIN;");  // a new file: all of it or none
+    run("PRAGMA journal_mode=OFF; PRAGMA synchronous=NORMAL; BEGIN;");  // a new file: all of it or none
     run(kSchema);
   }
 
@@ -88,37 +88,43 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> handle_{nullptr, sqlite3_finalize};
 };
 
+void fill(const std::string& file, const Table& table) {
+  Database database(file);
+  Statement run(database, "INSERT INTO runs VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+  Statement figure(database, "INSERT INTO figures VALUES(?,?,?)");
+  for (const auto& [row, line] : table.lines) {
+    run << row;
+    for (const char* column : {"name", "inputs", "settings", "subject", "key", "version", "build", "status"})
+      run << line.value(column, Json());
+    const Json reason = line.value("reason", Json()), cost = line.value("cost", Json());
+    for (const char* part : {"code", "message"})
+      run << (reason.is_object() ? reason.value(part, Json()) : Json());
+    for (const char* part : {"seconds", "cpu_seconds", "peak_MB"})
+      run << (cost.is_object() ? cost.value(part, Json()) : Json());
+    run.done();
+    for (const Figure& one : figures_of(line.value("result", Json::object()))) {
+      figure << row << one.first;
+      std::visit([&figure](const auto& value) { figure << value; }, one.second);
+      figure.done();
+    }
+  }
+  database.run("COMMIT");
+}
+
 }  // namespace
 
 void write_database(const Table& table, const std::string& file) {
   const std::string unfinished = file + ".unfinished";
   std::error_code error;
   std::filesystem::remove(unfinished, error);
-  {
-    Database database(unfinished);
-    Statement run(database, "INSERT INTO runs VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
-    Statement figure(database, "INSERT INTO figures VALUES(?,?,?)");
-    for (const auto& [row, line] : table.lines) {
-      run << row;
-      for (const char* column :
-           {"name", "inputs", "settings", "subject", "key", "version", "build", "status"})
-        run << line.value(column, Json());
-      const Json reason = line.value("reason", Json()), cost = line.value("cost", Json());
-      for (const char* part : {"code", "message"})
-        run << (reason.is_object() ? reason.value(part, Json()) : Json());
-      for (const char* part : {"seconds", "cpu_seconds", "peak_MB"})
-        run << (cost.is_object() ? cost.value(part, Json()) : Json());
-      run.done();
-      for (const Figure& one : figures_of(line.value("result", Json::object()))) {
-        figure << row << one.first;
-        std::visit([&figure](const auto& value) { figure << value; }, one.second);
-        figure.done();
-      }
-    }
-    database.run("COMMIT");
+  try {
+    fill(unfinished, table);
+    std::filesystem::rename(unfinished, file, error);
+    if (error) throw geometry::Refusal(geometry::refusal::kCannotWrite, file + ": " + error.message());
+  } catch (...) {
+    std::filesystem::remove(unfinished, error);  // it holds measures
+    throw;
   }
-  std::filesystem::rename(unfinished, file, error);
-  if (error) throw geometry::Refusal(geometry::refusal::kCannotWrite, file + ": " + error.message());
 }
 
 }  // namespace tensegric_fit::batch

@@ -73,6 +73,7 @@ class CorrelationNode {
     if (!input) return;
     stage_.post(handler_.scan_id(), [this, input = *input]() -> Stage::Result {
       const auto output = std::make_shared<const CorrelationHandler::Output>(handler_.handle(input));
+      if (HeldScan::of_process().is_forgotten(input.worn.tag.scan_id)) return {};  // meanwhile
       return {[this, output] {
                 correlation_.publish(output->correlation);
                 show(output);

@@ -40,6 +40,8 @@ std::string in_words(const fs::filesystem_error& error) {
       return path + " would be larger than files may be";
     case ELOOP:
       return path + " is a link";
+    case EWOULDBLOCK:
+      return "another program writes to " + path + " and does not end";
     default:
       return path + ": " + error.code().message();
   }

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <filesystem>
 #include <system_error>
+#include <thread>
 
 #include "files/descriptor.hpp"
 #include "geometry/status.hpp"
@@ -19,8 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kUnfinished[] = ".unfinished";  // suffix of hidden folders
-constexpr char kPart[] = ".part";              // of files
+constexpr char kUnfinished[] = ".unfinished";      // suffix of hidden folders
+constexpr char kPart[] = ".part";                  // of files
+constexpr std::chrono::seconds kLockPatience(30);  // an export to a slow disk takes some seconds
 
 fs::path hidden(const fs::path& folder) {
   return folder.parent_path() / ("." + folder.filename().string() + kUnfinished);
@@ -50,8 +53,7 @@ void remove_folder(const Descriptor& parent, const fs::path& folder) {
 class LockedParent {
  public:
   explicit LockedParent(const fs::path& parent) : directory_(parent, O_RDONLY | O_DIRECTORY) {
-    while (flock(directory_.number(), LOCK_EX) != 0)
-      if (errno != EINTR) fail(parent);
+    lock(parent);
     for (const fs::directory_entry& entry : fs::directory_iterator(parent)) {
       const std::string name = entry.path().filename();
       if (name.front() == '.' && entry.path().extension() == kUnfinished &&
@@ -73,6 +75,15 @@ class LockedParent {
   }
 
  private:
+  /// Who holds it may be stopped, and must not stop others.
+  void lock(const fs::path& parent) const {
+    const auto end = std::chrono::steady_clock::now() + kLockPatience;
+    while (flock(directory_.number(), LOCK_EX | LOCK_NB) != 0) {
+      if (errno != EINTR && (errno != EWOULDBLOCK || std::chrono::steady_clock::now() > end)) fail(parent);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+
   const Descriptor directory_;
 };
 
@@ -115,13 +126,15 @@ std::vector<std::string> write_whole_folder(const std::string& folder,
     fs::create_directories(wanted.parent_path());
     const LockedParent parent(parent_of(wanted));
     const fs::path unfinished = hidden(parent_of(wanted) / wanted.filename());
+    fs::path made = unfinished;
     try {
       write_files(parent, unfinished, files);
       parent.rename(unfinished, wanted);  // fails where a non-empty directory has been created meanwhile
+      made = wanted;
       parent.directory().to_disk();
     } catch (const fs::filesystem_error&) {
       try {
-        remove_folder(parent.directory(), unfinished);
+        remove_folder(parent.directory(), made);
       } catch (const fs::filesystem_error&) {  // said below is what went wrong first
       }
       throw;
@@ -191,9 +204,10 @@ std::optional<std::string> bytes_of_plain_file(const std::string& path, std::siz
       return std::nullopt;
     std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
     std::size_t done = 0;
-    for (ssize_t count = 1; count > 0 && done < bytes.size();
-         done += static_cast<std::size_t>(std::max<ssize_t>(count, 0)))
+    for (ssize_t count = 1; count != 0 && done < bytes.size(); done += static_cast<std::size_t>(count)) {
       count = read(file.number(), bytes.data() + done, bytes.size() - done);
+      if (count < 0) return std::nullopt;
+    }
     bytes.resize(done);
     return bytes;
   } catch (const fs::filesystem_error&) {

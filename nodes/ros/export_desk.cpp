@@ -4,6 +4,7 @@
 
 #include "geometry/status.hpp"
 #include "ros/export_folders.hpp"
+#include "ros/held_scan.hpp"
 #include "ros/log_words.hpp"
 
 namespace tensegric_fit::node {
@@ -75,6 +76,10 @@ bool ExportDesk::on_export(ExportFit::Request& request, ExportFit::Response& res
       throw geometry::Refusal(
           geometry::refusal::kNothingYet,
           fmt::format("no fit of scan {} is at hand, but one of {}", request.scan_id, scan.body->scan_id));
+    // First held, then asked for: `forget` waits for what is written, or nothing is.
+    const HeldScan::Export writing(HeldScan::of_process(), scan.body->scan_id);
+    if (HeldScan::of_process().is_forgotten(scan.body->scan_id))
+      throw geometry::Refusal(geometry::refusal::kNothingYet, "the scan was forgotten");
     response.files = export_fit(scan, request.directory, options_);
     response.message = "wrote scan " + scan.body->scan_id + ", garment " + scan.fit->garment;
   });

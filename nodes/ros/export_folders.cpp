@@ -1,10 +1,8 @@
 #include "ros/export_folders.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -32,7 +30,8 @@ std::optional<Mark> mark_in(const fs::path& folder) {
   for (const char* name : {kFitDocument, kSealedDocument}) {
     const fs::path file = folder / name;
     const std::optional<std::string> text = files::bytes_of_plain_file(file, kLargestDocument);
-    if (!text && access(file.c_str(), R_OK) != 0 && errno == EACCES)
+    if (!text && fs::symlink_status(file).type() == fs::file_type::regular &&
+        fs::file_size(file) <= kLargestDocument)
       throw Refusal(geometry::refusal::kCannotWrite,
                     fmt::format("'{}' cannot be read: whose it is is not known", file.string()));
     const std::optional<std::string> scan_id = text ? scan_id_in(*text) : std::nullopt;

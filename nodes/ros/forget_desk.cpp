@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
+#include <optional>
 
 #include "geometry/status.hpp"
 #include "ros/await.hpp"
 #include "ros/export_folders.hpp"
 #include "ros/forgetter.hpp"
+#include "ros/log_words.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -27,20 +30,17 @@ struct Graph {
   NodesByTopic publishers, subscribers;
 };
 
-Graph graph() {
+/// None: the master does not answer.
+std::optional<Graph> graph_now() {
   XmlRpc::XmlRpcValue request, response, state;
   request[0] = ros::this_node::getName();
+  if (!ros::master::execute("getSystemState", request, response, state, false)) return std::nullopt;
   Graph graph;
-  if (!ros::master::execute("getSystemState", request, response, state, false)) return graph;
   for (const auto& [part, nodes] : {std::pair{0, &graph.publishers}, {1, &graph.subscribers}})
     for (int t = 0; t < state[part].size(); ++t)
       for (int i = 0; i < state[part][t][1].size(); ++i)
         (*nodes)[state[part][t][0]].insert(static_cast<std::string>(state[part][t][1][i]));
   return graph;
-}
-
-Names subscribers_of(const std::string& topic) {
-  return graph().subscribers[topic];
 }
 
 bool is_about_no_body(const std::string& topic, const std::string& forget) {
@@ -102,26 +102,28 @@ ForgetDesk::ForgetDesk(ros::NodeHandle node, const ros::NodeHandle& private_node
 void ForgetDesk::delete_old() const {
   std::vector<std::string> left;
   std::size_t gone = 0;
-  for (const std::string& folder : options_.folders)
-    if (std::error_code unknown; std::filesystem::exists(folder, unknown))
-      gone += delete_old_exports(folder, options_.retention_days, left).size();
+  for (const std::string& folder : options_.folders) {
+    std::error_code unknown;
+    const bool is_there = std::filesystem::exists(folder, unknown);
+    if (unknown) left.push_back(fmt::format("'{}' cannot be looked at: {}", folder, unknown.message()));
+    if (is_there) gone += delete_old_exports(folder, options_.retention_days, left).size();
+  }
   if (gone > 0) ROS_INFO("vault: exports were deleted, as they were old");
-  if (!left.empty())
-    ROS_WARN("vault: old exports could not be deleted, see %s", options_.folders.front().c_str());
+  for (const std::string& why : left)
+    ROS_WARN("vault: an old export may be left: %s", log_words(why).c_str());
 }
 
-Names ForgetDesk::order(std::uint8_t step, const Forget::Request& request, Forget::Response& response) {
+Names ForgetDesk::let_go(const Names& asked, const Forget::Request& request, Forget::Response& response) {
   ForgetOrder order;
-  order.step = step;
+  order.step = ForgetOrder::LET_GO;
   order.scan_id = request.scan_id;
   order.scan_file = request.scan_file;
-  Names silent = subscribers_of(node_.resolveName("forget/order"));
+  Names silent = asked;
   std::unique_lock<std::mutex> lock(mutex_);
   answers_.clear();
   orders_.publish(order);
-  if (step == ForgetOrder::GO_ON) return {};
   const auto all = [&] {
-    return std::all_of(silent.begin(), silent.end(), [&](const std::string& node) {
+    return std::all_of(asked.begin(), asked.end(), [&](const std::string& node) {
       const auto answer = answers_.find(node);
       return answer != answers_.end() && answer->second.scan_id == request.scan_id;
     });
@@ -156,11 +158,25 @@ bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response)
     response.message = "which scan is to be forgotten?";
     return true;
   }
-  Graph before = graph();  // nodes that let go publish nothing for a moment
-  const Names asked = before.subscribers[node_.resolveName("forget/order")];
-  const Names silent = order(ForgetOrder::LET_GO, request, response);
-  order(ForgetOrder::GO_ON, request, response);
-  for (const std::string& node : silent) response.not_reached.push_back(node + ": did not answer");
+  std::optional<Graph> before = graph_now();  // nodes that let go publish nothing for a moment
+  if (!before) {
+    response.code = geometry::refusal::kDeadStage;
+    response.message =
+        "the ROS master does not answer: which nodes hold the scan is not known, and nothing was forgotten";
+    return true;
+  }
+  // A recorder hears orders, too, and answers none: it is named by what it hears.
+  const Names &hear = before->subscribers[node_.resolveName("forget/order")],
+              &answer = before->publishers[node_.resolveName("forget/answer")];
+  Names asked;
+  std::set_intersection(hear.begin(), hear.end(), answer.begin(), answer.end(),
+                        std::inserter(asked, asked.end()));
+  for (const std::string& node : let_go(asked, request, response))
+    response.not_reached.push_back(node + ": did not answer");
+  ForgetOrder go_on;
+  go_on.step = ForgetOrder::GO_ON;
+  go_on.scan_id = request.scan_id;
+  orders_.publish(go_on);
   for (const std::string& folder : options_.folders) {
     std::error_code unknown;
     const bool is_there = std::filesystem::exists(folder, unknown);
@@ -168,28 +184,33 @@ bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response)
     if (is_there) delete_exports_of(request.scan_id, folder, response);  // or there was no export so far
   }
   for (const std::string& folder : request.folders) delete_exports_of(request.scan_id, folder, response);
+  const auto is_of_file = [](const std::string& line) {
+    return line.find(": the file ") != std::string::npos;
+  };
+  const bool file_is_known =
+      std::any_of(response.removed.begin(), response.removed.end(), is_of_file) ||
+      std::any_of(response.not_reached.begin(), response.not_reached.end(), is_of_file);
+  if (request.scan_file && !file_is_known)
+    response.not_reached.emplace_back("the file that it was played from, if it was: no node knows of it");
+  std::optional<Graph> now = graph_now();
+  if (!now)
+    response.not_reached.emplace_back("nodes that came meanwhile: the ROS master does not answer any more");
   response.complete = response.not_reached.empty();
   response.message = fmt::format("scan {}: {}{}", request.scan_id,
                                  response.removed.empty() ? "nothing of it was found" : "forgotten",
                                  response.complete ? "" : ", but not everywhere");
-  Graph now = graph();
-  for (const std::string& topic : body_topics(before, asked, node_)) {
+  for (const std::string& topic : body_topics(*before, asked, node_)) {
     Names others;  // who hears it, and who publishes, and may latch, it
-    for (Graph* at : {&before, &now})
-      for (NodesByTopic* side : {&at->subscribers, &at->publishers})
-        others.insert((*side)[topic].begin(), (*side)[topic].end());
+    for (std::optional<Graph>* at : {&before, &now})
+      if (*at)
+        for (NodesByTopic* side : {&(*at)->subscribers, &(*at)->publishers})
+          others.insert((*side)[topic].begin(), (*side)[topic].end());
     for (const std::string& node : others)
       if (asked.count(node) == 0)
         response.not_reached.push_back(node + ": what it keeps, latches or shows of " + topic);
   }
-  const auto is_of_file = [](const std::string& line) {
-    return line.find(": the file ") != std::string::npos;
-  };
-  if (std::none_of(response.removed.begin(), response.removed.end(), is_of_file) &&
-      std::none_of(response.not_reached.begin(), response.not_reached.end(), is_of_file))
-    response.not_reached.emplace_back(request.scan_file
-                                          ? "the file that it was played from, if it was: no node knows of it"
-                                          : "the file that it was played from, where it was");
+  if (!request.scan_file && !file_is_known)
+    response.not_reached.emplace_back("the file that it was played from, where it was");
   response.not_reached.emplace_back(
       "bags, copies of exports, results of fit, other machines, backups, swap, blocks of the disk that are "
       "free");

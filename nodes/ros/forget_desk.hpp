@@ -32,8 +32,9 @@ class ForgetDesk {
 
  private:
   bool on_forget(Forget::Request& request, Forget::Response& response);
-  /// Orders it and waits for all. Returns the nodes that did not answer in time.
-  std::set<std::string> order(std::uint8_t step, const Forget::Request& request, Forget::Response& response);
+  /// Orders it and waits for those that are asked. Returns those that did not answer in time.
+  std::set<std::string> let_go(const std::set<std::string>& asked, const Forget::Request& request,
+                               Forget::Response& response);
   static void delete_exports_of(const std::string& scan_id, const std::string& folder,
                                 Forget::Response& response);
   void delete_old() const;

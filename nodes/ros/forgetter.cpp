@@ -9,8 +9,10 @@ namespace tensegric_fit::node {
 namespace {
 
 const ros::WallDuration kTick(0.05);
-// Who ordered it may be gone, but is not before it has given up on the slowest node.
-const ros::WallDuration kOrdererPatience(kForgetPatience.count() + 5);
+// Who ordered it may be gone, or waits for a node that has died: the next customer must not.
+const ros::WallDuration kOrdererPatience(2);
+// Another scan that is worked on is ended first, but scans that come without end are not waited for.
+const ros::WallDuration kWorkPatience(10);
 
 /// While ROS shuts down its queue is disabled, and waits for nothing.
 void call_callbacks() {
@@ -27,7 +29,7 @@ Forgetter::Forgetter(ros::NodeHandle node)
 
 void Forgetter::on_order(const ForgetOrder& order) {
   go_on_ = order.step == ForgetOrder::GO_ON;
-  if (go_on_) return;
+  if (go_on_ || order.scan_id.empty()) return;
   HeldScan::of_process().forget(order.scan_id);
   if (forget_) {
     ForgetAnswer done;
@@ -35,6 +37,7 @@ void Forgetter::on_order(const ForgetOrder& order) {
     answer(order, done);
   } else if (HeldScan::of_process().holds(order.scan_id)) {
     order_ = order;
+    ordered_ = ros::SteadyTime::now();
   } else {
     answer(order, {});
   }
@@ -51,7 +54,9 @@ bool Forgetter::serve(const Forget& forget) {
   forget_ = forget;
   while (ros::ok()) {
     call_callbacks();
-    if (!order_ || HeldScan::of_process().works_on_other(order_->scan_id)) continue;
+    if (!order_ || (HeldScan::of_process().must_finish(order_->scan_id) &&
+                    ros::SteadyTime::now() - ordered_ < kWorkPatience))
+      continue;
     if (HeldScan::of_process().holds(order_->scan_id)) return true;
     ForgetAnswer done;  // what it worked on has taken the place of it
     done.removed = {"replaced by a newer scan"};

@@ -13,7 +13,8 @@
 
 namespace tensegric_fit::node {
 
-/// For how long the vault waits for a node's answer: a stage that works on the next scan ends that first.
+/// For how long the vault waits for a node's answer: a stage that works on the next scan ends that first,
+/// where it can in 10 s.
 inline constexpr std::chrono::seconds kForgetPatience(15);
 
 /// Hears the orders and answers them. For the main thread.
@@ -28,7 +29,8 @@ class Forgetter {
   /// `forget` the node does it itself and serves on.
   bool serve(const Forget& forget = {});
 
-  /// To be called when nothing is held any more: says so, and waits until all nodes have let go.
+  /// To be called when nothing is held any more: says so, and waits until all nodes have let go, 2 s at most:
+  /// what others latch of it meanwhile is not taken (HeldScan::is_forgotten).
   void let_go();
 
  private:
@@ -39,6 +41,7 @@ class Forgetter {
   ros::Subscriber orders_;
   Forget forget_;
   std::optional<ForgetOrder> order_;  // to let go, not yet followed
+  ros::SteadyTime ordered_;           // when it came
   bool go_on_ = false;
 };
 

@@ -1,5 +1,8 @@
 #include "ros/held_scan.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace tensegric_fit::node {
 
 HeldScan& HeldScan::of_process() {
@@ -9,6 +12,9 @@ HeldScan& HeldScan::of_process() {
 
 void HeldScan::begin(const std::string& scan_id) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  constexpr std::size_t kMost = 4;  // topics that a stage joins
+  if (!begun_.empty() && begun_ != scan_id) begun_before_.push_back(begun_);
+  if (begun_before_.size() > kMost) begun_before_.pop_front();
   begun_ = scan_id;
 }
 
@@ -33,6 +39,7 @@ void HeldScan::publish(const std::string& scan_id) {
   const std::lock_guard<std::mutex> lock(mutex_);
   published_ = scan_id;
   tried_.clear();
+  begun_before_.clear();
 }
 
 void HeldScan::begin_beside(const std::string& scan_id) {
@@ -40,10 +47,21 @@ void HeldScan::begin_beside(const std::string& scan_id) {
   beside_.insert(scan_id);
 }
 
+HeldScan::Export::Export(HeldScan& held, std::string scan_id) : held_(held), scan_id_(std::move(scan_id)) {
+  const std::lock_guard<std::mutex> lock(held_.mutex_);
+  held_.exported_.insert(scan_id_);
+}
+
+HeldScan::Export::~Export() {
+  const std::lock_guard<std::mutex> lock(held_.mutex_);
+  held_.exported_.erase(held_.exported_.find(scan_id_));
+}
+
 void HeldScan::clear() {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (std::string* scan_id : {&begun_, &waiting_, &working_, &published_}) scan_id->clear();
   tried_.clear();
+  begun_before_.clear();
   beside_.clear();
 }
 
@@ -60,12 +78,13 @@ bool HeldScan::is_forgotten(const std::string& scan_id) const {
 bool HeldScan::holds(const std::string& scan_id) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return begun_ == scan_id || waiting_ == scan_id || working_ == scan_id || published_ == scan_id ||
-         tried_.count(scan_id) != 0 || beside_.count(scan_id) != 0;
+         tried_.count(scan_id) != 0 || beside_.count(scan_id) != 0 || exported_.count(scan_id) != 0 ||
+         std::find(begun_before_.begin(), begun_before_.end(), scan_id) != begun_before_.end();
 }
 
-bool HeldScan::works_on_other(const std::string& scan_id) const {
+bool HeldScan::must_finish(const std::string& scan_id) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return begun_ != scan_id && (!waiting_.empty() || !working_.empty());
+  return (begun_ != scan_id && (!waiting_.empty() || !working_.empty())) || exported_.count(scan_id) != 0;
 }
 
 }  // namespace tensegric_fit::node

@@ -1,20 +1,22 @@
 /// Which scans this process holds something of.
 #pragma once
 
+#include <deque>
 #include <mutex>
 #include <set>
 #include <string>
 
 namespace tensegric_fit::node {
 
-/// A stage holds what it published last, which stays latched while it works on the next, and what its worker
-/// is at, which may be of a scan before the newest. For any thread.
+/// A stage holds what has come of a scan, what its worker is at, which may be of a scan before the newest,
+/// what it published last, which stays latched while it works on the next, and what it exports. For any
+/// thread.
 class HeldScan {
  public:
   /// Of this process: its stage says what it holds, its main function asks.
   static HeldScan& of_process();
 
-  void begin(const std::string& scan_id);    ///< its data have come
+  void begin(const std::string& scan_id);    ///< its data have come; what came before may still be kept
   void wait(const std::string& scan_id);     ///< work on it waits, in place of any that waited
   void work(const std::string& scan_id);     ///< the work that waited is under way
   void rest();                               ///< it is over
@@ -22,20 +24,37 @@ class HeldScan {
   /// The data of a second scan have come, which a stage compares with the first. It is held from then on:
   /// what is published may name any of those that came.
   void begin_beside(const std::string& scan_id);
+  /// While it lives, an export of that scan is written.
+  class Export {
+   public:
+    Export(HeldScan& held, std::string scan_id);
+    ~Export();
+    Export(const Export&) = delete;
+    Export& operator=(const Export&) = delete;
+
+   private:
+    HeldScan& held_;
+    const std::string scan_id_;
+  };
+
   void clear();
   /// It is not worked on again, should it come again: a booth may latch it.
   void forget(const std::string& scan_id);
 
   bool is_forgotten(const std::string& scan_id) const;
   bool holds(const std::string& scan_id) const;
-  /// There is work, and the newest scan is another one, whose data would be lost by starting afresh.
-  bool works_on_other(const std::string& scan_id) const;
+  /// Before that scan is let go of: work, where the newest scan is another one, whose data would be lost by
+  /// starting afresh; an export of the scan, which would be there after all exports were deleted.
+  bool must_finish(const std::string& scan_id) const;
 
  private:
   mutable std::mutex mutex_;
   std::string begun_, waiting_, working_, published_;  // empty: none
   std::set<std::string> tried_;  // worked on since something was published: work that failed leaves its data
+  // Before the newest, since something was published: of each topic that a stage joins one may be kept.
+  std::deque<std::string> begun_before_;
   std::set<std::string> beside_, forgotten_;
+  std::multiset<std::string> exported_;  // at this moment
 };
 
 }  // namespace tensegric_fit::node

@@ -33,27 +33,49 @@ bool is_path(const std::string& word) {
          fs::is_directory(word.substr(0, word.find('/', 1)), unknown);
 }
 
-bool is_name_of_file(const std::string& word) {
+bool is_name_of_file(std::string word) {
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return std::any_of(kEndings.begin(), kEndings.end(), [&](const std::string& ending) {
     return word.size() > ending.size() &&
            word.compare(word.size() - ending.size(), ending.size(), ending) == 0;
   });
 }
 
-/// The end of a path that begins there, which may have blanks in it: at its closing quote or bracket, or
-/// where a sentence about it goes on.
+/// The end of a path that begins there, which may have blanks and commas in it: at its closing quote or
+/// bracket, or where a sentence about it goes on.
 std::size_t end_of_path(const std::string& sentence, std::size_t begin) {
   const char before = begin > 0 ? sentence[begin - 1] : ' ';
   const char closing = before == '[' ? ']' : before == '(' ? ')' : before;
   const auto ends = [&](std::size_t at) {
     const bool last = at + 1 == sentence.size() || !is_of_name(sentence[at + 1]);
     if (!is_blank(before) && before != '=') return sentence[at] == closing && last;
-    return (sentence[at] == ':' || sentence[at] == ';' || sentence[at] == ',') && last;
+    return (sentence[at] == ':' || sentence[at] == ';') && last;
   };
   std::size_t end = begin;
   while (end < sentence.size() && !ends(end)) ++end;
   return end == sentence.size() && sentence.back() == '.' ? end - 1 : end;
 }
+
+std::string without_figures(const std::string& sentence) {
+  std::string words;
+  for (std::size_t i = 0; i < sentence.size(); ++i) {
+    if (!is_digit(sentence[i]) || (i > 0 && is_of_name(sentence[i - 1]))) {
+      words += sentence[i];
+      continue;
+    }
+    words += '#';
+    const auto goes_on = [&](std::size_t next) {
+      return next < sentence.size() &&
+             (is_digit(sentence[next]) || ((sentence[next] == '.' || sentence[next] == ',') &&
+                                           next + 1 < sentence.size() && is_digit(sentence[next + 1])));
+    };
+    while (goes_on(i + 1)) ++i;
+  }
+  return words;
+}
+
+}  // namespace
 
 std::string without_files(const std::string& sentence) {
   const std::string openings = "'\"([=", breaks = " \t\n'\",;()[]";
@@ -79,26 +101,6 @@ std::string without_files(const std::string& sentence) {
   }
   return words;
 }
-
-std::string without_figures(const std::string& sentence) {
-  std::string words;
-  for (std::size_t i = 0; i < sentence.size(); ++i) {
-    if (!is_digit(sentence[i]) || (i > 0 && is_of_name(sentence[i - 1]))) {
-      words += sentence[i];
-      continue;
-    }
-    words += '#';
-    const auto goes_on = [&](std::size_t next) {
-      return next < sentence.size() &&
-             (is_digit(sentence[next]) || ((sentence[next] == '.' || sentence[next] == ',') &&
-                                           next + 1 < sentence.size() && is_digit(sentence[next + 1])));
-    };
-    while (goes_on(i + 1)) ++i;
-  }
-  return words;
-}
-
-}  // namespace
 
 std::string log_words(const std::string& sentence) {
   return without_figures(without_files(sentence));

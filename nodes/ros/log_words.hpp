@@ -10,4 +10,7 @@ namespace tensegric_fit::node {
 /// stay.
 std::string log_words(const std::string& sentence);
 
+/// The files alone left out: for what is said of parameters at a start, before there is anybody's scan.
+std::string without_files(const std::string& sentence);
+
 }  // namespace tensegric_fit::node

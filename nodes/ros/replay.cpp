@@ -73,8 +73,8 @@ void Replay::on_tf(const tf2_msgs::TFMessage::ConstPtr& message) {
 }
 
 bool Replay::wait(const std::function<bool()>& condition, double seconds) const {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-  while (ros::ok() && ros::WallTime::now() < end) {
+  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(seconds);
+  while (ros::ok() && ros::SteadyTime::now() < end) {
     ros::spinOnce();
     if (condition()) return true;
     ros::WallDuration(0.005).sleep();

@@ -4,12 +4,17 @@
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
+
 #include <filesystem>
+#include <memory>
 
 #include "files/bag_structure.hpp"
 #include "files/checked_message.hpp"
+#include "files/descriptor.hpp"
 #include "files/owner_only.hpp"
 #include "geometry/status.hpp"
+#include "ros/log_words.hpp"
 #include "ros/parameters.hpp"
 #include "ros/replay.hpp"
 
@@ -35,14 +40,50 @@ Setup setup_from(const ros::NodeHandle& private_node) {
   return setup;
 }
 
+/// A bag that is written to its end, or is not there.
+class WholeBag {
+ public:
+  /// \throw filesystem_error
+  explicit WholeBag(const std::string& path) : unfinished_(path + ".active") {
+    std::filesystem::remove(unfinished_);  // a link to elsewhere, or what one that was interrupted has left
+    files::Descriptor(unfinished_, O_WRONLY | O_CREAT | O_EXCL);
+    try {
+      bag_ = std::make_unique<rosbag::Bag>(unfinished_, rosbag::bagmode::Write);
+    } catch (...) {
+      std::filesystem::remove(unfinished_);
+      throw;
+    }
+  }
+  ~WholeBag() {
+    if (!bag_) return;
+    static_cast<void>(bag_.release());  // its end writes, and where the disk is full it ends the process
+    std::error_code gone;
+    std::filesystem::remove(unfinished_, gone);
+  }
+  WholeBag(const WholeBag&) = delete;
+  WholeBag& operator=(const WholeBag&) = delete;
+
+  rosbag::Bag& operator*() { return *bag_; }
+
+  /// \throw rosbag::BagException, filesystem_error
+  void finish(const std::string& path) {
+    bag_->close();
+    std::filesystem::rename(unfinished_, path);
+    bag_.reset();
+  }
+
+ private:
+  const std::string unfinished_;
+  std::unique_ptr<rosbag::Bag> bag_;
+};
+
 /// Number of messages that were not answered: with any, the output is OUT.incomplete. \throw
-/// rosbag::BagException, Refusal
+/// rosbag::BagException, filesystem_error, Refusal
 int run(const Setup& setup) {
   files::check_bag_structure(setup.bag);
   rosbag::Bag in(setup.bag, rosbag::bagmode::Read);
   rosbag::View view(in);
-  const std::string unfinished = setup.out + ".active";
-  rosbag::Bag out(unfinished, rosbag::bagmode::Write);
+  WholeBag out(setup.out);
   Replay replay(ros::NodeHandle{}, setup.options);
   const std::vector<std::string> missing = replay.wait_for_chain();
   if (!missing.empty())
@@ -54,17 +95,16 @@ int run(const Setup& setup) {
     const auto scan = files::checked_message<sensor_msgs::PointCloud2>(message);
     if (scan && files::is_scan_topic(message.getTopic())) {
       ++sent;
-      lost += !replay.send(*scan, message.getTime(), out);
+      lost += !replay.send(*scan, message.getTime(), *out);
     }
     if (const auto label = files::checked_message<ScanLabel>(message))
-      replay.send(*label, message.getTime(), out);
+      replay.send(*label, message.getTime(), *out);
     if (const auto garment = files::checked_message<Garment>(message))
-      lost += !replay.send(*garment, message.getTime(), out);
+      lost += !replay.send(*garment, message.getTime(), *out);
   }
   if (sent == 0)
     throw geometry::Refusal(geometry::refusal::kBrokenFile, "no scan/points in '" + setup.bag + "'");
-  out.close();
-  std::filesystem::rename(unfinished, lost == 0 ? setup.out : setup.out + ".incomplete");
+  out.finish(lost == 0 ? setup.out : setup.out + ".incomplete");
   return lost;
 }
 
@@ -78,10 +118,11 @@ int main(int argc, char** argv) {
   try {
     return tensegric_fit::node::run(tensegric_fit::node::setup_from(private_node)) == 0 ? 0 : 1;
   } catch (const tensegric_fit::geometry::Refusal& refusal) {
-    ROS_FATAL("replay: %s: %s", refusal.code().c_str(), refusal.what());
+    ROS_FATAL("replay: %s: %s", refusal.code().c_str(),
+              tensegric_fit::node::without_files(refusal.what()).c_str());
     return 2;
   } catch (const std::exception& error) {
-    ROS_FATAL("replay: %s", error.what());
+    ROS_FATAL("replay: %s", tensegric_fit::node::without_files(error.what()).c_str());
     return 1;
   }
 }

@@ -12,6 +12,8 @@
 #include "geometry/status.hpp"
 #include "ros/forgetter.hpp"
 #include "ros/held_scan.hpp"
+#include "ros/log_folder.hpp"
+#include "ros/log_words.hpp"
 #include "ros/memory_limit.hpp"
 
 namespace tensegric_fit::node {
@@ -46,16 +48,17 @@ int run_node(int argc, char** argv, const std::string& name) {
   files::owner_only();
   limit_memory();
   ros::init(argc, argv, name);
+  const ros::NodeHandle running;  // ROS shuts down with the last one, and prints nothing from then on
   try {
-    const ros::NodeHandle running;  // ROS shuts down with the last one
+    close_log_folder();
     Forgetter forgetter{ros::NodeHandle{}};
     while (serve_node<Node>(forgetter)) forgetter.let_go();
     return 0;
   } catch (const geometry::Refusal& refusal) {
-    ROS_FATAL("%s: %s: %s", name.c_str(), refusal.code().c_str(), refusal.what());
+    ROS_FATAL("%s: %s: %s", name.c_str(), refusal.code().c_str(), without_files(refusal.what()).c_str());
     return 2;
   } catch (const std::exception& error) {
-    ROS_FATAL("%s: %s", name.c_str(), error.what());
+    ROS_FATAL("%s: %s", name.c_str(), without_files(error.what()).c_str());
     return 1;
   }
 }

@@ -101,9 +101,7 @@ void Stage::refuse(const std::string& scan_id, const geometry::Refusal& refusal)
 
 void Stage::drop(const std::string& scan_id, const geometry::Refusal& refusal) {
   std::lock_guard<std::mutex> lock(report_mutex_);
-  state_.last_error = refusal.code();
-  state_.last_error_message = refusal.what();
-  state_.last_error_scan_id = scan_id;
+  state_.last_error = {refusal.code(), refusal.what(), scan_id};
   report();
   ROS_WARN("%s: dropped: %s: %s", name_.c_str(), refusal.code().c_str(), log_words(refusal.what()).c_str());
 }
@@ -195,15 +193,24 @@ void Stage::fail(const std::string& scan_id, const std::string& word, const std:
   state_.level = DiagnosticStatus::ERROR;
   state_.milliseconds = 0;
   state_.facts.clear();
-  state_.last_error = code;
-  state_.last_error_message = message;
-  state_.last_error_scan_id = scan_id;
+  state_.last_error = {code, message, scan_id};
   report();
   ROS_ERROR("%s: scan %s %s: %s: %s", name_.c_str(), scan_id.c_str(), word.c_str(), code.c_str(),
             log_words(message).c_str());
 }
 
+/// A report is given again every second, for as long as the node lives.
+void Stage::leave_out_forgotten() {
+  const HeldScan& held = HeldScan::of_process();
+  if (held.is_forgotten(state_.last_error.scan_id)) state_.last_error = {};
+  if (state_.working_since || !held.is_forgotten(state_.scan_id)) return;
+  const Error last = state_.last_error;
+  state_ = {};
+  state_.last_error = last;
+}
+
 void Stage::report() {
+  leave_out_forgotten();
   DiagnosticStatus status;
   status.level = state_.level;
   status.name = ros::this_node::getName().substr(1) + ": " + name_;
@@ -219,9 +226,9 @@ void Stage::report() {
                    fact("working_seconds", fmt::format("{:.1f}", working)),
                    fact("milliseconds", fmt::format("{:.3f}", state_.milliseconds)),
                    fact("peak_mebibytes", fmt::format("{:.1f}", peak_mebibytes())),
-                   fact("last_error", state_.last_error),
-                   fact("last_error_message", state_.last_error_message),
-                   fact("last_error_scan_id", state_.last_error_scan_id)};
+                   fact("last_error", state_.last_error.code),
+                   fact("last_error_message", state_.last_error.message),
+                   fact("last_error_scan_id", state_.last_error.scan_id)};
   for (const auto& [key, value] : state_.facts) status.values.push_back(fact(key, value));
 
   diagnostic_msgs::DiagnosticArray array;

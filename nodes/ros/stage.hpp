@@ -68,10 +68,13 @@ class Stage {
     Work work;
     bool passing;
   };
+  struct Error {
+    std::string code, message, scan_id;
+  };
   struct State {
     std::string word = "waiting", message = "waiting for input", scan_id;
     std::uint8_t level = diagnostic_msgs::DiagnosticStatus::OK;
-    std::string last_error, last_error_message, last_error_scan_id;
+    Error last_error;
     std::optional<std::chrono::steady_clock::time_point> working_since;
     double milliseconds = 0;
     Facts facts;
@@ -85,6 +88,7 @@ class Stage {
             const std::string& message);
   void finish(const Job& job, const Result& result, double milliseconds);
   void report();
+  void leave_out_forgotten();
 
   const std::string name_;
   ros::Publisher diagnostics_;

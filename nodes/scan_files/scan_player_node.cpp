@@ -17,6 +17,7 @@
 
 #include "files/checked_message.hpp"
 #include "mesh_files/read_mesh.hpp"
+#include "ros/held_scan.hpp"
 #include "ros/parameters.hpp"
 #include "ros/run_node.hpp"
 #include "ros/scan_labels.hpp"
@@ -156,7 +157,20 @@ class ScanPlayer {
       }
       done.removed.push_back("the latched scan/points and scan/label");
     }
-    if (!order.scan_file) return;
+    HeldScan::of_process().forget(source->second.work);  // its path on /diagnostics
+    if (order.scan_file) delete_file(source, done);
+  }
+
+ private:
+  struct Played {
+    std::string path;
+    fs::file_time_type written;
+    std::size_t scans;  // in it
+    std::string work;   // of the stage
+  };
+  using Sources = std::map<std::string, Played>;  // by source_key
+
+  void delete_file(Sources::iterator source, ForgetAnswer& done) {
     std::error_code error;
     const Played& file = source->second;
     if (file.scans > 1)
@@ -169,16 +183,34 @@ class ScanPlayer {
       done.failed.push_back("the file " + file.path + " was not deleted");
     else {
       done.removed.push_back("the file " + file.path);
+      delete_companions(file.path, done);
       sources_.erase(source);
     }
   }
 
- private:
-  struct Played {
-    std::string path;
-    fs::file_time_type written;
-    std::size_t scans;  // in it
-  };
+  /// Textures are photographs of her. They have the name of the scan file, as those of another scan may.
+  static void delete_companions(const fs::path& file, ForgetAnswer& done) {
+    const fs::path scan = fs::absolute(file);
+    std::vector<fs::path> companions;
+    bool is_shared = false;
+    std::error_code error;
+    for (fs::directory_iterator entry(scan.parent_path(), error), end; !error && entry != end;
+         entry.increment(error)) {
+      if (entry->path().stem() != scan.stem()) continue;
+      if (scan_files::is_companion_name(entry->path())) companions.push_back(entry->path());
+      is_shared = is_shared || scan_files::is_scan_name(entry->path());
+    }
+    if (error)
+      done.failed.push_back("textures beside the file " + scan.string() +
+                            " were not looked for: " + error.message());
+    for (const fs::path& path : companions)
+      if (!is_shared && fs::symlink_status(path, error).type() == fs::file_type::regular &&
+          fs::remove(path, error))
+        done.removed.push_back("the file " + path.string());
+      else
+        done.failed.push_back("the file " + path.string() + " was not deleted: " +
+                              (is_shared ? "another scan has that name, too" : "it is a link, or stays"));
+  }
 
   /// A file that is played over and over has a stamp each time, and the same points.
   std::string source_key(const std::string& scan_id) const {
@@ -233,9 +265,9 @@ class ScanPlayer {
     scans_.clear();  // played by now, and not to be kept where the next file is refused
     at_ = 0;
     busy_ = true;
-    std::error_code gone;  // meanwhile
-    playing_ = {path, fs::last_write_time(path, gone), 0};
+    std::error_code gone;                                      // meanwhile
     const std::string work = fmt::format("file {}", ++read_);  // names of files may be customers'
+    playing_ = {path, fs::last_write_time(path, gone), 0, work};
     stage_.begin(work);
     stage_.post(work, [this, path]() -> Stage::Result {
       try {
@@ -278,10 +310,10 @@ class ScanPlayer {
   std::deque<std::string> files_;  // complete, to be read
   std::vector<FileScan> scans_;    // of the file read last; the worker's while busy
   Played playing_;
-  std::string published_;                  // scan_id
-  std::map<std::string, Played> sources_;  // by source_key
-  std::size_t at_ = 0;                     // of the next one
-  double next_ = 0;                        // when it may go, seconds of the steady clock
+  std::string published_;  // scan_id
+  Sources sources_;
+  std::size_t at_ = 0;  // of the next one
+  double next_ = 0;     // when it may go, seconds of the steady clock
   std::atomic<bool> busy_{false};
   ros::WallTimer clock_;
   Stage stage_;  // last: its worker uses all of the above

@@ -3,6 +3,7 @@
 
 #include "fit/bind_body.hpp"
 #include "ros/display.hpp"
+#include "ros/held_scan.hpp"
 #include "ros/markers.hpp"
 #include "ros/run_node.hpp"
 #include "ros/set_parameter.hpp"
@@ -125,7 +126,9 @@ class TensegricNode {
     stage_.post(scan_id, [this, input = *input, scan_id]() -> Stage::Result {
       const auto output = handler_.handle(
           input, [&] { return !stage_.outdated(scan_id); },
-          [&](const FitState& state) { progress_.publish(state); });
+          [&](const FitState& state) {
+            if (!HeldScan::of_process().is_forgotten(scan_id)) progress_.publish(state);
+          });
       if (!output) return {};
       return {[this, output = std::make_shared<const Output>(*output)] { publish(output); }, output->facts};
     });

@@ -3,10 +3,14 @@
 #include <pcl_conversions/pcl_conversions.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <random>
 #include <set>
@@ -195,11 +199,17 @@ TEST_F(BadInputTest, TheSamePointsInAnotherLayoutGiveTheSameBody) {
   EXPECT_EQ(bodies[0], bodies[1]);
 }
 
-/// Exit code of a stage node that is started with one parameter.
-int exit_code(const std::string& program, const std::string& parameter) {
+/// Exit code of a stage node that is started with one parameter, of which it should say that refusal.
+int exit_code(const std::string& program, const std::string& parameter,
+              const std::string& refusal = "bad_option") {
+  const std::string words = testing::TempDir() + "misled_" + std::to_string(getpid());
   const std::string command = std::string("timeout 20 ") + TENSEGRIC_FIT_PROGRAMS + "/" + program +
-                              " __name:=misled_" + program + " " + parameter + " > /dev/null 2>&1";
+                              " __name:=misled_" + program + " " + parameter + " > " + words + " 2>&1";
   const int status = std::system(command.c_str());
+  std::ifstream file(words);
+  const std::string said(std::istreambuf_iterator<char>(file), {});
+  EXPECT_NE(said.find(": " + refusal + ": "), std::string::npos) << program << " said: " << said;
+  std::filesystem::remove(words);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
@@ -211,9 +221,9 @@ TEST_F(BadInputTest, NodesRefuseParametersThatTheyDoNotKnowOrThatAreOutOfRange) 
   EXPECT_EQ(exit_code("assembler_node", ""), kRefused);  // no sensors
   EXPECT_EQ(exit_code("assembler_node", "_sensors:=here/points"), kRefused);
   EXPECT_EQ(exit_code("landmarks_node", "_nose:=1"), kRefused);
-  EXPECT_EQ(exit_code("control_mesh_node", "_template:=no_such_template"), kRefused);
+  EXPECT_EQ(exit_code("control_mesh_node", "_template:=no_such_template", "bad_template"), kRefused);
   EXPECT_EQ(exit_code("tensegric_node", "_solver:=magic"), kRefused);
-  EXPECT_EQ(exit_code("tensegric_node", "_garment:=no_such_garment"), kRefused);
+  EXPECT_EQ(exit_code("tensegric_node", "_garment:=no_such_garment", "bad_garment"), kRefused);
   EXPECT_EQ(exit_code("tffd_node", "_beta:=-1"), kRefused);
 }
 

@@ -29,13 +29,13 @@ TEST_F(HeldScanTest, AScanIsHeldWhileItIsWorkedOnThoughANewerOneHasCome) {
   held_.work("b");
   take("c");
   EXPECT_TRUE(held_.holds("b"));
-  EXPECT_TRUE(held_.works_on_other("b")) << "c would be lost";
+  EXPECT_TRUE(held_.must_finish("b")) << "c would be lost";
   held_.publish("b");
   held_.rest();
   EXPECT_TRUE(held_.holds("b")) << "it is latched";
-  EXPECT_TRUE(held_.works_on_other("b")) << "c waits";
+  EXPECT_TRUE(held_.must_finish("b")) << "c waits";
   do_work("c");
-  EXPECT_FALSE(held_.works_on_other("b"));
+  EXPECT_FALSE(held_.must_finish("b"));
   EXPECT_FALSE(held_.holds("b"));
   EXPECT_TRUE(held_.holds("c"));
 }
@@ -70,23 +70,54 @@ TEST_F(HeldScanTest, AScanIsHeldUntilAnotherTakesItsPlaceThoughWorkOnItWasDroppe
   held_.work("b");
   held_.begin("c");
   EXPECT_TRUE(held_.holds("b"));
-  EXPECT_TRUE(held_.works_on_other("b"));
+  EXPECT_TRUE(held_.must_finish("b"));
   held_.rest();
-  EXPECT_FALSE(held_.works_on_other("b"));
+  EXPECT_FALSE(held_.must_finish("b"));
   EXPECT_TRUE(held_.holds("b"));
   do_work("c");
   EXPECT_FALSE(held_.holds("b"));
+}
+
+/// The topics of a scan whose others were refused elsewhere are kept until all of another's have come.
+TEST_F(HeldScanTest, AScanThatNoWorkBeganOnIsHeldUntilAnotherTakesItsPlace) {
+  held_.begin("a");
+  held_.begin("b");
+  EXPECT_TRUE(held_.holds("a"));
+  held_.wait("b");
+  do_work("b");
+  EXPECT_FALSE(held_.holds("a"));
+}
+
+/// A stage that publishes nothing, as correlation without a worn scan, does not hold all that ever came.
+TEST_F(HeldScanTest, OfScansThatCameAndWentTheNewestAreHeld) {
+  for (const char* scan_id : {"a", "b", "c", "d", "e", "f"}) held_.begin(scan_id);
+  EXPECT_FALSE(held_.holds("a"));
+  for (const char* scan_id : {"b", "c", "d", "e", "f"}) EXPECT_TRUE(held_.holds(scan_id)) << scan_id;
+}
+
+/// Its folder was once there after `forget` had deleted all exports of it.
+TEST_F(HeldScanTest, AScanIsHeldWhileAnExportOfItIsWritten) {
+  do_work("a");
+  do_work("b");
+  {
+    const HeldScan::Export first(held_, "a"), second(held_, "a");
+    EXPECT_TRUE(held_.holds("a"));
+    EXPECT_TRUE(held_.must_finish("a"));
+    EXPECT_FALSE(held_.must_finish("b"));
+  }
+  EXPECT_FALSE(held_.holds("a"));
+  EXPECT_FALSE(held_.must_finish("a"));
 }
 
 /// Once thrown away where the order came before the worker had begun it.
 TEST_F(HeldScanTest, WorkThatWaitsIsNotLostForAnotherScan) {
   take("a");
   do_work("a");
-  EXPECT_FALSE(held_.works_on_other("a"));
+  EXPECT_FALSE(held_.must_finish("a"));
   take("b");
   EXPECT_TRUE(held_.holds("a"));
-  EXPECT_TRUE(held_.works_on_other("a"));
-  EXPECT_FALSE(held_.works_on_other("b")) << "work on the scan itself need not be finished";
+  EXPECT_TRUE(held_.must_finish("a"));
+  EXPECT_FALSE(held_.must_finish("b")) << "work on the scan itself need not be finished";
   do_work("b");
   EXPECT_FALSE(held_.holds("a"));
 }
@@ -100,7 +131,7 @@ TEST_F(HeldScanTest, NothingIsHeldAfterANewStartButWhatIsForgottenStaysSo) {
   held_.clear();
   EXPECT_FALSE(held_.holds("a"));
   EXPECT_FALSE(held_.holds("b"));
-  EXPECT_FALSE(held_.works_on_other("a"));
+  EXPECT_FALSE(held_.must_finish("a"));
   EXPECT_TRUE(held_.is_forgotten("a"));
   EXPECT_FALSE(held_.is_forgotten("b"));
 }
