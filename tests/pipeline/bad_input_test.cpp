@@ -3,7 +3,6 @@
 #include <pcl_conversions/pcl_conversions.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -202,9 +201,10 @@ TEST_F(BadInputTest, TheSamePointsInAnotherLayoutGiveTheSameBody) {
 /// Exit code of a stage node that is started with one parameter, of which it should say that refusal.
 int exit_code(const std::string& program, const std::string& parameter,
               const std::string& refusal = "bad_option") {
-  const std::string words = testing::TempDir() + "misled_" + std::to_string(getpid());
+  static int started = 0;  // parameters stay with the master: each needs a name of its own
+  const std::string name = "misled_" + std::to_string(++started), words = testing::TempDir() + name;
   const std::string command = std::string("timeout 20 ") + TENSEGRIC_FIT_PROGRAMS + "/" + program +
-                              " __name:=misled_" + program + " " + parameter + " > " + words + " 2>&1";
+                              " __name:=" + name + " " + parameter + " > " + words + " 2>&1";
   const int status = std::system(command.c_str());
   std::ifstream file(words);
   const std::string said(std::istreambuf_iterator<char>(file), {});
