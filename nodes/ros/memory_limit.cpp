@@ -1,15 +1,11 @@
 #include "ros/memory_limit.hpp"
 
-#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 namespace tensegric_fit::node {
 
 void limit_memory() {
-  // malloc_trim (Stage, at rest) gives back all of the main arena; of others the free end stays (glibc 2.36,
-  // mtrim), up to 16 MB each of what a scan went through.
-  mallopt(M_ARENA_MAX, 1);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they take terabytes of address space
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
   if (pages <= 0 || page <= 0) return;
