@@ -143,7 +143,7 @@ const std::vector<Eigen::Vector3d>& tape_of(const Figure& figure, const Settled&
 
 double limit_of(const Figure& figure) {
   // ISO 20685-1:2018, table 1: small girths and heights 4 mm, large girths 9 mm; points of the torso 10 mm,
-  // a bust point, which bra makers need better, half of that.
+  // of which bust points half.
   const auto is = [&](const char* name) { return figure.name.rfind(name, 0) == 0; };
   if (figure.kind == Kind::point) return is("bust_point") ? 0.005 : 0.010;
   return figure.kind == Kind::height || figure.name == "neck" || is("upper_arm") ? 0.004 : 0.009;

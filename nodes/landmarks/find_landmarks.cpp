@@ -341,7 +341,7 @@ class Reader {
       return round_limb(s, place, along, reach * body_.stature(),
                         [&](const Eigen::Vector3i& t) { return belongs(s, t); });
     };
-    girth_of(name + kSuffix[side], round(mesh_.surface()), round(skin_.surface()));
+    girth_of(sided(name, side), round(mesh_.surface()), round(skin_.surface()));
   }
 
   void gluteal_fold(Side side) {
@@ -356,7 +356,7 @@ class Reader {
   }
 
   void farthest(const std::string& level, Side side) {
-    const std::string name = level + "_side" + kSuffix[side];
+    const std::string name = sided(level + "_side", side);
     if (base_of(name, Kind::height, level) == nullptr) return;
     const auto on_model = find_side(skin_, side, height(level));
     if (!on_model) return lacks(name, "no skin on its level was found");

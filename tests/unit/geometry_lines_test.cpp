@@ -93,6 +93,21 @@ TEST(HighestNear, IsTheUppermostSheetWithinReach) {
   EXPECT_FALSE(highest_near(sheets, {1.5, 0.4, 0.15}, 1, 1));
 }
 
+/// Once without end: a step of no length.
+TEST(FirstHarmonics, OfALoopWithoutLengthAreItsPlace) {
+  const Vector3d place(1, 2, 3);
+  EXPECT_EQ(first_harmonics({place, place, place}, 8, 180), std::vector<Vector3d>(180, place));
+}
+
+/// At 1000 km single precision knows places to 0.06 m.
+TEST(OrientedTree, FarFromTheOriginPlacesAreKeptApart) {
+  const Vector3d far(1e6, -1e6, 0);
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 100; ++i) points.push_back(far + Vector3d(0.001 * i, 0, 0));
+  const OrientedTree tree(points, std::vector<Vector3d>(points.size(), Vector3d::UnitZ()));
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(tree.nearest(points[i], Vector3d::UnitZ()), i);
+}
+
 TEST(OrientedTree, ANearerPointThatFacesAwayIsFartherThanOneThatFacesAlike) {
   const OrientedTree tree({{0, 0, 0}, {0.03, 0, 0}}, {-Vector3d::UnitX(), Vector3d::UnitX()});
   EXPECT_EQ(tree.nearest({0.01, 0, 0}, Vector3d::UnitX()), 1);
