@@ -9,6 +9,7 @@
 #include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
+#include "geometry/surface_tree.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::body_model {
@@ -341,11 +342,26 @@ std::vector<double> shares_there(const RegisteredBody& body) {
   return there;
 }
 
+void leave_out_lost_surface(RegisteredBody& body, const geometry::TriangleMesh& mesh) {
+  // Of most bodies nothing is lost, which the vertices show in less time than the triangles.
+  const geometry::PointTree vertices(mesh.vertices);
+  std::vector<int> asked;
+  for (int v = 0; v < static_cast<int>(body.skin.size()); ++v)
+    if (body.support[v] < kThere && !vertices.any_within(body.skin[v], kThere, [](int) { return true; }))
+      asked.push_back(v);
+  if (asked.empty()) return;
+  const geometry::SurfaceTree surface(mesh);
+  for (const int v : asked)
+    body.support[v] =
+        std::max(body.support[v], (surface.nearest(body.skin[v]).position - body.skin[v]).norm());
+  body.there = shares_there(body);
+}
+
 std::vector<geometry::Missing> missing_parts(const RegisteredBody& body) {
   const std::vector<double> there = known_shares(body);
   const auto share = [&](const std::string& part) { return there[body.model->part_named(part)]; };
   const auto gone = [&](const std::string& part) { return !part.empty() && share(part) < kLeastOfPart; };
-  const char* where = body.scanned ? "scan" : "mesh";
+  const char* where = body.scanned ? "scanned surface" : "mesh";
   const auto only = [&](double of_it) {
     return of_it < 0.01 ? fmt::format("none of it is in the {}", where)
                         : fmt::format("only {:.0f} % of it is in the {}", 100 * of_it, where);

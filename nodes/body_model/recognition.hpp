@@ -8,6 +8,7 @@
 #include "body_model/registered_body.hpp"
 #include "body_model/samples.hpp"
 #include "geometry/body_measures.hpp"
+#include "geometry/triangle_mesh.hpp"
 
 namespace tensegric_fit::body_model {
 
@@ -19,6 +20,11 @@ std::vector<char> recognise(RegisteredBody& body, const Samples& samples);
 /// Of each part, the share of its skin that has samples: what `there` is filled with. What follows takes it
 /// from there, or counts anew.
 std::vector<double> shares_there(const RegisteredBody& body);
+
+/// Skin that the mesh which was made of the scan does not have, as of a limb that came off as a piece of its
+/// own, has no samples from then on, whatever was scanned there: corrects `support` and `there`. \pre `mesh`
+/// is in the body's frame and has passed check_mesh
+void leave_out_lost_surface(RegisteredBody& body, const geometry::TriangleMesh& mesh);
 
 /// Head and limbs (upper_arm_L, forearm_L, hand_L, thigh_L, shank_L, foot_L, ..._R) of which the scan has
 /// less than 55 %, and the trunk, and `crown`, the top of the head; what hangs on a missing part is named in

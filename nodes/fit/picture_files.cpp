@@ -9,6 +9,7 @@
 #include "geometry/shading_normals.hpp"
 #include "inspect/composition.hpp"
 #include "inspect/fit_pictures.hpp"
+#include "inspect/warning_words.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -16,8 +17,10 @@ namespace {
 constexpr int kPanel = 600;  // pixels; the height of the pictures of a fit
 constexpr int kWhole = 900;  // of a body that is measured only
 
-PictureFile file(const std::string& name, const cv::Mat& picture) {
-  return {name, inspect::png_bytes(picture)};
+/// With what of the body is missing.
+PictureFile file(const std::string& name, const cv::Mat& picture, const Body& body) {
+  const std::string note = inspect::words::missing(body.measures.missing);
+  return {name, inspect::png_bytes(inspect::with_note(picture, note))};
 }
 
 using Normals = std::vector<Eigen::Vector3d>;
@@ -90,12 +93,15 @@ std::vector<PictureFile> pictures_of(const Body& body, const Fitting& fitting, c
   };
   std::vector<std::function<PictureFile()>> pictures{
       [&] {
-        return file("front.png", beside_measured(inspect::front_picture, inspect::front_picture(scene)));
+        return file("front.png", beside_measured(inspect::front_picture, inspect::front_picture(scene)),
+                    body);
       },
-      [&] { return file("side.png", beside_measured(inspect::side_picture, inspect::side_picture(scene))); },
-      [&] { return file("distortion.png", inspect::distortion_picture(scene)); }};
+      [&] {
+        return file("side.png", beside_measured(inspect::side_picture, inspect::side_picture(scene)), body);
+      },
+      [&] { return file("distortion.png", inspect::distortion_picture(scene), body); }};
   if (std::any_of(scene.parts.begin(), scene.parts.end(), [](const auto& part) { return part.behind; }))
-    pictures.emplace_back([&] { return file("back.png", inspect::back_picture(scene)); });
+    pictures.emplace_back([&] { return file("back.png", inspect::back_picture(scene), body); });
   return made_at_once(pictures);
 }
 
@@ -103,10 +109,12 @@ std::vector<PictureFile> pictures_of(const Body& body, const PictureWishes& wish
   const Normals normals = geometry::shading_normals(body.mesh.mesh.vertices, body.mesh.mesh.triangles);
   return made_at_once(
       {[&] {
-         return file("front.png", measured(inspect::front_picture, body, kWhole, wishes.overlay, normals));
+         return file("front.png", measured(inspect::front_picture, body, kWhole, wishes.overlay, normals),
+                     body);
        },
        [&] {
-         return file("side.png", measured(inspect::side_picture, body, kWhole, wishes.overlay, normals));
+         return file("side.png", measured(inspect::side_picture, body, kWhole, wishes.overlay, normals),
+                     body);
        }});
 }
 

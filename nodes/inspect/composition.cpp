@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -14,19 +15,41 @@ namespace tensegric_fit::inspect {
 namespace {
 
 const cv::Scalar kInk(70, 66, 64), kPaper(255, 255, 255);
-constexpr int kGap = 12;  // pixels
+const cv::Scalar kWarningInk(0, 70, 168);  // kWarnedColour is too pale for thin strokes on white
+constexpr int kGap = 12;                   // pixels
 
 int strip_height(const cv::Mat& picture) {
   return std::max(12, picture.rows / 16);
 }
 
-// `anchor` is 0 at the text's left end, 1 at its right end; `at` is half-way up its capitals.
-void write(cv::Mat& picture, const std::string& text, int strip, cv::Point at, double anchor) {
-  const double scale = strip / 70.0;
+double scale_of(int strip) {
+  return strip / 70.0;
+}
+
+cv::Size size_of(const std::string& text, int strip) {
   int below = 0;
-  const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, 1, &below);
+  return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale_of(strip), 1, &below);
+}
+
+// `anchor` is 0 at the text's left end, 1 at its right end; `at` is half-way up its capitals.
+void write(cv::Mat& picture, const std::string& text, int strip, cv::Point at, double anchor,
+           const cv::Scalar& ink = kInk) {
+  const cv::Size size = size_of(text, strip);
   at += cv::Point(-static_cast<int>(std::lround(anchor * size.width)), size.height / 2);
-  cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, scale, kInk, 1, cv::LINE_AA);
+  cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, scale_of(strip), ink, 1, cv::LINE_AA);
+}
+
+/// As many words a line as are no wider than that, pixels; one where it is wider.
+std::vector<std::string> lines_of(const std::string& text, int strip, int width) {
+  std::vector<std::string> lines;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (!lines.empty() && size_of(lines.back() + " " + word, strip).width <= width)
+      lines.back() += " " + word;
+    else
+      lines.push_back(word);
+  }
+  return lines;
 }
 
 // The two-sided scale of colours: words at its ends, figures below ends and middle.
@@ -69,6 +92,17 @@ cv::Mat with_caption(const cv::Mat& picture, const std::string& text) {
   cv::Mat result;
   cv::copyMakeBorder(picture, result, strip, 0, 0, 0, cv::BORDER_CONSTANT, kPaper);
   write(result, text, strip, {result.cols / 2, strip / 2}, 0.5);
+  return result;
+}
+
+cv::Mat with_note(const cv::Mat& picture, const std::string& text) {
+  const int strip = strip_height(picture);
+  const std::vector<std::string> lines = lines_of(text, strip, picture.cols - strip);
+  cv::Mat result;
+  cv::copyMakeBorder(picture, result, 0, static_cast<int>(lines.size()) * strip, 0, 0, cv::BORDER_CONSTANT,
+                     kPaper);
+  for (int i = 0; i < static_cast<int>(lines.size()); ++i)
+    write(result, lines[i], strip, {result.cols / 2, picture.rows + i * strip + strip / 2}, 0.5, kWarningInk);
   return result;
 }
 

@@ -12,6 +12,10 @@ cv::Mat side_by_side(const cv::Mat& left, const cv::Mat& right);
 /// The picture under a white strip with `text` (ASCII) in its middle.
 cv::Mat with_caption(const cv::Mat& picture, const std::string& text);
 
+/// The picture over white strips with `text` (ASCII) in as many lines as it needs, in the colour of warnings;
+/// without text the picture alone.
+cv::Mat with_note(const cv::Mat& picture, const std::string& text);
+
 /// The picture over a white strip with the fixed scale of distortion_colour: per cent, "pressed
 /// together" and "stretched".
 cv::Mat with_distortion_scale(const cv::Mat& picture);

@@ -88,4 +88,18 @@ std::string warning(const FitWarning& warning, const geometry::BodyMeasures& mea
   return lack_of(warning, where);
 }
 
+std::string missing(const std::vector<geometry::Missing>& missing) {
+  constexpr std::size_t kNamed = 8;
+  if (missing.empty()) return "";
+  std::vector<std::string> names;
+  for (const geometry::Missing& what : missing) names.push_back(what.name);
+  // Landmarks last: they are missing since what they lie on is.
+  std::stable_partition(names.begin(), names.end(),
+                        [](const std::string& name) { return !geometry::is_landmark(name); });
+  std::string words = "Missing: ";
+  for (std::size_t i = 0; i < std::min(kNamed, names.size()); ++i)
+    words += (i > 0 ? ", " : "") + spoken(names[i]);
+  return words + (names.size() > kNamed ? fmt::format(" and {} more", names.size() - kNamed) : "");
+}
+
 }  // namespace tensegric_fit::inspect::words

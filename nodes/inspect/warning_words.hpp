@@ -1,7 +1,9 @@
-/// What a fit warns of, as sentences for a clerk: what is wrong, where, and what she can do.
+/// What a fit warns of, and what of a body is missing, as sentences for a clerk: what is wrong, where, and
+/// what she can do.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "geometry/body_measures.hpp"
 #include "geometry/fit_warning.hpp"
@@ -18,5 +20,8 @@ std::string place(const geometry::BodyMeasures& measures, const Eigen::Vector3d&
 /// "The skin folds into a shelf 3 cm below the left bust point: 8 cm2 are turned by up to 71 degrees. Loosen
 /// 'chest'."
 std::string warning(const geometry::FitWarning& warning, const geometry::BodyMeasures& measures);
+
+/// "Missing: left forearm, right hand"; of many the first, and how many more. Empty where nothing is.
+std::string missing(const std::vector<geometry::Missing>& missing);
 
 }  // namespace tensegric_fit::inspect::words

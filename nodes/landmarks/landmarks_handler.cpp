@@ -1,5 +1,7 @@
 #include "landmarks/landmarks_handler.hpp"
 
+#include <fmt/format.h>
+
 #include <boost/make_shared.hpp>
 #include <utility>
 
@@ -65,8 +67,11 @@ LandmarksHandler::Output LandmarksHandler::handle(const Input& input) const {
   const std::vector<char> filled = filled_in(message);
   const body_model::RegisteredBody model = registered(output.mesh, filled, std::get<1>(input));
   output.measures = landmarks::find_landmarks(output.mesh, filled, model, landmarks::shipped_precision());
-  for (geometry::Missing& part : body_model::missing_parts(model))
-    output.measures.missing.push_back(std::move(part));
+  const std::vector<geometry::Missing> parts = body_model::missing_parts(model);
+  output.measures.missing.insert(output.measures.missing.end(), parts.begin(), parts.end());
+  for (const geometry::Missing& part : parts)
+    output.warning +=
+        fmt::format("{}missing_part:{}: {}.", output.warning.empty() ? "" : " ", part.name, part.reason);
   geometry::doubt_fractured(fractures_in(message), output.measures);
   output.landmarks = boost::make_shared<Landmarks>(to_message(tag_in(message), output.measures));
   output.body_frame = transform_to(body_frame_, message.header, output.measures.body_from_scan);

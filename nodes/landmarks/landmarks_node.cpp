@@ -44,7 +44,7 @@ class LandmarksNode {
     if (!input) return;
     stage_.post(std::get<0>(*input)->scan_id, [this, input = *input]() -> Stage::Result {
       const auto output = std::make_shared<const Output>(handler_.handle(input));
-      return {[this, output] { publish(output); }, output->facts};
+      return {[this, output] { publish(output); }, output->facts, output->warning};
     });
   }
 

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 
+#include "body_model/recognition.hpp"
 #include "geometry/decimate.hpp"
 #include "geometry/moved_cloud.hpp"
 #include "geometry/point_tree.hpp"
@@ -303,6 +304,7 @@ Reconstruction reconstruct(const PointCloud& scan, const Options& options, const
   stand(person, model, anatomy.standing);
   Reconstruction result{surface_of(person, options, model, poisson),
                         moved(model, person.from_scan.inverse())};
+  leave_out_lost_surface(result.model, result.body.mesh);
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include "inspect/composition.hpp"
 #include "inspect/fit_model.hpp"
 #include "inspect/fit_pictures.hpp"
+#include "inspect/warning_words.hpp"
 #include "mesh_files/maker_files.hpp"
 #include "mesh_files/measures_file.hpp"
 #include "ros/export_folders.hpp"
@@ -77,9 +78,11 @@ std::vector<FileContent> contents_of(const FitFigures& figures) {
   const mesh_files::WornBody worn_body{figures.in_scan_posture, figures.heights, figures.girths};
   const auto measures = mesh_files::measure_entries(figures.body, figures.measures, &worn_body);
   const inspect::FitScene scene = scene_of(figures);
-  const FileContent front = png("front.png", inspect::front_picture(scene)),
-                    side = png("side.png", inspect::side_picture(scene)),
-                    distortion = png("distortion.png", inspect::distortion_picture(scene)),
+  const std::string note = inspect::words::missing(figures.measures.missing);
+  const auto noted = [&](const cv::Mat& picture) { return inspect::with_note(picture, note); };
+  const FileContent front = png("front.png", noted(inspect::front_picture(scene))),
+                    side = png("side.png", noted(inspect::side_picture(scene))),
+                    distortion = png("distortion.png", noted(inspect::distortion_picture(scene))),
                     model{"fit.glb", fit_model(figures)};
   return {{kFitDocument, fit_json(figures, {kExportFiles.begin(), kExportFiles.end()})},
           {"measurements.csv", measurements_csv(figures)},

@@ -9,6 +9,7 @@
 
 #include "body_model/recognition.hpp"
 #include "body_model/registration.hpp"
+#include "geometry/decimate.hpp"
 #include "geometry/status.hpp"
 #include "refusal_of.hpp"
 #include "shipped_model.hpp"
@@ -169,6 +170,23 @@ TEST(Recognition, LimbsThatAreNotThereAreNamed) {
   ASSERT_EQ(names_of(arm), Names({"upper_arm_R"}));
   for (const char* hangs_on_it : {"forearm_R", "hand_R"})
     EXPECT_NE(arm.front().reason.find(hangs_on_it), std::string::npos) << arm.front().reason;
+}
+
+// Of a woman in T-pose the forearm had come off the surface, and nothing said so.
+TEST(Recognition, ALimbThatTheSurfaceLostIsNamedThoughItWasScanned) {
+  const TriangleMesh whole = woman();
+  const RegisteredBody scanned = register_mesh(shipped_registrar(), whole);
+  RegisteredBody body = scanned;
+  leave_out_lost_surface(body, whole);
+  EXPECT_EQ(body.support, scanned.support) << "nothing is lost";
+  leave_out_lost_surface(body, geometry::with_triangles(whole, 3000));
+  EXPECT_EQ(names_of(missing_parts(body)), Names()) << "large triangles lose no limb";
+  leave_out_lost_surface(body, without(whole, [](int v, const Vector3d&) {
+                           return is_of(v, {"forearm_L", "hand_L"});
+                         }));
+  const auto missing = missing_parts(body);
+  ASSERT_EQ(names_of(missing), Names({"forearm_L"}));
+  EXPECT_NE(missing.front().reason.find("hand_L"), std::string::npos) << missing.front().reason;
 }
 
 // The model's arm may then lie on the trunk, where skin is.

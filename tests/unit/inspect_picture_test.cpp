@@ -207,5 +207,24 @@ TEST(FitPictures, TheWordsBesideTheScaleAreWhole) {
   }
 }
 
+// A name at the end of a long note must not be outside the picture.
+TEST(WithNote, StandsUnderThePictureInAsManyLinesAsItNeeds) {
+  const cv::Mat picture(320, 200, CV_8UC3, cv::Scalar(10, 20, 30));
+  EXPECT_EQ(with_note(picture, "").rows, picture.rows);
+  const cv::Mat one = with_note(picture, "Missing: crown"),
+                more = with_note(picture, "Missing: left forearm, right hand, left shank, right foot");
+  const int line = one.rows - picture.rows;
+  EXPECT_GT(line, 0);
+  EXPECT_GT(more.rows, one.rows);
+  EXPECT_EQ((more.rows - picture.rows) % line, 0);
+  EXPECT_EQ(cv::norm(one(cv::Rect(0, 0, 200, 320)), picture), 0) << "the picture itself stays";
+  for (int y = picture.rows; y < more.rows; y += line) {
+    cv::Mat inked;
+    cv::inRange(more(cv::Rect(0, y, 200, line)), cv::Scalar(0, 0, 0), cv::Scalar(254, 200, 254), inked);
+    EXPECT_GT(cv::countNonZero(inked), 20) << "line at " << y;
+    EXPECT_EQ(cv::countNonZero(inked.col(0)) + cv::countNonZero(inked.col(199)), 0) << "cut off at " << y;
+  }
+}
+
 }  // namespace
 }  // namespace tensegric_fit::inspect

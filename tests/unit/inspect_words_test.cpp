@@ -23,6 +23,14 @@ TEST(Words, SayWhetherTheSkinIsTighterOrLooser) {
   EXPECT_EQ(position({0.121, -0.08, 1.182}), "12.1 cm forward, 8.0 cm to her right, 118.2 cm up");
 }
 
+TEST(Words, SayWhatOfABodyIsMissing) {
+  EXPECT_EQ(missing({}), "");
+  EXPECT_EQ(missing({{"axilla_L", "no gap"}, {"forearm_L", "came off"}, {"hand_R", "none"}}),
+            "Missing: left forearm, right hand, left axilla");
+  std::vector<geometry::Missing> many(11, {"hand_L", ""});
+  EXPECT_EQ(missing(many).substr(missing(many).rfind(',')), ", left hand and 3 more");
+}
+
 TEST(Words, SayPullsInNewtons) {
   EXPECT_EQ(pull(0.04), "0.0 N");
   EXPECT_EQ(pull(9.94), "9.9 N");
