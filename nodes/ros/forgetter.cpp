@@ -1,8 +1,8 @@
 #include "ros/forgetter.hpp"
 
-#include <malloc.h>
 #include <ros/callback_queue.h>
 
+#include "ros/freed_memory.hpp"
 #include "ros/held_scan.hpp"
 
 namespace tensegric_fit::node {
@@ -67,7 +67,7 @@ bool Forgetter::serve(const Forget& forget) {
 }
 
 void Forgetter::let_go() {
-  malloc_trim(0);  // back to the system, which clears memory before others get it
+  give_back_freed_memory();  // back to the system, which clears memory before others get it
   ForgetAnswer done;
   done.removed = {"what it held, and its latched messages"};
   answer(*order_, done);

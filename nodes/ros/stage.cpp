@@ -3,11 +3,11 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <diagnostic_msgs/KeyValue.h>
 #include <fmt/format.h>
-#include <malloc.h>
 #include <sys/resource.h>
 
 #include <chrono>
 
+#include "ros/freed_memory.hpp"
 #include "ros/held_scan.hpp"
 #include "ros/log_words.hpp"
 
@@ -16,9 +16,10 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-/// Without work for so long, what it freed goes back to the system, which clears it before others get it. The
-/// allocator keeps it otherwise, more after each larger scan.
-constexpr std::chrono::milliseconds kIdle(50);
+/// Without work for so long, what it freed goes back to the system, which clears it before others get it.
+/// Longer than a stage waits for the others while scans come one after another: what goes back has to be
+/// taken again.
+constexpr std::chrono::seconds kIdle(1);
 
 diagnostic_msgs::KeyValue fact(const std::string& key, const std::string& value) {
   diagnostic_msgs::KeyValue pair;
@@ -115,7 +116,7 @@ void Stage::serve() {
       std::unique_lock<std::mutex> lock(mutex_);
       if (worked && !wake_.wait_for(lock, kIdle, is_wanted)) {
         lock.unlock();
-        malloc_trim(0);
+        give_back_freed_memory();
         worked = false;
         lock.lock();
       }
