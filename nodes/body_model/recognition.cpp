@@ -85,6 +85,24 @@ bool is_hand(const Model& model, int v) {
   return model.parts[model.part[v]].rfind("hand", 0) == 0;
 }
 
+/// Of each two parts, whether they are one, or one hangs on the other. What is of no arm or leg is one.
+std::vector<std::vector<char>> joined_parts(const Model& model) {
+  const std::vector<std::string> limbs = limbs_of(model);
+  const int count = static_cast<int>(model.parts.size());
+  std::vector<std::vector<char>> joined(count, std::vector<char>(count, 0));
+  for (int a = 0; a < count; ++a)
+    for (int b = 0; b < count; ++b)
+      joined[a][b] = static_cast<char>(a == b || (limbs[a].empty() && limbs[b].empty()));
+  for (const Limb& limb : kLimbs) {
+    if (*limb.of == 0) continue;
+    const int part = model.part_named(limb.part);
+    for (int other = 0; other < count; ++other)
+      if (*limb.on != 0 ? model.parts[other] == limb.on : limbs[other].empty())
+        joined[part][other] = joined[other][part] = 1;
+  }
+  return joined;
+}
+
 /// How much more of her left half of the trunk has samples than of the right, -1 to 1.
 double more_on_left(const RegisteredBody& body) {
   double there[2] = {0, 0}, whole[2] = {0, 0};  // of the trunk's left and right half
@@ -343,17 +361,30 @@ std::vector<double> shares_there(const RegisteredBody& body) {
 }
 
 void leave_out_lost_surface(RegisteredBody& body, const geometry::TriangleMesh& mesh) {
-  // Of most bodies nothing is lost, which the vertices show in less time than the triangles.
-  const geometry::PointTree vertices(mesh.vertices);
-  std::vector<int> asked;
-  for (int v = 0; v < static_cast<int>(body.skin.size()); ++v)
-    if (body.support[v] < kThere && !vertices.any_within(body.skin[v], kThere, [](int) { return true; }))
-      asked.push_back(v);
-  if (asked.empty()) return;
+  const Model& model = *body.model;
+  const std::vector<std::vector<char>> joined = joined_parts(model);
+  const geometry::PointTree skin(body.skin), vertices(mesh.vertices);
+  // A hand that hangs beside the thigh is near the thigh's surface, which does not make it there.
+  const auto is_hers = [&](int v, const Vector3d& place) {
+    return joined[model.part[v]][model.part[skin.nearest(place)]] != 0;
+  };
+  std::vector<char> lost(body.skin.size(), 0);
+  geometry::parallel_for(lost.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      lost[v] = static_cast<char>(body.support[v] < kThere &&
+                                  !vertices.any_within(body.skin[v], kThere, [&](int near) {
+                                    return is_hers(v, mesh.vertices[near]);
+                                  }));
+  });
+  if (std::count(lost.begin(), lost.end(), 0) == static_cast<std::ptrdiff_t>(lost.size())) return;
+  // Vertices of large triangles are farther away than these: seldom, so that these may take their time.
   const geometry::SurfaceTree surface(mesh);
-  for (const int v : asked)
-    body.support[v] =
-        std::max(body.support[v], (surface.nearest(body.skin[v]).position - body.skin[v]).norm());
+  for (int v = 0; v < static_cast<int>(lost.size()); ++v) {
+    if (!lost[v]) continue;
+    const Vector3d nearest = surface.nearest(body.skin[v]).position;
+    const double distance = (nearest - body.skin[v]).norm();
+    body.support[v] = std::max(body.support[v], is_hers(v, nearest) ? distance : std::max(distance, kThere));
+  }
   body.there = shares_there(body);
 }
 

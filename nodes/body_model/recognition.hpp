@@ -26,12 +26,12 @@ std::vector<double> shares_there(const RegisteredBody& body);
 /// is in the body's frame and has passed check_mesh
 void leave_out_lost_surface(RegisteredBody& body, const geometry::TriangleMesh& mesh);
 
-/// Head and limbs (upper_arm_L, forearm_L, hand_L, thigh_L, shank_L, foot_L, ..._R) of which the scan has
-/// less than 55 %, and the trunk, and `crown`, the top of the head; what hangs on a missing part is named in
-/// its reason.
+/// Head and limbs (upper_arm_L, forearm_L, hand_L, thigh_L, shank_L, foot_L, ..._R) of which the scanned
+/// surface has less than 55 %, and the trunk, and `crown`, the top of the head; what hangs on a missing part
+/// is named in its reason.
 std::vector<geometry::Missing> missing_parts(const RegisteredBody& body);
 
-/// Of each part of the model, whether the scan has 55 % of it or more.
+/// Of each part of the model, whether the scanned surface has 55 % of it or more.
 std::vector<char> parts_there(const RegisteredBody& body);
 
 /// Of each vertex of the skin, whether it is of a limb that is not there and lies in or on other skin, which

@@ -37,7 +37,7 @@ struct RegisteredBody {
   std::vector<Eigen::Vector3d> skin;   ///< and displaced onto the surface
   std::vector<double> off;      ///< m, of the skin from the surface; Matching::kUnmatched where there is none
   std::vector<double> support;  ///< m, of the skin from the middle of the samples nearest to it: small where
-                                ///< they lie all round
+                                ///< they lie all round; where the mesh of a scan lost it, from that mesh
   std::vector<double> there;    ///< of each part, the share of its skin that has samples; empty: not counted
   std::vector<Eigen::Vector3d> joints;  ///< one per bone
   std::vector<Eigen::Vector3d> bone_points;

@@ -14,12 +14,12 @@
 namespace tensegric_fit::fit {
 namespace {
 
-constexpr int kPanel = 600;  // pixels; the height of the pictures of a fit
+constexpr int kPanel = 600;  // pixels; the height of a fit's pictures without captions
 constexpr int kWhole = 900;  // of a body that is measured only
 
-/// With what of the body is missing.
+/// The picture as a file, with a note of what of the body is missing.
 PictureFile file(const std::string& name, const cv::Mat& picture, const Body& body) {
-  const std::string note = inspect::words::missing(body.measures.missing);
+  const std::string note = inspect::words::missing(body.measures);
   return {name, inspect::png_bytes(inspect::with_note(picture, note))};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "geometry/status.hpp"
 
@@ -12,6 +13,10 @@ std::string why_missing(const std::vector<Missing>& missing, const std::string& 
   for (const Missing& part : missing)
     if (part.name == name) return ": " + part.reason;
   return "";
+}
+
+bool is_limb_girth(const std::string& name) {
+  return name.rfind("upper_arm_", 0) == 0 || name.rfind("thigh_", 0) == 0;
 }
 
 }  // namespace
@@ -41,6 +46,21 @@ double BodyMeasures::height(const std::string& name) const {
     throw Refusal(std::string(refusal::kMissingPart) + ":" + name,
                   "the " + name + " level was not found on the body" + why_missing(missing, name));
   return found->metres;
+}
+
+std::vector<Missing> missing_parts(const BodyMeasures& measures) {
+  static const std::set<std::string> kLevels{"bust",   "underbust", "waist",  "hip",
+                                             "crotch", "neck",      "stature"};
+  std::set<std::string> girths;  // of limbs, that are missing
+  std::vector<Missing> parts;
+  for (const Missing& what : measures.missing) {
+    if (is_landmark(what.name) || kLevels.count(what.name) != 0) continue;
+    const bool is_measured = std::any_of(measures.girths.begin(), measures.girths.end(),
+                                         [&](const Measure& girth) { return girth.name == what.name; });
+    const bool is_girth = is_limb_girth(what.name) && !is_measured && girths.insert(what.name).second;
+    if (!is_girth) parts.push_back(what);
+  }
+  return parts;
 }
 
 const std::vector<std::string>& landmarks_of_height(const std::string& height) {

@@ -69,6 +69,10 @@ struct BodyMeasures {
   double height(const std::string& name) const;
 };
 
+/// What is missing of the body itself. A limb and its girth have one name: that girth's own entry, the first
+/// of its name where it was not measured, is left out like those of landmarks and heights.
+std::vector<Missing> missing_parts(const BodyMeasures& measures);
+
 /// The landmarks that define a height; none of the stature.
 const std::vector<std::string>& landmarks_of_height(const std::string& height);
 

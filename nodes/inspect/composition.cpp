@@ -22,6 +22,11 @@ int strip_height(const cv::Mat& picture) {
   return std::max(12, picture.rows / 16);
 }
 
+// Of pictures higher than wide, as of two regions: words as large as beside one of them.
+int strip_under(const cv::Mat& picture) {
+  return std::min(strip_height(picture), std::max(12, picture.cols / 31));
+}
+
 double scale_of(int strip) {
   return strip / 70.0;
 }
@@ -59,7 +64,7 @@ struct ScaleStrip {
 
 cv::Mat with_scale(const cv::Mat& picture, const ScaleStrip& scale) {
   // Beside the scale there is a quarter of the width: so high, "pressed together" just fits.
-  const int strip = std::min(strip_height(picture), picture.cols / 31), height = strip / 2;
+  const int strip = strip_under(picture), height = strip / 2;
   cv::Mat result;
   cv::copyMakeBorder(picture, result, 0, 2 * strip, 0, 0, cv::BORDER_CONSTANT, kPaper);
   const int width = result.cols / 2, left = (result.cols - width) / 2, top = picture.rows + strip / 3;
@@ -96,7 +101,7 @@ cv::Mat with_caption(const cv::Mat& picture, const std::string& text) {
 }
 
 cv::Mat with_note(const cv::Mat& picture, const std::string& text) {
-  const int strip = strip_height(picture);
+  const int strip = strip_under(picture);
   const std::vector<std::string> lines = lines_of(text, strip, picture.cols - strip);
   cv::Mat result;
   cv::copyMakeBorder(picture, result, 0, static_cast<int>(lines.size()) * strip, 0, 0, cv::BORDER_CONSTANT,

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
+#include <vector>
 
 #include "inspect/pointing.hpp"
 
@@ -88,18 +90,25 @@ std::string warning(const FitWarning& warning, const geometry::BodyMeasures& mea
   return lack_of(warning, where);
 }
 
-std::string missing(const std::vector<geometry::Missing>& missing) {
+std::string missing(const geometry::BodyMeasures& measures) {
   constexpr std::size_t kNamed = 8;
-  if (missing.empty()) return "";
-  std::vector<std::string> names;
-  for (const geometry::Missing& what : missing) names.push_back(what.name);
-  // Landmarks last: they are missing since what they lie on is.
-  std::stable_partition(names.begin(), names.end(),
-                        [](const std::string& name) { return !geometry::is_landmark(name); });
-  std::string words = "Missing: ";
-  for (std::size_t i = 0; i < std::min(kNamed, names.size()); ++i)
-    words += (i > 0 ? ", " : "") + spoken(names[i]);
-  return words + (names.size() > kNamed ? fmt::format(" and {} more", names.size() - kNamed) : "");
+  const std::vector<geometry::Missing> parts = geometry::missing_parts(measures);
+  std::string words;
+  for (std::size_t i = 0; i < std::min(kNamed, parts.size()); ++i)
+    words += (i > 0 ? ", " : "Not in the scan: ") + said(parts[i].name);
+  return words + (parts.size() > kNamed ? fmt::format(" and {} more", parts.size() - kNamed) : "");
+}
+
+std::string said(const std::string& words) {
+  static const std::regex kName("\\b(crown|[a-z_]+_[LR])\\b");
+  std::string result;
+  auto rest = words.begin();
+  for (std::sregex_iterator name(words.begin(), words.end(), kName), end; name != end; ++name) {
+    result.append(rest, words.begin() + name->position());
+    result += name->str() == "crown" ? "top of the head" : spoken(name->str());
+    rest = words.begin() + name->position() + name->length();
+  }
+  return result.append(rest, words.end());
 }
 
 }  // namespace tensegric_fit::inspect::words

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "geometry/body_measures.hpp"
 #include "geometry/fit_warning.hpp"
@@ -21,7 +20,11 @@ std::string place(const geometry::BodyMeasures& measures, const Eigen::Vector3d&
 /// 'chest'."
 std::string warning(const geometry::FitWarning& warning, const geometry::BodyMeasures& measures);
 
-/// "Missing: left forearm, right hand"; of many the first, and how many more. Empty where nothing is.
-std::string missing(const std::vector<geometry::Missing>& missing);
+/// "Not in the scan: left forearm, right hand", of parts of the body; of many the first, and how many more.
+/// Empty where all are.
+std::string missing(const geometry::BodyMeasures& measures);
+
+/// A name, as "forearm_L" or "crown", or a reason with names in it, as one says them.
+std::string said(const std::string& words);
 
 }  // namespace tensegric_fit::inspect::words

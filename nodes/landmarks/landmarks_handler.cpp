@@ -1,7 +1,5 @@
 #include "landmarks/landmarks_handler.hpp"
 
-#include <fmt/format.h>
-
 #include <boost/make_shared.hpp>
 #include <utility>
 
@@ -69,9 +67,10 @@ LandmarksHandler::Output LandmarksHandler::handle(const Input& input) const {
   output.measures = landmarks::find_landmarks(output.mesh, filled, model, landmarks::shipped_precision());
   const std::vector<geometry::Missing> parts = body_model::missing_parts(model);
   output.measures.missing.insert(output.measures.missing.end(), parts.begin(), parts.end());
-  for (const geometry::Missing& part : parts)
-    output.warning +=
-        fmt::format("{}missing_part:{}: {}.", output.warning.empty() ? "" : " ", part.name, part.reason);
+  if (!parts.empty())  // names of limbs do not go into logs
+    output.warning =
+        "missing_part: parts of the body are not in the scanned surface; pictures and body/landmarks name "
+        "them.";
   geometry::doubt_fractured(fractures_in(message), output.measures);
   output.landmarks = boost::make_shared<Landmarks>(to_message(tag_in(message), output.measures));
   output.body_frame = transform_to(body_frame_, message.header, output.measures.body_from_scan);

@@ -41,7 +41,7 @@ class LandmarksHandler {
     geometry::TriangleMesh mesh;
     geometry::BodyMeasures measures;
     Facts facts;
-    std::string warning;  ///< parts of the body that are missing (`missing_part:NAME`), or empty
+    std::string warning;  ///< `missing_part`, where parts of the body are missing, or empty
   };
   /// \throw Refusal as mesh_in, registered_in, register_mesh, find_landmarks
   Output handle(const Input& input) const;

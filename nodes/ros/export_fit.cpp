@@ -78,7 +78,7 @@ std::vector<FileContent> contents_of(const FitFigures& figures) {
   const mesh_files::WornBody worn_body{figures.in_scan_posture, figures.heights, figures.girths};
   const auto measures = mesh_files::measure_entries(figures.body, figures.measures, &worn_body);
   const inspect::FitScene scene = scene_of(figures);
-  const std::string note = inspect::words::missing(figures.measures.missing);
+  const std::string note = inspect::words::missing(figures.measures);
   const auto noted = [&](const cv::Mat& picture) { return inspect::with_note(picture, note); };
   const FileContent front = png("front.png", noted(inspect::front_picture(scene))),
                     side = png("side.png", noted(inspect::side_picture(scene))),

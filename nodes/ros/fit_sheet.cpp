@@ -15,8 +15,8 @@
 #include "geometry/shipped_files.hpp"
 #include "inspect/garment_titles.hpp"
 #include "inspect/page_view.hpp"
-#include "inspect/pointing.hpp"
 #include "inspect/pressure_words.hpp"
+#include "inspect/warning_words.hpp"
 #include "inspect/words.hpp"
 #include "mesh_files/frame.hpp"
 #include "ros/line_force.hpp"
@@ -130,9 +130,9 @@ std::string notes_of(const FitFigures& figures) {
         notes += fmt::format("<p>* {}: uncertain; {}.</p>\n",
                              html_escaped(inspect::words::measure(measure.before.name, kind)),
                              html_escaped(measure.before.reason));
-  for (const geometry::Missing& missing : figures.measures.missing)
-    notes += fmt::format("<p>{}: missing; {}.</p>\n", html_escaped(inspect::spoken(missing.name)),
-                         html_escaped(missing.reason));
+  for (const geometry::Missing& part : geometry::missing_parts(figures.measures))
+    notes += fmt::format("<p>Not in the scan: {}; {}.</p>\n", html_escaped(inspect::words::said(part.name)),
+                         html_escaped(inspect::words::said(part.reason)));
   return notes;
 }
 

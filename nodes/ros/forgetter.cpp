@@ -2,7 +2,6 @@
 
 #include <ros/callback_queue.h>
 
-#include "ros/freed_memory.hpp"
 #include "ros/held_scan.hpp"
 
 namespace tensegric_fit::node {
@@ -34,6 +33,7 @@ void Forgetter::on_order(const ForgetOrder& order) {
   if (forget_) {
     ForgetAnswer done;
     forget_(order, done);
+    give_back_freed_memory();  // to the system, which clears it before others get it
     answer(order, done);
   } else if (HeldScan::of_process().holds(order.scan_id)) {
     order_ = order;
@@ -54,12 +54,14 @@ bool Forgetter::serve(const Forget& forget) {
   forget_ = forget;
   while (ros::ok()) {
     call_callbacks();
+    freed_.look(HeldScan::of_process().is_working());
     if (!order_ || (HeldScan::of_process().must_finish(order_->scan_id) &&
                     ros::SteadyTime::now() - ordered_ < kWorkPatience))
       continue;
     if (HeldScan::of_process().holds(order_->scan_id)) return true;
     ForgetAnswer done;  // what it worked on has taken the place of it
     done.removed = {"replaced by a newer scan"};
+    give_back_freed_memory();
     answer(*order_, done);
     order_.reset();
   }
@@ -67,7 +69,7 @@ bool Forgetter::serve(const Forget& forget) {
 }
 
 void Forgetter::let_go() {
-  give_back_freed_memory();  // back to the system, which clears memory before others get it
+  give_back_freed_memory();
   ForgetAnswer done;
   done.removed = {"what it held, and its latched messages"};
   answer(*order_, done);

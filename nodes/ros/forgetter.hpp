@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "ros/freed_memory.hpp"
+
 namespace tensegric_fit::node {
 
 /// For how long the vault waits for a node's answer: a stage that works on the next scan ends that first,
@@ -43,6 +45,7 @@ class Forgetter {
   std::optional<ForgetOrder> order_;  // to let go, not yet followed
   ros::SteadyTime ordered_;           // when it came
   bool go_on_ = false;
+  FreedMemory freed_;
 };
 
 }  // namespace tensegric_fit::node

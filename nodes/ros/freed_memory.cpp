@@ -1,12 +1,10 @@
 #include "ros/freed_memory.hpp"
 
+#include <fmt/format.h>
 #include <jemalloc/jemalloc.h>
 #include <malloc.h>
 
 #pragma weak mallctl  // null in programs without jemalloc: rviz, whose plugins must not bring an allocator
-
-#define TEXT_OF(number) #number
-#define PURGE_OF(arena) "arena." TEXT_OF(arena) ".purge"
 
 namespace tensegric_fit::node {
 
@@ -15,8 +13,17 @@ void give_back_freed_memory() {
     malloc_trim(0);
     return;
   }
+  static const std::string purge = fmt::format("arena.{}.purge", MALLCTL_ARENAS_ALL);
   mallctl("thread.tcache.flush", nullptr, nullptr, nullptr, 0);
-  mallctl(PURGE_OF(MALLCTL_ARENAS_ALL), nullptr, nullptr, nullptr, 0);
+  mallctl(purge.c_str(), nullptr, nullptr, nullptr, 0);
+}
+
+void FreedMemory::look(bool is_working) {
+  constexpr std::chrono::seconds kRest(1);
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_working && now - since_ < kRest) return;
+  if (!is_working) give_back_freed_memory();
+  since_ = now;
 }
 
 }  // namespace tensegric_fit::node

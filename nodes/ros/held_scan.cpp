@@ -70,6 +70,11 @@ void HeldScan::forget(const std::string& scan_id) {
   forgotten_.insert(scan_id);
 }
 
+bool HeldScan::is_working() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return !working_.empty() || !exported_.empty();
+}
+
 bool HeldScan::is_forgotten(const std::string& scan_id) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return forgotten_.count(scan_id) != 0;

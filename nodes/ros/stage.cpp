@@ -7,7 +7,6 @@
 
 #include <chrono>
 
-#include "ros/freed_memory.hpp"
 #include "ros/held_scan.hpp"
 #include "ros/log_words.hpp"
 
@@ -15,11 +14,6 @@ namespace tensegric_fit::node {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
-
-/// Without work for so long, what it freed goes back to the system, which clears it before others get it.
-/// Longer than a stage waits for the others while scans come one after another: what goes back has to be
-/// taken again.
-constexpr std::chrono::seconds kIdle(1);
 
 diagnostic_msgs::KeyValue fact(const std::string& key, const std::string& value) {
   diagnostic_msgs::KeyValue pair;
@@ -108,19 +102,11 @@ void Stage::drop(const std::string& scan_id, const geometry::Refusal& refusal) {
 }
 
 void Stage::serve() {
-  bool worked = false;  // since memory was given back
-  const auto is_wanted = [this] { return stopping_ || waiting_.has_value(); };
   while (true) {
     Job job;
     {
       std::unique_lock<std::mutex> lock(mutex_);
-      if (worked && !wake_.wait_for(lock, kIdle, is_wanted)) {
-        lock.unlock();
-        give_back_freed_memory();
-        worked = false;
-        lock.lock();
-      }
-      wake_.wait(lock, is_wanted);
+      wake_.wait(lock, [this] { return stopping_ || waiting_.has_value(); });
       if (stopping_) return;
       job = std::move(*waiting_);
       waiting_.reset();
@@ -128,7 +114,6 @@ void Stage::serve() {
     }
     run(job);
     HeldScan::of_process().rest();
-    worked = true;
   }
 }
 

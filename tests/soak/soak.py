@@ -30,8 +30,8 @@ from launched import free_port, nodes_at, points_of, program, wait_until
 NODES = ("reconstruction", "landmarks", "control_mesh", "tensegric", "tffd", "vault")
 POINTS, BODIES = 9000, 4
 FULL_POINTS, FULL_EVERY = 180000, 33  # 303 of 10,000 scans are of full size
-GROUP = 9  # scans; no factor in common with BODIES, so that the last of a group is each body in turn
-REST = 0.2  # s, after a group: stages give memory back after 50 ms
+GROUP = 27  # scans; no factor in common with BODIES, so that the last of a group is each body in turn
+REST = 1.5  # s, after a group: nodes give memory back after a second
 MEMORY = 0.01  # a node may have so much more at the end
 FEWEST = 100  # scans; over fewer, memory is not judged: heaps still fill up
 SLOWER = {"seconds": 0.25, "processor_s": 0.1}  # and a scan take so much longer: machines are shared

@@ -189,6 +189,16 @@ TEST(Recognition, ALimbThatTheSurfaceLostIsNamedThoughItWasScanned) {
   EXPECT_NE(missing.front().reason.find("hand_L"), std::string::npos) << missing.front().reason;
 }
 
+// Its skin is near the thigh's surface then.
+TEST(Recognition, AHandBesideTheThighThatTheSurfaceLostIsNamed) {
+  const TriangleMesh whole = woman(4 * kDegree);
+  RegisteredBody body = register_mesh(shipped_registrar(), whole);
+  leave_out_lost_surface(body, whole);
+  EXPECT_EQ(names_of(missing_parts(body)), Names());
+  leave_out_lost_surface(body, without(whole, [](int v, const Vector3d&) { return is_of(v, {"hand_L"}); }));
+  EXPECT_EQ(names_of(missing_parts(body)), Names({"hand_L"}));
+}
+
 // The model's arm may then lie on the trunk, where skin is.
 TEST(Recognition, AnArmThatIsNotThereIsNamedWhateverHerShape) {
   std::mt19937 random(7);

@@ -212,9 +212,13 @@ TEST(WithNote, StandsUnderThePictureInAsManyLinesAsItNeeds) {
   const cv::Mat picture(320, 200, CV_8UC3, cv::Scalar(10, 20, 30));
   EXPECT_EQ(with_note(picture, "").rows, picture.rows);
   const cv::Mat one = with_note(picture, "Missing: crown"),
-                more = with_note(picture, "Missing: left forearm, right hand, left shank, right foot");
+                more = with_note(
+                    picture,
+                    "Not in the scan: left forearm, right hand, left shank, right foot, top of the head");
   const int line = one.rows - picture.rows;
   EXPECT_GT(line, 0);
+  const cv::Mat high(1327, 1212, CV_8UC3), low(637, 1212, CV_8UC3);
+  EXPECT_EQ(with_note(high, "crown").rows - high.rows, with_note(low, "crown").rows - low.rows);
   EXPECT_GT(more.rows, one.rows);
   EXPECT_EQ((more.rows - picture.rows) % line, 0);
   EXPECT_EQ(cv::norm(one(cv::Rect(0, 0, 200, 320)), picture), 0) << "the picture itself stays";

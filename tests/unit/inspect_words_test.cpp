@@ -23,12 +23,19 @@ TEST(Words, SayWhetherTheSkinIsTighterOrLooser) {
   EXPECT_EQ(position({0.121, -0.08, 1.182}), "12.1 cm forward, 8.0 cm to her right, 118.2 cm up");
 }
 
-TEST(Words, SayWhatOfABodyIsMissing) {
-  EXPECT_EQ(missing({}), "");
-  EXPECT_EQ(missing({{"axilla_L", "no gap"}, {"forearm_L", "came off"}, {"hand_R", "none"}}),
-            "Missing: left forearm, right hand, left axilla");
-  std::vector<geometry::Missing> many(11, {"hand_L", ""});
-  EXPECT_EQ(missing(many).substr(missing(many).rfind(',')), ", left hand and 3 more");
+TEST(Words, SayWhichPartsOfABodyAreMissing) {
+  geometry::BodyMeasures measures;
+  EXPECT_EQ(missing(measures), "");
+  measures.missing = {{"axilla_L", ""}, {"neck", ""}, {"upper_arm_L", "its girth"}};
+  EXPECT_EQ(missing(measures), "") << "figures, and the girth of an arm that is there";
+  measures.missing.insert(measures.missing.end(), {{"upper_arm_L", ""}, {"hand_R", ""}, {"crown", ""}});
+  EXPECT_EQ(missing(measures), "Not in the scan: left upper arm, right hand, top of the head");
+  measures.girths = {{"thigh_R", 0.5, 1, ""}};
+  measures.missing = {{"thigh_R", "though its girth was measured"}};
+  EXPECT_EQ(missing(measures), "Not in the scan: right thigh");
+  measures.missing.assign(11, {"hand_L", ""});
+  EXPECT_EQ(missing(measures).substr(missing(measures).rfind(',')), ", left hand and 3 more");
+  EXPECT_EQ(said("only 5 % of it is there, nor is hand_L"), "only 5 % of it is there, nor is left hand");
 }
 
 TEST(Words, SayPullsInNewtons) {

@@ -43,6 +43,23 @@ TEST_F(ExportPage, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
             "girth,underbust,750.0,,0.40,,\"hair, <b>long</b>\"\r\n");
 }
 
+TEST_F(ExportPage, WhatOfTheBodyIsMissingStandsOnPageAndPictures) {
+  export_fit(scan_, root_ / "whole", kWhole);
+  const auto landmarks = boost::make_shared<Landmarks>(*scan_.landmarks);
+  landmarks->missing.emplace_back();
+  landmarks->missing.back().name = "forearm_L";
+  landmarks->missing.back().reason = "none of <it>, nor is hand_L";
+  scan_.landmarks = landmarks;
+  export_fit(scan_, root_ / "without", kWhole);
+  const std::string words = "Not in the scan: left forearm; none of &lt;it&gt;, nor is left hand.";
+  EXPECT_NE(text_of(root_ / "without" / "fit.html").find(words), std::string::npos);
+  EXPECT_EQ(text_of(root_ / "whole" / "fit.html").find("Not in the scan"), std::string::npos);
+  for (const char* name : {"front.png", "side.png", "distortion.png"})
+    EXPECT_GT(cv::imread((root_ / "without" / name).string()).rows,
+              cv::imread((root_ / "whole" / name).string()).rows)
+        << name;
+}
+
 const std::string kDrive =
     "timeout 300 /usr/bin/python3 -B " TENSEGRIC_FIT_SOURCE_DIR "/tests/page/drive_page.py";
 
