@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""All nodes are linked with jemalloc and have its options: without, they keep most of what they free, and nothing else fails."""
+"""All nodes that run until ROS shuts down are linked with jemalloc and have its options: without, they keep most of what they free, and nothing else fails."""
 import pathlib
 import re
 import subprocess

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "body_model/matching.hpp"
 #include "geometry/oriented_tree.hpp"
 #include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
@@ -53,22 +55,22 @@ constexpr double kTurned = 0.5;        // cosine between two normals of one skin
 /// Head and limbs from the trunk outwards, each with the part that it hangs on and the arm or leg that it is
 /// of.
 struct Limb {
-  const char *part, *on, *of;
+  std::string part, on, of;
 };
-constexpr Limb kLimbs[] = {{"trunk", "", ""},
-                           {"head", "", ""},
-                           {"upper_arm_L", "", "arm_L"},
-                           {"forearm_L", "upper_arm_L", "arm_L"},
-                           {"hand_L", "forearm_L", "arm_L"},
-                           {"upper_arm_R", "", "arm_R"},
-                           {"forearm_R", "upper_arm_R", "arm_R"},
-                           {"hand_R", "forearm_R", "arm_R"},
-                           {"thigh_L", "", "leg_L"},
-                           {"shank_L", "thigh_L", "leg_L"},
-                           {"foot_L", "shank_L", "leg_L"},
-                           {"thigh_R", "", "leg_R"},
-                           {"shank_R", "thigh_R", "leg_R"},
-                           {"foot_R", "shank_R", "leg_R"}};
+const Limb kLimbs[] = {{"trunk", "", ""},
+                       {"head", "", ""},
+                       {"upper_arm_L", "", "arm_L"},
+                       {"forearm_L", "upper_arm_L", "arm_L"},
+                       {"hand_L", "forearm_L", "arm_L"},
+                       {"upper_arm_R", "", "arm_R"},
+                       {"forearm_R", "upper_arm_R", "arm_R"},
+                       {"hand_R", "forearm_R", "arm_R"},
+                       {"thigh_L", "", "leg_L"},
+                       {"shank_L", "thigh_L", "leg_L"},
+                       {"foot_L", "shank_L", "leg_L"},
+                       {"thigh_R", "", "leg_R"},
+                       {"shank_R", "thigh_R", "leg_R"},
+                       {"foot_R", "shank_R", "leg_R"}};
 
 std::size_t asked(const Samples& samples) {
   return std::min<std::size_t>(kJudgedSamples, samples.points.size());
@@ -85,20 +87,23 @@ bool is_hand(const Model& model, int v) {
   return model.parts[model.part[v]].rfind("hand", 0) == 0;
 }
 
-/// Of each two parts, whether they are one, or one hangs on the other. What is of no arm or leg is one.
+/// Of each two parts, whether they are one or one hangs on the other; trunk, head and what else is of no arm
+/// or leg are one.
 std::vector<std::vector<char>> joined_parts(const Model& model) {
   const std::vector<std::string> limbs = limbs_of(model);
   const int count = static_cast<int>(model.parts.size());
   std::vector<std::vector<char>> joined(count, std::vector<char>(count, 0));
-  for (int a = 0; a < count; ++a)
-    for (int b = 0; b < count; ++b)
-      joined[a][b] = static_cast<char>(a == b || (limbs[a].empty() && limbs[b].empty()));
+  const auto hangs_on = [&](const Limb& limb, int other) {
+    return limb.on.empty() ? limbs[other].empty() : model.parts[other] == limb.on;
+  };
+  for (int one = 0; one < count; ++one)
+    for (int other = 0; other < count; ++other)
+      joined[one][other] = static_cast<char>(one == other || (limbs[one].empty() && limbs[other].empty()));
   for (const Limb& limb : kLimbs) {
-    if (*limb.of == 0) continue;
+    if (limb.of.empty()) continue;
     const int part = model.part_named(limb.part);
     for (int other = 0; other < count; ++other)
-      if (*limb.on != 0 ? model.parts[other] == limb.on : limbs[other].empty())
-        joined[part][other] = joined[other][part] = 1;
+      if (hangs_on(limb, other)) joined[part][other] = joined[other][part] = 1;
   }
   return joined;
 }
@@ -360,30 +365,43 @@ std::vector<double> shares_there(const RegisteredBody& body) {
   return there;
 }
 
-void leave_out_lost_surface(RegisteredBody& body, const geometry::TriangleMesh& mesh) {
+void mark_skin_without_surface(RegisteredBody& body, const geometry::TriangleMesh& mesh) {
   const Model& model = *body.model;
   const std::vector<std::vector<char>> joined = joined_parts(model);
   const geometry::PointTree skin(body.skin), vertices(mesh.vertices);
   // A hand that hangs beside the thigh is near the thigh's surface, which does not make it there.
-  const auto is_hers = [&](int v, const Vector3d& place) {
-    return joined[model.part[v]][model.part[skin.nearest(place)]] != 0;
+  const auto is_of = [&](int part, const Vector3d& place) {
+    return joined[part][model.part[skin.nearest(place)]] != 0;
   };
-  std::vector<char> lost(body.skin.size(), 0);
-  geometry::parallel_for(lost.size(), [&](std::size_t begin, std::size_t end, int) {
-    for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      lost[v] = static_cast<char>(body.support[v] < kThere &&
-                                  !vertices.any_within(body.skin[v], kThere, [&](int near) {
-                                    return is_hers(v, mesh.vertices[near]);
-                                  }));
+  std::vector<char> far(body.skin.size(), 0);
+  geometry::parallel_for(far.size(), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t v = begin; v < end; ++v)
+      far[v] = static_cast<char>(body.support[v] < kThere &&
+                                 !vertices.any_within(body.skin[v], kThere, [&](int near) {
+                                   return is_of(model.part[v], mesh.vertices[near]);
+                                 }));
   });
-  if (std::count(lost.begin(), lost.end(), 0) == static_cast<std::ptrdiff_t>(lost.size())) return;
-  // Vertices of large triangles are farther away than these: seldom, so that these may take their time.
-  const geometry::SurfaceTree surface(mesh);
-  for (int v = 0; v < static_cast<int>(lost.size()); ++v) {
-    if (!lost[v]) continue;
-    const Vector3d nearest = surface.nearest(body.skin[v]).position;
-    const double distance = (nearest - body.skin[v]).norm();
-    body.support[v] = std::max(body.support[v], is_hers(v, nearest) ? distance : std::max(distance, kThere));
+  // Large triangles are nearer than their vertices. There are few such places, so that this may take its
+  // time.
+  for (int part = 0; part < static_cast<int>(model.parts.size()); ++part) {
+    std::vector<int> asked;
+    for (int v = 0; v < static_cast<int>(far.size()); ++v)
+      if (far[v] && model.part[v] == part) asked.push_back(v);
+    if (asked.empty()) continue;
+    std::vector<char> own(mesh.triangles.size());
+    for (std::size_t t = 0; t < own.size(); ++t) {
+      const Eigen::Vector3i& corners = mesh.triangles[t];
+      const Vector3d sum = mesh.vertices[corners[0]] + mesh.vertices[corners[1]] + mesh.vertices[corners[2]];
+      own[t] = static_cast<char>(is_of(part, sum / 3));
+    }
+    const geometry::TriangleMesh surface = geometry::submesh(mesh, own);
+    std::optional<geometry::SurfaceTree> tree;
+    if (!surface.triangles.empty()) tree.emplace(surface);
+    for (const int v : asked) {
+      const double distance =
+          tree ? (tree->nearest(body.skin[v]).position - body.skin[v]).norm() : Matching::kUnmatched;
+      body.support[v] = std::max(body.support[v], std::min(distance, Matching::kUnmatched));
+    }
   }
   body.there = shares_there(body);
 }

@@ -21,10 +21,10 @@ std::vector<char> recognise(RegisteredBody& body, const Samples& samples);
 /// from there, or counts anew.
 std::vector<double> shares_there(const RegisteredBody& body);
 
-/// Skin that the mesh which was made of the scan does not have, as of a limb that came off as a piece of its
-/// own, has no samples from then on, whatever was scanned there: corrects `support` and `there`. \pre `mesh`
-/// is in the body's frame and has passed check_mesh
-void leave_out_lost_surface(RegisteredBody& body, const geometry::TriangleMesh& mesh);
+/// Marks skin of the model that the mesh lacks, for example of a limb that came off as a separate piece, as
+/// not scanned: raises `support`, recounts `there`. Surface of other limbs does not count. \pre `mesh` was
+/// made of the scan, is in the body's frame and has passed check_mesh; each vertex is of a triangle
+void mark_skin_without_surface(RegisteredBody& body, const geometry::TriangleMesh& mesh);
 
 /// Head and limbs (upper_arm_L, forearm_L, hand_L, thigh_L, shank_L, foot_L, ..._R) of which the scanned
 /// surface has less than 55 %, and the trunk, and `crown`, the top of the head; what hangs on a missing part

@@ -44,11 +44,13 @@ void write(cv::Mat& picture, const std::string& text, int strip, cv::Point at, d
   cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, scale_of(strip), ink, 1, cv::LINE_AA);
 }
 
-/// As many words a line as are no wider than that, pixels; one where it is wider.
+/// As many words a line as are no wider than that, pixels; one where it is wider. No more lines than make
+/// sense.
 std::vector<std::string> lines_of(const std::string& text, int strip, int width) {
   std::vector<std::string> lines;
+  constexpr std::size_t kMost = 10;
   std::istringstream words(text);
-  for (std::string word; words >> word;) {
+  for (std::string word; lines.size() < kMost && words >> word;) {
     if (!lines.empty() && size_of(lines.back() + " " + word, strip).width <= width)
       lines.back() += " " + word;
     else

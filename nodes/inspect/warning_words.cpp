@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <regex>
 #include <vector>
 
 #include "inspect/pointing.hpp"
@@ -95,20 +95,20 @@ std::string missing(const geometry::BodyMeasures& measures) {
   const std::vector<geometry::Missing> parts = geometry::missing_parts(measures);
   std::string words;
   for (std::size_t i = 0; i < std::min(kNamed, parts.size()); ++i)
-    words += (i > 0 ? ", " : "Not in the scan: ") + said(parts[i].name);
+    words += (i > 0 ? ", " : "Missing: ") + with_names_spoken(parts[i].name);
   return words + (parts.size() > kNamed ? fmt::format(" and {} more", parts.size() - kNamed) : "");
 }
 
-std::string said(const std::string& words) {
-  static const std::regex kName("\\b(crown|[a-z_]+_[LR])\\b");
+std::string with_names_spoken(const std::string& words) {
+  const auto is_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
   std::string result;
-  auto rest = words.begin();
-  for (std::sregex_iterator name(words.begin(), words.end(), kName), end; name != end; ++name) {
-    result.append(rest, words.begin() + name->position());
-    result += name->str() == "crown" ? "top of the head" : spoken(name->str());
-    rest = words.begin() + name->position() + name->length();
+  for (auto at = words.begin(); at != words.end();) {
+    const auto end = is_of_name(*at) ? std::find_if_not(at, words.end(), is_of_name) : at + 1;
+    const std::string word(at, end);
+    result += word == "crown" ? "top of the head" : word.find('_') != std::string::npos ? spoken(word) : word;
+    at = end;
   }
-  return result.append(rest, words.end());
+  return result;
 }
 
 }  // namespace tensegric_fit::inspect::words

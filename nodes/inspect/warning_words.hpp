@@ -20,11 +20,12 @@ std::string place(const geometry::BodyMeasures& measures, const Eigen::Vector3d&
 /// 'chest'."
 std::string warning(const geometry::FitWarning& warning, const geometry::BodyMeasures& measures);
 
-/// "Not in the scan: left forearm, right hand", of parts of the body; of many the first, and how many more.
-/// Empty where all are.
+/// "Missing: left forearm, right hand", of parts of the body; of many the first, and how many more. Empty if
+/// none is missing.
 std::string missing(const geometry::BodyMeasures& measures);
 
-/// A name, as "forearm_L" or "crown", or a reason with names in it, as one says them.
-std::string said(const std::string& words);
+/// The text with names of parts and landmarks in spoken words: "left forearm" for "forearm_L", "top of the
+/// head" for "crown".
+std::string with_names_spoken(const std::string& words);
 
 }  // namespace tensegric_fit::inspect::words

@@ -68,9 +68,7 @@ LandmarksHandler::Output LandmarksHandler::handle(const Input& input) const {
   const std::vector<geometry::Missing> parts = body_model::missing_parts(model);
   output.measures.missing.insert(output.measures.missing.end(), parts.begin(), parts.end());
   if (!parts.empty())  // names of limbs do not go into logs
-    output.warning =
-        "missing_part: parts of the body are not in the scanned surface; pictures and body/landmarks name "
-        "them.";
+    output.warning = "missing_part: the body lacks parts, which its pictures and body/landmarks name.";
   geometry::doubt_fractured(fractures_in(message), output.measures);
   output.landmarks = boost::make_shared<Landmarks>(to_message(tag_in(message), output.measures));
   output.body_frame = transform_to(body_frame_, message.header, output.measures.body_from_scan);

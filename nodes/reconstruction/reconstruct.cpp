@@ -304,7 +304,7 @@ Reconstruction reconstruct(const PointCloud& scan, const Options& options, const
   stand(person, model, anatomy.standing);
   Reconstruction result{surface_of(person, options, model, poisson),
                         moved(model, person.from_scan.inverse())};
-  leave_out_lost_surface(result.model, result.body.mesh);
+  mark_skin_without_surface(result.model, result.body.mesh);
   return result;
 }
 

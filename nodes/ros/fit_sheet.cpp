@@ -131,8 +131,9 @@ std::string notes_of(const FitFigures& figures) {
                              html_escaped(inspect::words::measure(measure.before.name, kind)),
                              html_escaped(measure.before.reason));
   for (const geometry::Missing& part : geometry::missing_parts(figures.measures))
-    notes += fmt::format("<p>Not in the scan: {}; {}.</p>\n", html_escaped(inspect::words::said(part.name)),
-                         html_escaped(inspect::words::said(part.reason)));
+    notes +=
+        fmt::format("<p>Missing: {}; {}.</p>\n", html_escaped(inspect::words::with_names_spoken(part.name)),
+                    html_escaped(inspect::words::with_names_spoken(part.reason)));
   return notes;
 }
 

@@ -33,7 +33,6 @@ void Forgetter::on_order(const ForgetOrder& order) {
   if (forget_) {
     ForgetAnswer done;
     forget_(order, done);
-    give_back_freed_memory();  // to the system, which clears it before others get it
     answer(order, done);
   } else if (HeldScan::of_process().holds(order.scan_id)) {
     order_ = order;
@@ -47,6 +46,7 @@ void Forgetter::answer(const ForgetOrder& order, ForgetAnswer answer) {
   answer.node = ros::this_node::getName();
   answer.scan_id = order.scan_id;
   answer.step = order.step;
+  give_back_freed_memory();  // to the system, which clears it before others get it
   answers_.publish(answer);
 }
 
@@ -54,14 +54,13 @@ bool Forgetter::serve(const Forget& forget) {
   forget_ = forget;
   while (ros::ok()) {
     call_callbacks();
-    freed_.look(HeldScan::of_process().is_working());
+    freed_.look(HeldScan::of_process().is_busy(), std::chrono::steady_clock::now());
     if (!order_ || (HeldScan::of_process().must_finish(order_->scan_id) &&
                     ros::SteadyTime::now() - ordered_ < kWorkPatience))
       continue;
     if (HeldScan::of_process().holds(order_->scan_id)) return true;
     ForgetAnswer done;  // what it worked on has taken the place of it
     done.removed = {"replaced by a newer scan"};
-    give_back_freed_memory();
     answer(*order_, done);
     order_.reset();
   }
@@ -69,7 +68,6 @@ bool Forgetter::serve(const Forget& forget) {
 }
 
 void Forgetter::let_go() {
-  give_back_freed_memory();
   ForgetAnswer done;
   done.removed = {"what it held, and its latched messages"};
   answer(*order_, done);

@@ -14,15 +14,18 @@ void give_back_freed_memory() {
     return;
   }
   static const std::string purge = fmt::format("arena.{}.purge", MALLCTL_ARENAS_ALL);
-  mallctl("thread.tcache.flush", nullptr, nullptr, nullptr, 0);
+  let_go_of_pieces();
   mallctl(purge.c_str(), nullptr, nullptr, nullptr, 0);
 }
 
-void FreedMemory::look(bool is_working) {
+void let_go_of_pieces() {
+  if (mallctl != nullptr) mallctl("thread.tcache.flush", nullptr, nullptr, nullptr, 0);
+}
+
+void FreedMemory::look(bool is_busy, Time now) {
   constexpr std::chrono::seconds kRest(1);
-  const auto now = std::chrono::steady_clock::now();
-  if (!is_working && now - since_ < kRest) return;
-  if (!is_working) give_back_freed_memory();
+  if (!is_busy && now - since_ < kRest) return;
+  if (!is_busy) give_back_freed_memory();
   since_ = now;
 }
 

@@ -70,7 +70,7 @@ void HeldScan::forget(const std::string& scan_id) {
   forgotten_.insert(scan_id);
 }
 
-bool HeldScan::is_working() const {
+bool HeldScan::is_busy() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return !working_.empty() || !exported_.empty();
 }

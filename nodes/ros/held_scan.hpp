@@ -41,7 +41,7 @@ class HeldScan {
   /// It is not worked on again, should it come again: a booth may latch it.
   void forget(const std::string& scan_id);
 
-  bool is_working() const;  ///< or an export is written
+  bool is_busy() const;  ///< work is under way, or an export is written
   bool is_forgotten(const std::string& scan_id) const;
   bool holds(const std::string& scan_id) const;
   /// Before that scan is let go of: work, where the newest scan is another one, whose data would be lost by

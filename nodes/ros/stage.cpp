@@ -7,6 +7,7 @@
 
 #include <chrono>
 
+#include "ros/freed_memory.hpp"
 #include "ros/held_scan.hpp"
 #include "ros/log_words.hpp"
 
@@ -113,6 +114,8 @@ void Stage::serve() {
       HeldScan::of_process().work(job.scan_id);
     }
     run(job);
+    job = {};
+    let_go_of_pieces();
     HeldScan::of_process().rest();
   }
 }

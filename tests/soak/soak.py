@@ -217,8 +217,10 @@ def constant(rows, part, out):
     print(f"part {part}: {len(rows)} scans; medians of {count} rows, after {len(rows) - len(settled)} and at the end", file=out)
     for column in [column for column in columns()[2:] if column in rows[0]]:
         values = [[float(row[column]) for row in part_of if row[column]] for part_of in (first, last)]
-        if not all(values):
-            continue  # no group ended there
+        if not all(values):  # no group ended there
+            fine = fine and not column.endswith(("_descriptors", "_threads"))
+            print(f"| {column} | not judged: a group is longer than {count} scans")
+            continue
         before, after = map(statistics.median, values)
         judged = count >= FEWEST or column.endswith(("_descriptors", "_threads"))
         allowed = SLOWER.get(column, MEMORY if column.endswith("_kB") else 0)

@@ -213,8 +213,7 @@ TEST(WithNote, StandsUnderThePictureInAsManyLinesAsItNeeds) {
   EXPECT_EQ(with_note(picture, "").rows, picture.rows);
   const cv::Mat one = with_note(picture, "Missing: crown"),
                 more = with_note(
-                    picture,
-                    "Not in the scan: left forearm, right hand, left shank, right foot, top of the head");
+                    picture, "Missing: left forearm, right hand, left shank, right foot, top of the head");
   const int line = one.rows - picture.rows;
   EXPECT_GT(line, 0);
   const cv::Mat high(1327, 1212, CV_8UC3), low(637, 1212, CV_8UC3);

@@ -29,13 +29,14 @@ TEST(Words, SayWhichPartsOfABodyAreMissing) {
   measures.missing = {{"axilla_L", ""}, {"neck", ""}, {"upper_arm_L", "its girth"}};
   EXPECT_EQ(missing(measures), "") << "figures, and the girth of an arm that is there";
   measures.missing.insert(measures.missing.end(), {{"upper_arm_L", ""}, {"hand_R", ""}, {"crown", ""}});
-  EXPECT_EQ(missing(measures), "Not in the scan: left upper arm, right hand, top of the head");
+  EXPECT_EQ(missing(measures), "Missing: left upper arm, right hand, top of the head");
   measures.girths = {{"thigh_R", 0.5, 1, ""}};
   measures.missing = {{"thigh_R", "though its girth was measured"}};
-  EXPECT_EQ(missing(measures), "Not in the scan: right thigh");
+  EXPECT_EQ(missing(measures), "Missing: right thigh");
   measures.missing.assign(11, {"hand_L", ""});
   EXPECT_EQ(missing(measures).substr(missing(measures).rfind(',')), ", left hand and 3 more");
-  EXPECT_EQ(said("only 5 % of it is there, nor is hand_L"), "only 5 % of it is there, nor is left hand");
+  EXPECT_EQ(with_names_spoken("only 5 % of it is there, nor is hand_L"),
+            "only 5 % of it is there, nor is left hand");
 }
 
 TEST(Words, SayPullsInNewtons) {

@@ -51,9 +51,9 @@ TEST_F(ExportPage, WhatOfTheBodyIsMissingStandsOnPageAndPictures) {
   landmarks->missing.back().reason = "none of <it>, nor is hand_L";
   scan_.landmarks = landmarks;
   export_fit(scan_, root_ / "without", kWhole);
-  const std::string words = "Not in the scan: left forearm; none of &lt;it&gt;, nor is left hand.";
+  const std::string words = "Missing: left forearm; none of &lt;it&gt;, nor is left hand.";
   EXPECT_NE(text_of(root_ / "without" / "fit.html").find(words), std::string::npos);
-  EXPECT_EQ(text_of(root_ / "whole" / "fit.html").find("Not in the scan"), std::string::npos);
+  EXPECT_EQ(text_of(root_ / "whole" / "fit.html").find("Missing: "), std::string::npos);
   for (const char* name : {"front.png", "side.png", "distortion.png"})
     EXPECT_GT(cv::imread((root_ / "without" / name).string()).rows,
               cv::imread((root_ / "whole" / name).string()).rows)

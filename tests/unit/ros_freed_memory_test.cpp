@@ -53,5 +53,29 @@ TEST(FreedMemory, GoesBackWholeWhateverThreadTookIt) {
   EXPECT_LT(after, 12);
 }
 
+TEST(FreedMemory, GoesBackAfterASecondWithoutWork) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers keep what is freed, to see whether it is used";
+#endif
+  constexpr std::chrono::milliseconds kTick(100);
+  FreedMemory memory;
+  FreedMemory::Time now{};
+  const auto ticks_until_given_back = [&](bool is_busy) {
+    {
+      std::vector<std::vector<char>> pieces;
+      for (int i = 0; i < 20000; ++i) pieces.emplace_back(2000, static_cast<char>(i));
+    }
+    const double kept = anonymous_mebibytes();
+    for (int ticks = 1; ticks <= 30; ++ticks) {
+      memory.look(is_busy, now += kTick);
+      if (anonymous_mebibytes() < kept - 20) return ticks;
+    }
+    return 0;
+  };
+  EXPECT_EQ(ticks_until_given_back(true), 0);
+  EXPECT_EQ(ticks_until_given_back(false), 10);
+  EXPECT_EQ(ticks_until_given_back(false), 10) << "what is freed without work goes back, too";
+}
+
 }  // namespace
 }  // namespace tensegric_fit::node

@@ -104,9 +104,9 @@ TEST_F(HeldScanTest, AScanIsHeldWhileAnExportOfItIsWritten) {
     EXPECT_TRUE(held_.holds("a"));
     EXPECT_TRUE(held_.must_finish("a"));
     EXPECT_FALSE(held_.must_finish("b"));
-    EXPECT_TRUE(held_.is_working());
+    EXPECT_TRUE(held_.is_busy());
   }
-  EXPECT_FALSE(held_.is_working());
+  EXPECT_FALSE(held_.is_busy());
   EXPECT_FALSE(held_.holds("a"));
   EXPECT_FALSE(held_.must_finish("a"));
 }
