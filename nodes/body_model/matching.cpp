@@ -12,9 +12,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kFarthest = 2.5;  // scales
-constexpr double kAstray = 0.5;  // scales from the sample's own model point: half counts at two thirds of it
-constexpr double kSameSide = 0.5;  // cosine between two normals of one skin
-constexpr double kSideways = 15;   // 1/m^2: a match a metre off is one of points, a near one of planes
+constexpr double kAstray = 0.5;   // scales from the sample's own model point: half counts at two thirds of it
+constexpr double kSideways = 15;  // 1/m^2: a match a metre off is one of points, a near one of planes
 
 /// What one pair says.
 struct Pair {
@@ -24,7 +23,7 @@ struct Pair {
 
 Pair weigh(const Vector3d& off, const Vector3d& model_normal, const Vector3d& sample_normal, double scale) {
   const double squared = off.squaredNorm() / (scale * scale);
-  if (squared > kFarthest * kFarthest || model_normal.dot(sample_normal) < kSameSide)
+  if (squared > kFarthest * kFarthest || model_normal.dot(sample_normal) < Matching::kSameSide)
     return {0, Matching::kUnmatched};
   const double robust = 1 / (1 + squared);
   return {robust * robust, std::min(std::abs(off.dot(sample_normal)), Matching::kUnmatched)};

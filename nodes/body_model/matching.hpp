@@ -29,6 +29,7 @@ struct Matching {
       distances;  ///< m, of each point of the model from the samples' nearest plane; kUnmatched: none
   std::vector<double> unexplained;            ///< m, of each sample that was looked at, in the samples' order
   static constexpr double kUnmatched = 0.05;  ///< m; farther counts as this
+  static constexpr double kSameSide = 0.5;    ///< cosine between two normals of one skin, at least
 };
 
 /// Nearest points both ways: each model point looks for a sample, and samples look for model points.

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "body_model/matching.hpp"
+#include "body_model/missing_parts.hpp"
 #include "body_model/parts.hpp"
-#include "body_model/recognition.hpp"
 #include "geometry/status.hpp"
 #include "ros/flat.hpp"
 

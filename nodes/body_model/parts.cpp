@@ -1,7 +1,7 @@
 #include "body_model/parts.hpp"
 
 #include "body_model/matching.hpp"
-#include "body_model/recognition.hpp"
+#include "body_model/missing_parts.hpp"
 #include "geometry/oriented_tree.hpp"
 #include "geometry/parallel_for.hpp"
 

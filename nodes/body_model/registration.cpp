@@ -8,6 +8,7 @@
 
 #include "body_model/arms.hpp"
 #include "body_model/gauss_newton.hpp"
+#include "body_model/missing_parts.hpp"
 #include "body_model/recognition.hpp"
 #include "geometry/parallel_for.hpp"
 #include "geometry/percentile.hpp"

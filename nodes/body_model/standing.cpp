@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "body_model/recognition.hpp"
+#include "body_model/missing_parts.hpp"
 #include "geometry/checked_yaml.hpp"
 #include "geometry/points.hpp"
 

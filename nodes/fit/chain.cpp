@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "body_model/recognition.hpp"
+#include "body_model/missing_parts.hpp"
 #include "fit/bind_body.hpp"
 #include "tffd/body_volume.hpp"
 #include "tffd/distortion.hpp"

@@ -1,7 +1,7 @@
 #include "landmarks/body_surface.hpp"
 
+#include "body_model/missing_parts.hpp"
 #include "body_model/parts.hpp"
-#include "body_model/recognition.hpp"
 #include "geometry/points.hpp"
 
 namespace tensegric_fit::landmarks {

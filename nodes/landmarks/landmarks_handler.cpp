@@ -3,8 +3,8 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
+#include "body_model/missing_parts.hpp"
 #include "body_model/model_message.hpp"
-#include "body_model/recognition.hpp"
 #include "body_model/registration.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/transform_message.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "body_model/recognition.hpp"
+#include "body_model/missing_parts.hpp"
 #include "geometry/percentile.hpp"
 #include "geometry/point_tree.hpp"
 

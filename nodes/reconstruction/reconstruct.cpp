@@ -10,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-#include "body_model/recognition.hpp"
+#include "body_model/missing_parts.hpp"
 #include "geometry/decimate.hpp"
 #include "geometry/moved_cloud.hpp"
 #include "geometry/point_tree.hpp"

@@ -5,7 +5,7 @@
 #include <array>
 #include <memory>
 
-#include "body_model/recognition.hpp"
+#include "body_model/missing_parts.hpp"
 #include "body_model/samples.hpp"
 #include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"

@@ -7,7 +7,7 @@
 #include <functional>
 #include <random>
 
-#include "body_model/recognition.hpp"
+#include "body_model/missing_parts.hpp"
 #include "body_model/registration.hpp"
 #include "geometry/decimate.hpp"
 #include "geometry/status.hpp"

@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "body_model/recognition.hpp"
+#include "body_model/missing_parts.hpp"
 #include "geometry/status.hpp"
 #include "measured_body.hpp"
 #include "virtual_body/model_body.hpp"
