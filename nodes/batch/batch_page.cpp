@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "files/html.hpp"
@@ -30,6 +31,12 @@ constexpr std::size_t kListed = 20;
 
 std::string number(double value) {
   return "<td class=n>" + fmt::format("{:.4g}", value) + "</td>";
+}
+
+/// Empty where it is not there.
+Json part_of(const Json& whole, const char* path) {
+  const Json::json_pointer place(path);
+  return whole.contains(place) ? whole.at(place) : Json::object();
 }
 
 /// A histogram from the smallest to the largest value; median and 95 % below it.
@@ -81,17 +88,24 @@ std::string summary(const Table& table) {
   return text + "</table>\n";
 }
 
+/// What is no number, or one that no scan comes to and that sums and widths of bars would overflow with, is
+/// left out.
+void take(const Json& value, double scale, std::vector<double>& values) {
+  constexpr double kLargest = 1e100;
+  if (value.is_number() && std::abs(value.get<double>()) < kLargest)
+    values.push_back(scale * value.get<double>());
+}
+
 std::string distributions(const Table& table) {
   std::map<std::string, std::vector<double>> girths, costs, sure;
   for (const auto& [row, line] : table.lines) {
     const Json cost = line.value("cost", Json::object()), result = line.value("result", Json::object());
     for (const char* name : {"seconds", "cpu_seconds", "peak_MB"})
-      if (cost.contains(name)) costs[name].push_back(cost[name]);
-    if (!result.contains("girths")) continue;
-    for (const auto& [name, value] : result["girths"].items())
-      if (value.is_number()) girths[name].push_back(1000 * value.get<double>());
-    for (const auto& [name, value] : result["confidence"]["girths"].items())
-      if (value.contains("half_width")) sure[name].push_back(1000 * value["half_width"].get<double>());
+      if (cost.contains(name)) take(cost[name], 1, costs[name]);
+    const Json lengths = part_of(result, "/girths"), confidences = part_of(result, "/confidence/girths");
+    for (const auto& [name, value] : lengths.items()) take(value, 1000, girths[name]);
+    for (const auto& [name, value] : confidences.items())
+      if (value.contains("half_width")) take(value["half_width"], 1000, sure[name]);
   }
   std::string text = "<h2>Girths</h2>\n";
   for (const auto& [name, values] : girths) text += histogram(name, "mm", values);
@@ -104,11 +118,10 @@ std::string distributions(const Table& table) {
 
 /// Mean confidence of the girths, 1 where there is none.
 double sureness(const Json& line) {
-  const Json result = line.value("result", Json::object());
-  if (!result.contains("confidence")) return 1;
+  const Json girths = part_of(line, "/result/confidence/girths");
   double sum = 0, count = 0;
-  for (const auto& [name, value] : result["confidence"]["girths"].items()) {
-    sum += value["confidence"].get<double>();
+  for (const Json& girth : girths) {
+    sum += girth.at("confidence").get<double>();
     ++count;
   }
   return count > 0 ? sum / count : 1;

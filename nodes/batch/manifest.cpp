@@ -11,6 +11,7 @@
 
 #include "files/csv.hpp"
 #include "fit/command_line.hpp"
+#include "geometry/json_text.hpp"
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
 
@@ -130,8 +131,8 @@ class Reader {
     for (std::string text; std::getline(stream, text);) {
       ++line_;
       if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
-      const UnorderedJson object = UnorderedJson::parse(text, nullptr, false);
-      if (!object.is_object()) throw fault_here("is no JSON object");
+      const UnorderedJson object = geometry::json_in(text);
+      if (!object.is_object()) throw fault_here("is no JSON object, or is nested too deeply");
       Job job;
       for (const auto& [name, value] : object.items()) {
         check_name(name);
@@ -196,6 +197,7 @@ class Reader {
       std::string text = errors.str();
       throw fault_here(text.substr(0, text.find('\n')));
     }
+    if (jobs_.size() == kMostRows) throw fault(fmt::format("has more than {} rows", kMostRows));
     job.row = jobs_.size() + 1;
     jobs_.push_back(std::move(job));
   }

@@ -19,9 +19,12 @@ struct Job {
   std::vector<std::string> arguments() const;
 };
 
+inline constexpr std::size_t kMostRows = 10'000'000;  ///< months of a large machine
+
 /// Reads FILE.csv (first row: names of columns; several scans or ratios with ; in between) or FILE.jsonl (one
 /// object per line). Columns are `name` and options of `fit`; paths are relative to the manifest.
-/// \throw Refusal broken_file, naming file and line: not readable, unknown columns, values that `fit` refuses
+/// \throw Refusal broken_file, naming file and line: not readable, unknown columns, values that `fit`
+/// refuses, more than kMostRows
 std::vector<Job> read_manifest(const std::string& file);
 
 }  // namespace tensegric_fit::batch

@@ -21,6 +21,7 @@
 #include "batch/shard_file.hpp"
 #include "files/descriptor.hpp"
 #include "fit/result_folder.hpp"
+#include "geometry/json_text.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::batch {
@@ -114,8 +115,7 @@ class Batch {
       if (errno != EINTR) files::fail(options_.out);
     const std::filesystem::path file = std::filesystem::path(options_.out) / "batch.json";
     std::ifstream before(file);
-    const Json known =
-        Json::parse(before, nullptr, false);  // discarded where there is none: equal to nothing
+    const Json known = geometry::json_in<Json>(before);  // discarded where there is none: equal to nothing
     if (!(known == description)) fit::write_json(file, description);
   }
 

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "geometry/json_text.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::batch {
@@ -19,6 +20,50 @@ namespace {
 
 using geometry::Refusal;
 using Json = nlohmann::ordered_json;
+
+bool is_text(const Json& value) {
+  return value.is_string();
+}
+
+bool are_texts(const Json& value) {
+  return value.is_array() && std::all_of(value.begin(), value.end(), is_text);
+}
+
+bool is_row(const Json& value) {
+  return value.is_number_unsigned() && value != 0;
+}
+
+bool are_settings(const Json& value) {
+  return value.is_object() && std::all_of(value.begin(), value.end(), are_texts);
+}
+
+bool is_reason(const Json& value) {
+  return value.is_null() || (value.is_object() && is_text(value.value("code", Json())) &&
+                             is_text(value.value("message", Json())));
+}
+
+/// Has what each line has, of the kind that it has there.
+bool is_result(const Json& line) {
+  constexpr std::array<std::pair<const char*, bool (*)(const Json&)>, 12> kParts{{{"row", is_row},
+                                                                                  {"name", is_text},
+                                                                                  {"key", is_text},
+                                                                                  {"subject", is_text},
+                                                                                  {"kind", is_text},
+                                                                                  {"inputs", are_texts},
+                                                                                  {"settings", are_settings},
+                                                                                  {"manifest", is_text},
+                                                                                  {"version", is_text},
+                                                                                  {"build", is_text},
+                                                                                  {"status", is_text},
+                                                                                  {"reason", is_reason}}};
+  return line.is_object() &&
+         std::all_of(kParts.begin(), kParts.end(),
+                     [&line](const auto& part) {
+                       const auto found = line.find(part.first);
+                       return found != line.end() && part.second(*found);
+                     }) &&
+         (line["status"] != "refused" || line["reason"].is_object());
+}
 
 Refusal cannot_write(const std::string& path, const std::string& why) {
   return Refusal(geometry::refusal::kCannotWrite, path + ": " + why);
@@ -32,8 +77,8 @@ void for_each_line(const std::string& file, const std::function<void(Json&&, std
   std::size_t number = 0, place = 0;
   for (std::string text; std::getline(stream, text) && !stream.eof();) {
     ++number;
-    Json line = Json::parse(text, nullptr, false);
-    if (!line.is_object() || !line.contains("row") || !line.contains("key") || !line.contains("status"))
+    Json line = geometry::json_in<Json>(text);
+    if (!is_result(line))
       throw Refusal(geometry::refusal::kBrokenFile,
                     file + ", line " + std::to_string(number) + ": is not a result of a batch");
     use(std::move(line), place);

@@ -9,8 +9,10 @@
 #include <optional>
 #include <set>
 
+#include "batch/manifest.hpp"
 #include "batch/shard_file.hpp"
 #include "files/csv.hpp"
+#include "geometry/json_text.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::batch {
@@ -68,6 +70,12 @@ bool is_settled(const Json& line) {
   return line.at("key") != "" && !is_unfinished(line);
 }
 
+bool is_description(const Json& value) {
+  return value.is_object() && value.contains("rows") && value["rows"].is_number_unsigned() &&
+         value["rows"] <= kMostRows && value.value("build", Json()).is_string() &&
+         value.value("manifest_identity", Json()).is_string();
+}
+
 /// Nothing where there is no batch.json: the shard never began. Of several lines of a row the last in its
 /// file counts; files of another number of shards may have the row as well, and their names say nothing of
 /// which is the later: one that is settled counts before one that is not.
@@ -75,12 +83,11 @@ std::optional<Folder> read_folder(const std::string& path) {
   const fs::path description = fs::path(path) / "batch.json";
   if (!fs::exists(description)) return std::nullopt;
   std::ifstream stream(description);
-  Folder folder{Json::parse(stream, nullptr, false), {}};
-  if (!folder.description.is_object() || !folder.description.contains("rows"))
+  Folder folder{geometry::json_in<Json>(stream), {}};
+  if (!is_description(folder.description))
     throw Refusal(kBroken, description.string() + " is not of fit_batch");
   const std::size_t rows = folder.description["rows"];
-  const std::string build = folder.description.value("build", ""),
-                    manifest = folder.description.value("manifest_identity", "");
+  const std::string build = folder.description["build"], manifest = folder.description["manifest_identity"];
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(path))
     if (fnmatch("shard-*-of-*.jsonl", entry.path().filename().c_str(), 0) == 0) files.push_back(entry.path());
@@ -89,8 +96,7 @@ std::optional<Folder> read_folder(const std::string& path) {
     std::map<std::size_t, Json> last;
     for_each_line(file, [&](Json&& line, std::size_t) {
       const std::size_t row = line.at("row");
-      if (row <= rows && line.value("build", "") == build && line.value("manifest", "") == manifest)
-        last[row] = std::move(line);
+      if (row <= rows && line["build"] == build && line["manifest"] == manifest) last[row] = std::move(line);
     });
     for (auto& [row, line] : last) {
       const auto known = folder.lines.find(row);
@@ -142,8 +148,8 @@ Table read_table(std::vector<std::string> folders) {
       continue;
     }
     const std::size_t rows = folder->description["rows"];
-    const std::string its_manifest = folder->description.value("manifest_identity", ""),
-                      its_build = folder->description.value("build", "");
+    const std::string its_manifest = folder->description["manifest_identity"],
+                      its_build = folder->description["build"];
     if (first.empty()) {
       first = path;
       manifest = its_manifest;

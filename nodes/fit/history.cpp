@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr double kClocksAreSet = 946684800;  // s, 2000-01-01: earlier stamps are of clocks that start at zero
+constexpr double kLatest = 253402300800;     // s, the year 10000: later ones have no date
 
 double time_of_change(const fs::path& file) {
   struct stat status {};
@@ -70,7 +71,7 @@ void read_export(const json& document, Visit& visit) {
   visit.source = scan.value("source", "");
   visit.body_from_scan = pose_in(scan.at("body_from_scan"));
   const double stamp = std::strtod(visit.scan.c_str(), nullptr);
-  if (stamp > kClocksAreSet) visit.time = stamp;
+  if (stamp > kClocksAreSet && stamp < kLatest) visit.time = stamp;
   visit.garment = document.at("garment").at("name").get<std::string>();
   add_lines(document.at("garment").at("lines"), visit);
   visit.girths = exported(document.at("body").at("girths"));

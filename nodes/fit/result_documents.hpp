@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "files/whole_folder.hpp"
+#include "geometry/json_text.hpp"
 
 namespace tensegric_fit::fit {
 
@@ -24,13 +25,13 @@ inline bool is_export(const std::filesystem::path& folder) {
          std::filesystem::exists(folder / kSealedDocument, not_there);
 }
 
-/// Discarded where it is no file of JSON (a pipe has no end), or larger than these documents are.
+/// Discarded where it is no file of JSON (a pipe has no end), or larger or deeper than these documents are.
 inline nlohmann::json read_document(const std::filesystem::path& file) {
   constexpr std::size_t kLargest = 16 << 20;  // bytes
   std::error_code not_there;
   const std::filesystem::path place = std::filesystem::canonical(file, not_there);  // it may be a link
   const std::optional<std::string> text = files::bytes_of_plain_file(place.string(), kLargest);
-  return nlohmann::json::parse(text.value_or(""), nullptr, false);
+  return geometry::json_in(text.value_or(""));
 }
 
 }  // namespace tensegric_fit::fit

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string_view>
 
+#include "geometry/json_text.hpp"
 #include "geometry/status.hpp"
 #include "mesh_files/formats.hpp"
 
@@ -25,7 +26,7 @@ using Json = nlohmann::json;
 constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;
 constexpr int kTriangles = 4, kStrip = 5, kFan = 6;
 constexpr std::size_t kMostJson = 64UL << 20;  // bytes; parsed, it takes ten times as much
-constexpr int kDeepest = 64;                   // levels of JSON and of nodes; real files have a dozen
+constexpr int kDeepest = 64;                   // levels of nodes; real files have a dozen
 constexpr double kAlike =
     1e-5;  // of the size of places that are one: float32 has 6e-8, and joints stand in rows
 constexpr std::size_t kMatrix = 64;  // bytes of a MAT4 of float32
@@ -53,12 +54,8 @@ class Reader {
   Reader(std::string_view text, std::string_view chunk, const std::string& path) : path_(path) {
     if (text.size() > kMostJson)
       throw Refusal(refusal::kTooManyPoints, path + ": has more than 64 MB of JSON; save it as GLB");
-    const auto depth_limited = [this](int depth, Json::parse_event_t, const Json&) {
-      if (depth > kDeepest) throw broken("its JSON is nested too deeply");
-      return true;
-    };
-    root_ = Json::parse(text, depth_limited, false);
-    if (!root_.is_object()) throw broken("its JSON cannot be read");
+    root_ = geometry::json_in<Json>(text);
+    if (!root_.is_object()) throw broken("its JSON cannot be read, or is nested too deeply");
     for (const Json& extension : array("extensionsRequired"))
       if (extension != "KHR_materials_unlit" && extension != "KHR_texture_transform")
         throw broken("needs " + extension.dump(-1, ' ', true, Json::error_handler_t::replace).substr(0, 60) +

@@ -9,6 +9,7 @@
 
 #include "files/csv.hpp"
 #include "geometry/json.hpp"
+#include "geometry/json_text.hpp"
 #include "inspect/warning_words.hpp"
 #include "ros/line_force.hpp"
 
@@ -167,7 +168,7 @@ std::string fit_json(const FitFigures& figures, const std::vector<std::string>& 
 }
 
 std::optional<std::string> scan_id_in(const std::string& text) {
-  const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
+  const nlohmann::json document = geometry::json_in(text);
   if (!document.is_object() || !document.contains("format")) return std::nullopt;
   if (document["format"] != kFormat && document["format"] != kSealedFormat) return std::nullopt;
   const nlohmann::json scan = document.value("scan", nlohmann::json());

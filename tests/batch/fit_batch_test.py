@@ -304,6 +304,25 @@ class FitBatch(unittest.TestCase):
             take_for_another_builds(folder)
         self.assertEqual(len(lines_of(folder)), 2)
 
+    def test_a_folder_that_others_wrote_is_refused(self):
+        folder = self.folder / "of_others"
+        deep = "[" * 1000000 + "]" * 1000000
+        whole = json.loads((self.whole / "batch.json").read_text())
+        line = next(line for line in lines_of(self.whole) if line["status"] == "ok")
+        descriptions = [json.dumps({**whole, **change}) for change in
+                        ({"rows": "3"}, {"rows": -1}, {"rows": 10 ** 15}, {"build": 5}, {"manifest_identity": None})]
+        lines = [json.dumps({**line, **change}) for change in
+                 ({"row": 0}, {"name": 5}, {"inputs": "a"}, {"settings": []}, {"status": "refused"}, {"status": None}, {"reason": "none"},
+                  {"result": {"confidence": {"girths": {"bust": {"confidence": "high"}}}}})]
+        for description, text in [*((each, "") for each in [*descriptions, "{}", deep]), *((json.dumps(whole), each) for each in [*lines, deep])]:
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir()
+            (folder / "batch.json").write_text(description)
+            (folder / "shard-1-of-1.jsonl").write_text(text + "\n" if text else "")
+            done = subprocess.run([PROGRAMS / "fit_batch", "merge", folder, "--out", self.folder / "of_others_merged"], capture_output=True, text=True,
+                                  timeout=60, check=False)
+            self.assertEqual((done.returncode, "broken_file" in done.stderr), (3, True), (description[:100], text[:100], done.stderr))
+
     def test_a_pipe_is_no_scan(self):
         manifest, folder = self.folder / "pipe.csv", self.folder / "pipe"
         os.mkfifo(self.folder / "pipe.ply")
@@ -422,7 +441,7 @@ class FitBatch(unittest.TestCase):
         manifest = self.folder / "bad.jsonl"
         for text, message in {'{"scan": "w1/scan.ply"}\n[1]\n': "line 2: is no JSON object",
                               '{"scan": {"a": 1}}\n': "line 1: 'scan' is no text",
-                              '{"scan":' + 200000 * "[" + 200000 * "]" + "}\n": "line 1: 'scan' is no text",
+                              '{"scan":' + 200000 * "[" + 200000 * "]" + "}\n": "line 1: is no JSON object, or is nested",
                               '{"colour": 1}\n': "line 1: there is no column 'colour'"}.items():
             manifest.write_text(text)
             done = fit_batch(manifest, "--out", self.folder / "bad")

@@ -26,6 +26,8 @@ TESTED = {  # whose lines count
     "capture": ["nodes/capture/capture_handler.cpp", "nodes/capture/capture_watch.cpp", "nodes/capture/stage_board.cpp",
                 "nodes/ros/stage_report_message.cpp"],
     "cloud": ["nodes/geometry/point_cloud.cpp"],
+    "documents": ["nodes/batch/table.cpp", "nodes/batch/shard_file.cpp", "nodes/batch/drift.cpp", "nodes/batch/database.cpp", "nodes/batch/batch_page.cpp",
+                  "nodes/fit/history.cpp", "nodes/fit/result_documents.hpp", "nodes/geometry/json_text.hpp", "nodes/ros/fit_document.cpp"],
     "manifest": ["nodes/batch/manifest.cpp", "nodes/files/csv.cpp", "nodes/fit/command_line.cpp"],
     "meshes": ["nodes/mesh_files/obj.cpp", "nodes/mesh_files/stl.cpp", "nodes/mesh_files/gltf.cpp", "nodes/mesh_files/read_mesh.cpp",
                "nodes/mesh_files/samples.cpp", "nodes/mesh_files/reading.cpp", "nodes/geometry/ply.cpp", "nodes/scan_files/pcd_file.cpp",

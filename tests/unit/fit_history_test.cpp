@@ -41,6 +41,15 @@ class HistoryTest : public testing::Test {
   const fs::path root_ = fs::temp_directory_path() / ("history_test." + std::to_string(getpid()));
 };
 
+TEST_F(HistoryTest, AStampThatIsNoDateIsNotTheDay) {
+  for (const char* stamp : {"1e300", "inf", "nan", "-5"}) {
+    write("odd", "fit.json", exported(stamp, "4711", 900, 5));
+    const std::vector<Visit> visits = find_visits({root_}, "4711");
+    ASSERT_EQ(visits.size(), 1u) << stamp;
+    EXPECT_EQ(visits[0].day.substr(0, 2), "20") << stamp << ": not when the document was written";
+  }
+}
+
 TEST_F(HistoryTest, VisitsAreFoundByCustomerTheOldestFirst) {
   write("2026/b", "fit.json", exported("1790000000.5", "4711", 900, 5));
   write("2025/a", "fit.json", exported("1760000000.5", "4711", 920, 5));
@@ -48,6 +57,9 @@ TEST_F(HistoryTest, VisitsAreFoundByCustomerTheOldestFirst) {
   write("2025/d", "fit.json", "{\"format\": \"another program's\"}");
   write("2025/e", "report.json", "{\"status\": \"refused\"}");
   write("2025/f", "report.json", "[");
+  constexpr std::size_t kDeep = 1 << 20;
+  write("2025/g", "report.json",
+        R"({"status": "ok", "scan": )" + std::string(kDeep, '[') + std::string(kDeep, ']') + "}");
   const std::vector<Visit> visits = find_visits({root_}, "4711");
   ASSERT_EQ(visits.size(), 2u);
   EXPECT_EQ(visits[0].folder.filename(), "a");

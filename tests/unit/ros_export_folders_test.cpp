@@ -96,7 +96,9 @@ TEST_F(ExportFolders, AFolderMadeToHarmIsLeftAlone) {
   ASSERT_EQ(mkfifo((root_ / "one" / "fit.json").c_str(), 0600), 0);
   EXPECT_TRUE(is_left_alone()) << "a pipe that nobody writes to";
   fs::remove(root_ / "one" / "fit.json");
-  std::ofstream(root_ / "one" / "fit.json") << std::string(1 << 20, '[');
+  constexpr std::size_t kDeep = 1 << 20;
+  std::ofstream(root_ / "one" / "fit.json") << R"({"format": "tensegric_fit/fit", "scan": )"
+                                            << std::string(kDeep, '[') << std::string(kDeep, ']') << "}";
   EXPECT_TRUE(is_left_alone()) << "a document that is nested too deeply";
   fs::resize_file(root_ / "one" / "fit.json", std::uintmax_t{1} << 40);
   EXPECT_TRUE(is_left_alone()) << "a document of a terabyte";
