@@ -13,6 +13,8 @@
 #include "input.hpp"
 #include "landmarks/landmarks_handler.hpp"
 #include "ros/body_messages.hpp"
+#include "ros/fit_document.hpp"
+#include "ros/scan_labels.hpp"
 #include "tensegric/kept_garment_message.hpp"
 #include "tensegric/tensegric_handler.hpp"
 #include "tensegric_bust.hpp"
@@ -112,7 +114,7 @@ geometry::BodyMeasures measures() {
   geometry::BodyMeasures measures;
   measures.heights = {{"hip", 0.9, 1, ""}, {"underbust", 1.12, 1, ""}};
   measures.landmarks = {{"crotch", {0, 0, 0.8}, 1, ""}};
-  measures.girths = {{"bust", 0.9, 1, ""}};
+  measures.girths = {{"bust", 0.9, 1, ""}, {"underbust", 0.75, 1, ""}};
   return measures;
 }
 
@@ -258,6 +260,48 @@ void carry_skin(fuzz::Input& input) {
   for (const float x : output.scan.deformed->distortion) fuzz::require(std::isfinite(x));
 }
 
+LineForces forces_of(const FitState& fit) {
+  LineForces forces;
+  for (const LineResult& line : fit.lines) {
+    forces.lines.push_back(line.name);
+    forces.tension.push_back(line.tension);
+    forces.newtons.push_back(3);
+    forces.kilopascals.push_back(0.5);
+  }
+  forces.garment = fit.garment;
+  return forces;
+}
+
+/// What an export says in figures of a fit whose messages do not go together, or hold odd numbers.
+void say_figures(fuzz::Input& input) {
+  const auto skin = boost::make_shared<TriangleMesh>(body());
+  const auto landmarks = boost::make_shared<Landmarks>(to_message(ScanTag(), measures()));
+  const auto control = boost::make_shared<ControlMesh>(to_message(ScanTag(), tensegric::bust_mesh()));
+  const auto fit = boost::make_shared<FitState>(sound_fit());
+  const auto deformed = boost::make_shared<DeformedMesh>();
+  const auto forces = boost::make_shared<LineForces>(forces_of(*fit));
+  deformed->vertices = skin->vertices;
+  deformed->distortion.assign(skin->vertices.size() / 3, 1);
+  draw_some(input, deformed->volume_before, deformed->volume_after);
+  change(input, *deformed);
+  change_all(input, forces->lines, forces->tension, forces->newtons, forces->kilopascals);
+  if (input.number(1) % 4 == 0) change(input, *skin);
+  if (input.number(1) % 2 == 0) change(input, *landmarks);
+  if (input.number(1) % 4 == 0) change(input, *control);
+  if (input.number(1) % 2 == 0) change(input, *fit);
+  ScanLabels labels;
+  for (const char* id : {"", "another"}) {
+    ScanLabel label;
+    label.scan_id = id;
+    label.customer.assign(input.number(1) % 4, static_cast<char>(input.number(1)));
+    labels.add(label);
+  }
+  if (input.number(1) % 4 == 0) labels.drop("another");
+  const FitFigures figures = figures_of({skin, landmarks, control, fit, deformed, {}, forces, labels.of("")});
+  fuzz::require(scan_id_in(fit_json(figures, {"body.ply"})) == skin->scan_id);
+  fuzz::require(!measurements_csv(figures).empty());
+}
+
 /// A mesh that comes with its model, or whose model fits nothing of it.
 void find_landmarks(fuzz::Input& input) {
   static const LandmarksHandler fresh(Parameters(YAML::Load("{}"), "landmarks"));
@@ -329,8 +373,9 @@ void correlate_worn(fuzz::Input& input) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input(data, size);
-  const auto read = std::array{read_mesh,  read_landmarks, read_model,  fit_garment,
-                               carry_skin, find_landmarks, lay_control, correlate_worn}[input.number(1) % 8];
+  const auto read =
+      std::array{read_mesh,      read_landmarks, read_model,     fit_garment, carry_skin,
+                 find_landmarks, lay_control,    correlate_worn, say_figures}[input.number(1) % 9];
   fuzz::refused_or_done([&] { read(input); });
   return 0;
 }
