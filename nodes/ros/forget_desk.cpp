@@ -1,5 +1,6 @@
 #include "ros/forget_desk.hpp"
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <fmt/format.h>
 #include <tensegric_fit/ForgetOrder.h>
 
@@ -90,7 +91,9 @@ ForgetDesk::ForgetDesk(ros::NodeHandle node, const ros::NodeHandle& private_node
         answered_.notify_all();
       });
   if (options_.retention_days > 0) {
+    diagnostics_ = node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 4);
     delete_old();
+    heartbeat_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) { report(); });
     daily_ = node.createWallTimer(kDay, [this](const ros::WallTimerEvent&) { delete_old(); });
   }
   ros::NodeHandle own(node);
@@ -99,18 +102,36 @@ ForgetDesk::ForgetDesk(ros::NodeHandle node, const ros::NodeHandle& private_node
   spinner_.start();
 }
 
-void ForgetDesk::delete_old() const {
-  std::vector<std::string> left;
+void ForgetDesk::delete_old() {
+  left_.clear();
   std::size_t gone = 0;
   for (const std::string& folder : options_.folders) {
     std::error_code unknown;
     const bool is_there = std::filesystem::exists(folder, unknown);
-    if (unknown) left.push_back(fmt::format("'{}' cannot be looked at: {}", folder, unknown.message()));
-    if (is_there) gone += delete_old_exports(folder, options_.retention_days, left).size();
+    if (unknown) left_.push_back(fmt::format("'{}' cannot be looked at: {}", folder, unknown.message()));
+    if (is_there) gone += delete_old_exports(folder, options_.retention_days, left_).size();
   }
   if (gone > 0) ROS_INFO("vault: exports were deleted, as they were old");
-  for (const std::string& why : left)
+  for (const std::string& why : left_)
     ROS_WARN("vault: an old export may be left: %s", log_words(why).c_str());
+}
+
+void ForgetDesk::report() const {
+  diagnostic_msgs::DiagnosticStatus status;
+  status.name = ros::this_node::getName().substr(1) + ": retention";
+  status.hardware_id = "tensegric_fit";
+  status.level =
+      left_.empty() ? diagnostic_msgs::DiagnosticStatus::OK : diagnostic_msgs::DiagnosticStatus::WARN;
+  status.message = left_.empty() ? fmt::format("exports are kept for {} days", options_.retention_days)
+                                 : "an old export may be left: " + left_.front();
+  diagnostic_msgs::KeyValue left;
+  left.key = "left";
+  left.value = std::to_string(left_.size());
+  status.values.push_back(left);
+  diagnostic_msgs::DiagnosticArray array;
+  array.header.stamp = ros::Time::now();
+  array.status.push_back(status);
+  diagnostics_.publish(array);
 }
 
 Names ForgetDesk::let_go(const Names& asked, const Forget::Request& request, Forget::Response& response) {

@@ -37,14 +37,18 @@ class ForgetDesk {
                                Forget::Response& response);
   static void delete_exports_of(const std::string& scan_id, const std::string& folder,
                                 Forget::Response& response);
-  void delete_old() const;
+  void delete_old();
+  /// What came of the last look for old exports, again and again, as stages report.
+  void report() const;
 
   ros::NodeHandle node_;
   const VaultOptions options_;
   ros::Publisher orders_;
   ros::Subscriber answers_in_;
-  ros::WallTimer daily_;
-  std::mutex mutex_;  // guards answers_
+  ros::Publisher diagnostics_;
+  ros::WallTimer daily_, heartbeat_;
+  std::vector<std::string> left_;  // why old exports may be left, at the last look
+  std::mutex mutex_;               // guards answers_
   std::condition_variable answered_;
   std::map<std::string, ForgetAnswer> answers_;  // of nodes, to the order given last
   ros::CallbackQueue queue_;

@@ -10,21 +10,22 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace {
+#include "ros/loopback.hpp"
 
-/// As roscpp decides it for topics.
+namespace tensegric_fit::node {
+
 bool is_for_this_machine_only() {
   if (const char* name = std::getenv("ROS_HOSTNAME")) return std::strcmp(name, "localhost") == 0;
   const char* address = std::getenv("ROS_IP");
   return address != nullptr && (std::strncmp(address, "127.", 4) == 0 || std::strcmp(address, "::1") == 0);
 }
 
-}  // namespace
+}  // namespace tensegric_fit::node
 
 extern "C" int bind(int fd, const sockaddr* addr, socklen_t len) noexcept {
   sockaddr_in any{};
   sockaddr_in6 any6{};
-  if (!is_for_this_machine_only() || addr == nullptr)
+  if (!tensegric_fit::node::is_for_this_machine_only() || addr == nullptr)
     return static_cast<int>(syscall(SYS_bind, fd, addr, len));
   if (addr->sa_family == AF_INET && len == sizeof any) {
     std::memcpy(&any, addr, sizeof any);
