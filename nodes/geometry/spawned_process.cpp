@@ -27,7 +27,7 @@ class SpawnSettings {
     sigset_t none, usual;
     sigemptyset(&none);
     sigemptyset(&usual);
-    for (const int signal : {SIGPIPE, SIGINT, SIGTERM}) sigaddset(&usual, signal);
+    for (const int signal : {SIGPIPE, SIGINT, SIGTERM, SIGCHLD}) sigaddset(&usual, signal);
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &usual);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
@@ -43,9 +43,18 @@ class SpawnSettings {
   posix_spawnattr_t attributes{};
 };
 
+/// Where a parent has left it ignored, how a child ended is lost to waitpid.
+void hear_of_ends() {
+  struct sigaction now {};
+  if (sigaction(SIGCHLD, nullptr, &now) == 0 &&
+      (now.sa_handler == SIG_IGN || (now.sa_flags & SA_NOCLDWAIT) != 0))
+    std::signal(SIGCHLD, SIG_DFL);
+}
+
 }  // namespace
 
 SpawnedProcess spawn(const std::string& program, const std::vector<std::string>& arguments) {
+  hear_of_ends();
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw std::runtime_error(std::string("has no channel: ") + std::strerror(errno));

@@ -19,6 +19,7 @@ constexpr double kReach = 0.3;        // m round the neck: a head with its hair,
 struct NeckCut {
   Plane plane;             // scan frame, its normal towards the head
   Eigen::Vector3d middle;  // of the neck, in the plane
+  double radius;           // mean, of the neck
 };
 
 NeckCut cut_above(const Points& loop, const Eigen::Vector3d& up, double above) {
@@ -28,8 +29,11 @@ NeckCut cut_above(const Points& loop, const Eigen::Vector3d& up, double above) {
     normal += (loop[i] - middle).cross(loop[(i + 1) % loop.size()] - middle);
   normal.normalize();
   if (normal.dot(up) < 0) normal = -normal;
+  double radius = 0;
+  for (const Eigen::Vector3d& point : loop)
+    radius += (point - middle).norm() / static_cast<double>(loop.size());
   middle += above * normal;
-  return {Plane(normal, middle), middle};
+  return {Plane(normal, middle), middle, radius};
 }
 
 NeckCut neck_of(const geometry::BodyMeasures& measures) {
@@ -44,6 +48,15 @@ NeckCut neck_of(const geometry::BodyMeasures& measures) {
       std::string(geometry::refusal::kMissingPart) + ":neck",
       "where her head begins is not known, so it cannot be cut off: scan her again, or set "
       "the parameter with_head to export all of her");
+}
+
+/// Skin beyond the cut and not beside it: arms that are lifted reach no such place.
+bool is_over_neck(const Eigen::Vector3d& place, const NeckCut& neck) {
+  constexpr double kWider = 1.2;               // than the neck
+  constexpr double kHigher = 2 * kTallerThan;  // a stub that was left on purpose is lower, however it leans
+  const Eigen::Vector3d offset = place - neck.middle;
+  const double above = neck.plane.normal().dot(offset);
+  return above > kHigher && (offset - above * neck.plane.normal()).norm() < kWider * neck.radius;
 }
 
 }  // namespace
@@ -64,6 +77,13 @@ FitFigures headless(FitFigures figures) {
         return top > middle.z() + kTallerThan && (centre - middle).head<2>().norm() < kReach;
       });
   figures.body = {cut.of(figures.body.vertices), cut.triangles};
+  if (std::any_of(figures.body.vertices.begin(), figures.body.vertices.end(),
+                  [&neck](const Eigen::Vector3d& place) { return is_over_neck(place, neck); }))
+    throw geometry::Refusal(
+        std::string(geometry::refusal::kMissingPart) + ":neck",
+        "her head cannot be cut off, as its skin goes on into something beside it, such as a hand or an arm: "
+        "scan "
+        "her again with her arms down, or set the parameter with_head to export all of her");
   figures.deformed = cut.of(figures.deformed);
   figures.in_scan_posture = cut.of(figures.in_scan_posture);
   figures.distortion = cut.of(figures.distortion);

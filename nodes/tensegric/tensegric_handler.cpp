@@ -85,7 +85,7 @@ TensegricHandler::TensegricHandler(Parameters parameters, tensegric::BindBody bi
       worn_(kept_garment(setup_.kept, setup_.garment).value_or(first_)),
       heard_(setup_.heard),
       fitter_(setup_.fitter, bind_body),
-      coarse_fitter_(setup_.fitter, std::move(bind_body)) {}
+      bind_body_(std::move(bind_body)) {}
 
 std::optional<TensegricHandler::Input> TensegricHandler::add(const ControlMesh::ConstPtr& control) {
   control_ = control;
@@ -106,6 +106,7 @@ std::optional<TensegricHandler::Input> TensegricHandler::add(const TriangleMesh:
 std::optional<TensegricHandler::Input> TensegricHandler::newly_complete() {
   if (!fresh_ || !complete()) return std::nullopt;
   fresh_ = false;
+  if (coarse_ && coarse_->scan_id != control_->scan_id) coarse_.reset();  // of the body before
   if (worn_.of && worn_.of->empty()) worn_.of = control_->scan_id;
   const std::string why = unwearable();
   unseen_ = false;
@@ -204,16 +205,16 @@ std::optional<FitState> TensegricHandler::first_answer(const Input& input, const
   if (!input.coarse || has_weight) return std::nullopt;
   const auto start = Clock::now();
   try {
-    if (input.coarse != coarse_taken_ || input.control != fine_taken_) {
-      coarse_taken_ = nullptr;
+    if (!coarse_fitter_ || input.coarse != coarse_taken_) {
+      coarse_taken_.reset();
+      coarse_fitter_.emplace(setup_.fitter, bind_body_);
       const auto measures = measures_of(input);
-      coarse_fitter_.take(control_in(*input.coarse), control_in(*input.control),
-                          measures ? &*measures : nullptr, body_of(input));
+      coarse_fitter_->take(control_in(*input.coarse), control_in(*input.control),
+                           measures ? &*measures : nullptr, body_of(input));
       coarse_taken_ = input.coarse;
-      fine_taken_ = input.control;
     }
-    const auto answer =
-        coarse_fitter_.fit(input.request.garment, fitter_.model()->newtons(), name.solver, input.rest, go_on);
+    const auto answer = coarse_fitter_->fit(input.request.garment, fitter_.model()->newtons(), name.solver,
+                                            input.rest, go_on);
     if (!answer) return std::nullopt;
     FitState state = to_message(name, answer->state, answer->outer, answer->inner, milliseconds_since(start));
     state.note =
@@ -234,6 +235,8 @@ std::optional<TensegricHandler::Output> TensegricHandler::handle(
   const FitName name{tag_in(*input.control), request.garment.name, solver, setup_.fitter.posture};
   const auto start = Clock::now();
   if (input.control != taken_) {
+    coarse_fitter_.reset();  // it knows the body before
+    coarse_taken_.reset();
     const auto measures = measures_of(input);
     fitter_.take(input.control->scan_id, control_in(*input.control), measures ? &*measures : nullptr,
                  body_of(input));

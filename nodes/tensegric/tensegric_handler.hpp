@@ -109,8 +109,10 @@ class TensegricHandler {
   int rests_ = 0;
   tensegric::GarmentFitter fitter_;
   ControlMesh::ConstPtr taken_;  // by fitter_
-  tensegric::CoarseFitter coarse_fitter_;
-  ControlMesh::ConstPtr coarse_taken_, fine_taken_;  // by coarse_fitter_
+  const tensegric::BindBody bind_body_;
+  std::optional<tensegric::CoarseFitter>
+      coarse_fitter_;                   // none where no mesh of the body in fitter_ was taken
+  ControlMesh::ConstPtr coarse_taken_;  // by coarse_fitter_
 };
 
 }  // namespace tensegric_fit::node

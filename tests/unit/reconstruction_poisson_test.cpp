@@ -91,6 +91,13 @@ TEST(Poisson, LeavesNothingBehind) {
   EXPECT_TRUE(children().empty());
 }
 
+// As where a supervisor starts it so.
+TEST(Poisson, IgnoredEndsOfChildrenAreHeard) {
+  const auto before = signal(SIGCHLD, SIG_IGN);
+  EXPECT_GT(surface(sphere(5000)).triangles.size(), 100u);
+  signal(SIGCHLD, before);
+}
+
 TEST(Poisson, PrintsNothing) {
   testing::internal::CaptureStdout();
   surface(sphere(5000));

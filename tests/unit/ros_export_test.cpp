@@ -155,6 +155,30 @@ TEST_F(ExportFitTest, ForcesAreWrittenWhereTheyAreOfThisFit) {
   EXPECT_FALSE(line.contains("tension_N"));
 }
 
+/// What goes beyond the neck's plane with the head has its middle far from the neck.
+TEST_F(ExportFitTest, AHeadThatIsJoinedToSomethingBesideItIsNotExportedAsNone) {
+  geometry::TriangleMesh mesh = tube();
+  const int top = static_cast<int>(mesh.vertices.size()) - 1;
+  for (int i = 0; i < 1000; ++i) {
+    mesh.vertices.emplace_back(1, 0.001 * i, 1.4);
+    mesh.triangles.emplace_back(top, top + i, top + i + 1);
+  }
+  mesh.triangles[mesh.triangles.size() - 1000] = {top, top - 1, top + 1};
+  scan_.body = boost::make_shared<TriangleMesh>(to_message(tag_in(*scan_.body), mesh, {}));
+  const auto deformed = boost::make_shared<DeformedMesh>(*scan_.deformed);
+  deformed->vertices = scan_.body->vertices;
+  deformed->distortion.assign(mesh.vertices.size(), 0.9F);
+  scan_.deformed = deformed;
+  EXPECT_EQ(refused(scan_, root_ / "whole"), "");
+  try {
+    export_fit(scan_, root_ / "headless", {});
+    ADD_FAILURE();
+  } catch (const geometry::Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), "missing_part:neck");
+  }
+  EXPECT_FALSE(fs::exists(root_ / "headless"));
+}
+
 TEST_F(ExportFitTest, TheHeadIsCutOffJustAboveTheTapeOfTheNeck) {
   export_fit(scan_, root_ / "whole", kWhole);
   const fs::path folder = root_ / "one";

@@ -280,6 +280,15 @@ TEST_F(CoarseAnswerTest, ThereIsNoneByTheMeshOfAnotherScan) {
   EXPECT_EQ(next->coarse->scan_id, next->control->scan_id);
 }
 
+TEST_F(CoarseAnswerTest, NothingIsKeptOfTheBodyBefore) {
+  TensegricHandler stage = handler();
+  const ControlMesh::ConstPtr before = control_of("A");
+  handle(stage, *input_of(stage, "A", before), kGoOn);
+  EXPECT_GT(before.use_count(), 1);
+  handle(stage, *input_of(stage, "B", nullptr), kGoOn);
+  EXPECT_EQ(before.use_count(), 1) << "the next body had no coarse mesh";
+}
+
 TEST_F(CoarseAnswerTest, StoppedOnItsWayItIsNoneAndNeitherIsTheFineOne) {
   TensegricHandler stage = handler();
   const auto input = input_of(stage, "A", control_of("A"));
