@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """A malicious node on the graph of two launched booths (two_booths.launch): what becomes of the booth, and of its exports.
 
-Usage: build/devel/env.sh python3 tests/faults/malice.py --work DIR [--only bytes,garments,...]
+Usage: build/devel/env.sh python3 tests/faults/malice.py --work DIR [--only bytes,garments,...] [--anew]
 
 After each attack (malicious.py), whose calls of services and goals are all answered, the same processes run, exports and what lies beside them are untouched, and the next scan of both booths
-has the right result, to the bit. A line of JSON per attack in DIR/malice.jsonl. Exit: 0 all hold, 1 otherwise."""
+has the right result, to the bit. A line of JSON per attack in DIR/malice.jsonl; attacks that are there are not made again. Exit: 0 all hold, 1 otherwise."""
 import argparse
 import hashlib
 import json
@@ -47,27 +47,42 @@ def attack(graph, name, exports):
     return {"attack": name, "fine": fine, "died": died, "changed": changed, "results": results, "answers": answers}
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--work", type=pathlib.Path, required=True)
-    parser.add_argument("--only", type=names_in(ATTACKS), default=list(ATTACKS))
-    arguments = parser.parse_args()
-    work = arguments.work.resolve()
+def attacks(names, work, results):
     exports = work / "shop" / "exports"
     exports.mkdir(parents=True, exist_ok=True)
     (exports.parent / "beside").write_text("nobody touches this")
     (exports / "link").unlink(missing_ok=True)
     (exports / "link").symlink_to(exports.parent / "beside")
     rows = []
-    with open(work / "malice.jsonl", "w", encoding="utf-8") as file, Graph(work, bodies_in(work), False, SOON, exports) as graph:
+    with open(results, "a", encoding="utf-8") as file, Graph(work, bodies_in(work), False, SOON, exports) as graph:
         stamp = graph.shop.scan("left", 1)
         graph.wait("left", stamp, PATIENCE)
         graph.shop.ask("export", "left", exports / "customer")
-        for name in arguments.only:
+        for name in names:
             rows.append(attack(graph, name, exports))
             file.write(json.dumps(rows[-1]) + "\n")
             file.flush()
-            print(json.dumps(rows[-1]), flush=True)
+    return rows
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--work", type=pathlib.Path, required=True)
+    parser.add_argument("--only", type=names_in(ATTACKS), default=list(ATTACKS))
+    parser.add_argument("--anew", action="store_true", help="make the attacks that are there again")
+    arguments = parser.parse_args()
+    work = arguments.work.resolve()
+    results = work / "malice.jsonl"
+    if arguments.anew:
+        results.unlink(missing_ok=True)
+    rows = [json.loads(line) for line in results.read_text(encoding="utf-8").splitlines()] if results.exists() else []
+    rows = [row for row in rows if row["attack"] in arguments.only]
+    known = {row["attack"] for row in rows}
+    left = [name for name in arguments.only if name not in known]
+    if left:
+        rows += attacks(left, work, results)
+    for row in rows:
+        print(json.dumps(row))
     return 0 if all(row["fine"] for row in rows) else 1
 
 

@@ -74,7 +74,8 @@ void read_batch(const std::string& text) {
   try {
     const std::string before = folder.add("before.csv", batch::table_csv(table));
     const batch::Comparison same = batch::compare(table, before);
-    fuzz::require(same.changes.empty() && same.drifts.empty());
+    if (table.lines.size() == 1)  // several may be of one subject
+      fuzz::require(same.changes.empty() && same.drifts.empty());
     batch::costs_csv(table);
     batch::write_database(table, (fs::path(folder.path()) / "table.sqlite").string());
     batch::batch_page(table, same, {});
