@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <map>
+
 #include "geometry/moved_cloud.hpp"
 #include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
@@ -39,10 +43,33 @@ std::vector<Vector3d> viewpoint_normals(const std::vector<Vector3d>& points, con
   return normals;
 }
 
+/// Of many points in one place all but the first: to look for the nearest ones there would take the square of
+/// their number.
+void drop_repeats(std::vector<Vector3d>& points) {
+  constexpr std::size_t kMost = 16;
+  std::map<std::array<double, 3>, std::size_t> places;
+  std::vector<std::array<double, 3>> sorted;
+  for (const Vector3d& p : points) sorted.push_back({p.x(), p.y(), p.z()});
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = kMost; i < sorted.size(); ++i)
+    if (sorted[i] == sorted[i - kMost]) places[sorted[i]] = 0;
+  if (places.empty()) return;
+  points.erase(std::remove_if(points.begin(), points.end(),
+                              [&places](const Vector3d& p) {
+                                const auto place = places.find({p.x(), p.y(), p.z()});
+                                return place != places.end() && place->second++ > 0;
+                              }),
+               points.end());
+}
+
 PointCloud in_booth(const PointCloud& seen, const Isometry3d& booth_from_sensor) {
+  constexpr double kFarthest = 1e4;  // m: beyond it coordinates are nonsense, and may overflow
   PointCloud cloud;
-  for (const Vector3d& p : seen.points)
-    if (p.allFinite()) cloud.points.push_back(booth_from_sensor * p);
+  for (const Vector3d& p : seen.points) {
+    const Vector3d q = booth_from_sensor * p;
+    if (q.allFinite() && q.cwiseAbs().maxCoeff() < kFarthest) cloud.points.push_back(q);
+  }
+  drop_repeats(cloud.points);
   cloud.normals = viewpoint_normals(cloud.points, booth_from_sensor.translation());
   return cloud;
 }

@@ -73,7 +73,13 @@ AssemblerHandler::AssemblerHandler(Parameters parameters)
 
 void AssemblerHandler::add(int sensor, const sensor_msgs::PointCloud2& message, double now) {
   try {
-    if (message.header.stamp.isZero()) throw Refusal(refusal::kNoStamp, "the cloud has no time stamp");
+    constexpr std::uint32_t kSecond = 1000000000;  // ns
+    if (message.header.stamp.isZero() || message.header.stamp.nsec >= kSecond)
+      throw Refusal(refusal::kNoStamp, "the cloud has no time stamp");
+    constexpr std::size_t kMostPoints = 10'000'000;  // a point's 4 bytes may become 52
+    if (std::size_t{message.width} * message.height > kMostPoints)
+      throw Refusal(refusal::kTooManyPoints, fmt::format("the cloud has {} x {} points, more than 10 million",
+                                                         message.width, message.height));
     pcl::PCLPointCloud2 cloud;
     pcl_conversions::toPCL(message, cloud);
     const auto seen = std::make_shared<const assembler::SensorCloud>(assembler::SensorCloud{

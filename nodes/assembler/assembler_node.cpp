@@ -79,6 +79,8 @@ class AssemblerNode {
       handler_.add(sensor, message, ros::SteadyTime::now().toSec());
     } catch (const Refusal& refused) {
       stage_.drop(id_of(message.header.stamp.toNSec()), refused);
+    } catch (const std::exception& error) {  // memory ran out
+      stage_.drop(id_of(message.header.stamp.toNSec()), Refusal("internal_error", error.what()));
     }
     hand_on();
   }

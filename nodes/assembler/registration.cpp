@@ -160,7 +160,7 @@ class Columns {
     const Vector3d q = back * to.points[nearest];
     Vector3d normal_q = back.linear() * to.normals[nearest];
     if ((signless_[pair.a] || signless_[pair.b]) && normal_p.dot(normal_q) < 0) normal_q = -normal_q;
-    if ((p - q).squaredNorm() > kReach * kReach || normal_p.dot(normal_q) < kSameSide) return false;
+    if (!((p - q).squaredNorm() <= kReach * kReach && normal_p.dot(normal_q) >= kSameSide)) return false;
     match = {pair.a, pair.b, p, q, (normal_p + normal_q).normalized(), 0};
     match.residual = match.normal.dot(p - q);
     return true;

@@ -121,7 +121,8 @@ double sureness(const Json& line) {
   const Json girths = part_of(line, "/result/confidence/girths");
   double sum = 0, count = 0;
   for (const Json& girth : girths) {
-    sum += girth.at("confidence").get<double>();
+    if (!girth.is_object() || !girth.contains("confidence") || !girth["confidence"].is_number()) continue;
+    sum += girth["confidence"].get<double>();
     ++count;
   }
   return count > 0 ? sum / count : 1;

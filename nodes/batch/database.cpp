@@ -91,7 +91,7 @@ class Statement {
 void fill(const std::string& file, const Table& table) {
   Database database(file);
   Statement run(database, "INSERT INTO runs VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
-  Statement figure(database, "INSERT INTO figures VALUES(?,?,?)");
+  Statement figure(database, "INSERT OR REPLACE INTO figures VALUES(?,?,?)");
   for (const auto& [row, line] : table.lines) {
     run << row;
     for (const char* column : {"name", "inputs", "settings", "subject", "key", "version", "build", "status"})

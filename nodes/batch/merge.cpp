@@ -77,10 +77,6 @@ int merge(const MergeOptions& options) {
   } catch (const geometry::Refusal& refusal) {
     fmt::print(stderr, "refused: {}: {}\n", refusal.code(), refusal.what());
     return refusal.code() == geometry::refusal::kCannotWrite ? 1 : 3;
-  } catch (const Json::exception& error) {
-    fmt::print(stderr, "refused: {}: a folder has a result that is not as fit_batch writes it: {}\n",
-               geometry::refusal::kBrokenFile, error.what());
-    return 3;
   } catch (const std::exception& error) {
     fmt::print(stderr, "fit_batch merge: {}\n", error.what());
     return 1;

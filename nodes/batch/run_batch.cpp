@@ -10,7 +10,6 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <tuple>
 #include <unordered_map>
@@ -20,6 +19,7 @@
 #include "batch/manifest.hpp"
 #include "batch/shard_file.hpp"
 #include "files/descriptor.hpp"
+#include "files/whole_folder.hpp"
 #include "fit/result_folder.hpp"
 #include "geometry/json_text.hpp"
 #include "geometry/status.hpp"
@@ -114,7 +114,7 @@ class Batch {
     while (flock(folder.number(), LOCK_EX) != 0)
       if (errno != EINTR) files::fail(options_.out);
     const std::filesystem::path file = std::filesystem::path(options_.out) / "batch.json";
-    std::ifstream before(file);
+    const std::string before = files::bytes_of_plain_file(file.string(), 1 << 20).value_or("");
     const Json known = geometry::json_in<Json>(before);  // discarded where there is none: equal to nothing
     if (!(known == description)) fit::write_json(file, description);
   }

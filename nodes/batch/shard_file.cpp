@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string_view>
 
 #include "geometry/json_text.hpp"
@@ -42,27 +43,54 @@ bool is_reason(const Json& value) {
                              is_text(value.value("message", Json())));
 }
 
-/// Has what each line has, of the kind that it has there.
+bool is_object(const Json& value) {
+  return value.is_object();
+}
+
+bool are_numbers(const Json& value) {
+  return value.is_object() &&
+         std::all_of(value.begin(), value.end(), [](const Json& v) { return v.is_number(); });
+}
+
+/// Seconds and megabytes, and milliseconds per stage.
+bool are_costs(const Json& value) {
+  if (!value.is_object()) return false;
+  for (const auto& [name, cost] : value.items())
+    if (name == "stages" ? !are_numbers(cost) : !cost.is_number()) return false;
+  return true;
+}
+
+/// Of a line. Earlier builds wrote fewer.
+struct Part {
+  enum class Where { every_line, every_line_of_today, some_lines };
+  const char* name;
+  bool (*is)(const Json&);
+  Where where;
+};
+using Where = Part::Where;
+
+constexpr Part kParts[] = {{"row", is_row, Where::every_line},
+                           {"key", is_text, Where::every_line},
+                           {"status", is_text, Where::every_line},
+                           {"name", is_text, Where::every_line_of_today},
+                           {"subject", is_text, Where::every_line_of_today},
+                           {"kind", is_text, Where::every_line_of_today},
+                           {"inputs", are_texts, Where::every_line_of_today},
+                           {"settings", are_settings, Where::every_line_of_today},
+                           {"manifest", is_text, Where::every_line_of_today},
+                           {"version", is_text, Where::every_line_of_today},
+                           {"build", is_text, Where::every_line_of_today},
+                           {"reason", is_reason, Where::every_line_of_today},
+                           {"result", is_object, Where::some_lines},
+                           {"cost", are_costs, Where::some_lines}};
+
 bool is_result(const Json& line) {
-  constexpr std::array<std::pair<const char*, bool (*)(const Json&)>, 12> kParts{{{"row", is_row},
-                                                                                  {"name", is_text},
-                                                                                  {"key", is_text},
-                                                                                  {"subject", is_text},
-                                                                                  {"kind", is_text},
-                                                                                  {"inputs", are_texts},
-                                                                                  {"settings", are_settings},
-                                                                                  {"manifest", is_text},
-                                                                                  {"version", is_text},
-                                                                                  {"build", is_text},
-                                                                                  {"status", is_text},
-                                                                                  {"reason", is_reason}}};
-  return line.is_object() &&
-         std::all_of(kParts.begin(), kParts.end(),
-                     [&line](const auto& part) {
-                       const auto found = line.find(part.first);
-                       return found != line.end() && part.second(*found);
-                     }) &&
-         (line["status"] != "refused" || line["reason"].is_object());
+  if (!line.is_object()) return false;
+  for (const Part& part : kParts) {
+    const auto found = line.find(part.name);
+    if (found == line.end() ? part.where == Where::every_line : !part.is(*found)) return false;
+  }
+  return line["status"] != "refused" || line.value("reason", Json()).is_object();
 }
 
 Refusal cannot_write(const std::string& path, const std::string& why) {
@@ -72,8 +100,10 @@ Refusal cannot_write(const std::string& path, const std::string& why) {
 }  // namespace
 
 void for_each_line(const std::string& file, const std::function<void(Json&&, std::size_t)>& use) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw Refusal(geometry::refusal::kBrokenFile, file + " cannot be read");
+  std::error_code unknown;
+  std::ifstream stream;  // of a pipe it would wait for a writer
+  if (std::filesystem::is_regular_file(file, unknown)) stream.open(file, std::ios::binary);
+  if (!stream.is_open()) throw Refusal(geometry::refusal::kBrokenFile, file + " cannot be read");
   std::size_t number = 0, place = 0;
   for (std::string text; std::getline(stream, text) && !stream.eof();) {
     ++number;
@@ -84,6 +114,12 @@ void for_each_line(const std::string& file, const std::function<void(Json&&, std
     use(std::move(line), place);
     place += text.size() + 1;
   }
+}
+
+bool has_all_parts(const Json& line) {
+  return std::all_of(std::begin(kParts), std::end(kParts), [&line](const Part& part) {
+    return part.where == Where::some_lines || line.contains(part.name);
+  });
 }
 
 bool is_unfinished(const Json& line) {

@@ -13,6 +13,9 @@ namespace tensegric_fit::batch {
 void for_each_line(const std::string& file,
                    const std::function<void(nlohmann::ordered_json&& line, std::size_t place)>& use);
 
+/// Whether it has what each line has that this build writes; lines of earlier ones may have less.
+bool has_all_parts(const nlohmann::ordered_json& line);
+
 /// Whether a line has no result of the scan, but a crash, a failure, or a lack of time or memory.
 bool is_unfinished(const nlohmann::ordered_json& line);
 

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <set>
 
 #include "batch/manifest.hpp"
 #include "batch/shard_file.hpp"
 #include "files/csv.hpp"
+#include "files/whole_folder.hpp"
 #include "geometry/json_text.hpp"
 #include "geometry/status.hpp"
 
@@ -34,7 +34,9 @@ void add_list(const std::string& name, const Json& list, std::vector<Figure>& fi
   } else if (list.size() == 2 && all([](const Json& v) { return v.is_number(); })) {
     add(name + ".before", list[0], figures);
     add(name + ".after", list[1], figures);
-  } else if (all([](const Json& v) { return v.is_object() && v.contains("name"); })) {
+  } else if (all([](const Json& v) {
+               return v.is_object() && v.contains("name") && v["name"].is_string();
+             })) {
     for (const Json& part : list) {
       Json rest = part;
       rest.erase("name");
@@ -72,8 +74,8 @@ bool is_settled(const Json& line) {
 
 bool is_description(const Json& value) {
   return value.is_object() && value.contains("rows") && value["rows"].is_number_unsigned() &&
-         value["rows"] <= kMostRows && value.value("build", Json()).is_string() &&
-         value.value("manifest_identity", Json()).is_string();
+         value["rows"] <= kMostRows && value.value("build", Json("")).is_string() &&
+         value.value("manifest_identity", Json("")).is_string();
 }
 
 /// Nothing where there is no batch.json: the shard never began. Of several lines of a row the last in its
@@ -82,12 +84,14 @@ bool is_description(const Json& value) {
 std::optional<Folder> read_folder(const std::string& path) {
   const fs::path description = fs::path(path) / "batch.json";
   if (!fs::exists(description)) return std::nullopt;
-  std::ifstream stream(description);
-  Folder folder{geometry::json_in<Json>(stream), {}};
+  constexpr std::size_t kLargest = 1 << 20;                       // bytes; it has some hundred
+  const std::string place = fs::canonical(description).string();  // it may be a link
+  Folder folder{geometry::json_in<Json>(files::bytes_of_plain_file(place, kLargest).value_or("")), {}};
   if (!is_description(folder.description))
     throw Refusal(kBroken, description.string() + " is not of fit_batch");
   const std::size_t rows = folder.description["rows"];
-  const std::string build = folder.description["build"], manifest = folder.description["manifest_identity"];
+  const std::string build = folder.description.value("build", ""),
+                    manifest = folder.description.value("manifest_identity", "");
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(path))
     if (fnmatch("shard-*-of-*.jsonl", entry.path().filename().c_str(), 0) == 0) files.push_back(entry.path());
@@ -96,7 +100,10 @@ std::optional<Folder> read_folder(const std::string& path) {
     std::map<std::size_t, Json> last;
     for_each_line(file, [&](Json&& line, std::size_t) {
       const std::size_t row = line.at("row");
-      if (row <= rows && line["build"] == build && line["manifest"] == manifest) last[row] = std::move(line);
+      if (row > rows || line.value("build", "") != build || line.value("manifest", "") != manifest) return;
+      if (!has_all_parts(line))
+        throw Refusal(kBroken, file + ": row " + std::to_string(row) + " lacks a part that each line has");
+      last[row] = std::move(line);
     });
     for (auto& [row, line] : last) {
       const auto known = folder.lines.find(row);
@@ -148,8 +155,8 @@ Table read_table(std::vector<std::string> folders) {
       continue;
     }
     const std::size_t rows = folder->description["rows"];
-    const std::string its_manifest = folder->description["manifest_identity"],
-                      its_build = folder->description["build"];
+    const std::string its_manifest = folder->description.value("manifest_identity", ""),
+                      its_build = folder->description.value("build", "");
     if (first.empty()) {
       first = path;
       manifest = its_manifest;

@@ -1,5 +1,7 @@
 #include "capture/capture_handler.hpp"
 
+#include <fmt/format.h>
+
 #include <tensegric_fit/FitState.h>
 
 #include <ros/names.h>
@@ -15,6 +17,7 @@ namespace tensegric_fit::node {
 namespace {
 
 constexpr std::size_t kRemembered = 64;     // scans
+constexpr std::size_t kMostSensors = 64;    // as of the assembler
 const geometry::Range kTimeout{0.1, 3600};  // s
 
 }  // namespace
@@ -40,6 +43,10 @@ void CaptureHandler::begin(const CaptureGoal& goal, double now) {
   landmarks_.clear();
   fit_status_.clear();
   if (goal.timeout != 0) geometry::check_option("timeout", goal.timeout, kTimeout);
+  if (goal.sensors.size() > kMostSensors)
+    throw geometry::Refusal(
+        geometry::refusal::kBadOption,
+        fmt::format("'sensors' has {} topics, more than {}", goal.sensors.size(), kMostSensors));
   goal_ = goal;
   begun_ = now;
   armed_ = setup_.trigger.empty();
@@ -94,6 +101,7 @@ void CaptureHandler::add(const sensor_msgs::PointCloud2& scan) {
 void CaptureHandler::add(const Landmarks::ConstPtr& landmarks) {
   if (!watch_ || (!watch_->scan_id().empty() && watch_->scan_id() != landmarks->scan_id)) return;
   landmarks_[landmarks->scan_id] = landmarks;  // they may overtake their scan
+  if (landmarks_.size() > kRemembered) landmarks_.erase(landmarks_.begin());
   watch_->add_landmarks(landmarks->scan_id);
 }
 

@@ -184,12 +184,13 @@ class CaptureNode {
 
   void finish(const CaptureResult& result) {
     deformed_.shutdown();
-    ROS_INFO("capture: scan %s: %s %s", result.scan_id.c_str(),
-             result.measured ? "measured" : result.code.c_str(), log_words(result.message).c_str());
+    const std::string what = (result.measured ? "measured" : result.code) + " " + result.message;
+    ROS_INFO("capture: scan %s: %s", result.scan_id.c_str(), log_words(what).c_str());
     if (result.measured)
       server_->setSucceeded(result);
     else
-      server_->setAborted(result, result.code + ": " + result.message);
+      server_->setAborted(result,
+                          "refused");  // the status is published until the next goal: the result says why
   }
 
   using Server = actionlib::SimpleActionServer<CaptureAction>;

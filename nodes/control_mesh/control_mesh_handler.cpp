@@ -58,10 +58,11 @@ ControlMeshHandler::ControlMeshHandler(Parameters parameters) {
 }
 
 std::optional<ControlMeshHandler::Input> ControlMeshHandler::with_model(
-    const std::optional<Join::Joined>& joined) const {
+    const std::optional<Join::Joined>& joined) {
   if (!joined) return std::nullopt;
   const auto& [landmarks, mesh] = *joined;
   const bool its = model_ && model_->scan_id == mesh->scan_id;
+  if (model_ && !its && model_->header.stamp <= mesh->header.stamp) model_.reset();  // of a scan before
   return Input{landmarks, mesh, its ? model_ : nullptr};
 }
 

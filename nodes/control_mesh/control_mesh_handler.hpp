@@ -48,7 +48,7 @@ class ControlMeshHandler {
 
  private:
   using Join = ScanJoin<Landmarks, TriangleMesh>;
-  std::optional<Input> with_model(const std::optional<Join::Joined>& joined) const;
+  std::optional<Input> with_model(const std::optional<Join::Joined>& joined);
 
   std::vector<control_mesh::Options> options_{1};  // of control/mesh; of control/coarse, where there is one
   std::vector<control_mesh::Template> patterns_;

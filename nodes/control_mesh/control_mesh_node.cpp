@@ -44,7 +44,7 @@ class ControlMeshNode {
     if (!input) return;
     stage_.post(scan_id, [this, input = *input]() -> Stage::Result {
       const auto output = std::make_shared<const Output>(handler_.handle(input));
-      if (!output->left_out.empty()) ROS_WARN("left out: %s", log_words(output->left_out).c_str());
+      if (!output->left_out.empty()) ROS_WARN("a region of the template was left out");
       return {[this, output] {
                 if (output->coarse) coarse_.publish(output->coarse);  // first: it is not waited for
                 control_.publish(output->control);

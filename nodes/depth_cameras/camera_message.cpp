@@ -32,9 +32,11 @@ void check_pixels(const sensor_msgs::Image& image) {
         fmt::format("the depth image's encoding is '{}'; 16UC1 (millimetres) and 32FC1 (metres) are read",
                     image.encoding.substr(0, 40)));
   if (image.is_bigendian) throw Refusal(refusal::kWrongFields, "the depth image is big-endian");
-  constexpr std::uint32_t kLargest = 8192;
+  constexpr std::uint32_t kLargest = 8192, kMostPadding = 4096;  // pixels; bytes
+  constexpr std::size_t kMostPixels = 1 << 24;
   if (image.width == 0 || image.height == 0 || image.width > kLargest || image.height > kLargest ||
-      image.step < image.width * bytes->second || image.step % bytes->second != 0 ||
+      std::size_t{image.width} * image.height > kMostPixels || image.step < image.width * bytes->second ||
+      image.step > image.width * bytes->second + kMostPadding || image.step % bytes->second != 0 ||
       image.data.size() != static_cast<std::size_t>(image.step) * image.height)
     throw Refusal(refusal::kBrokenFile,
                   fmt::format("the depth image of {} x {} pixels, {} bytes a row, has {} bytes", image.width,

@@ -198,11 +198,15 @@ class DepthCameras {
       }
       return;
     }
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (setup_.on_demand)
-      hold(camera, seen);
-    else
-      take(camera, seen);
+    try {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (setup_.on_demand)
+        hold(camera, seen);
+      else
+        take(camera, seen);
+    } catch (const std::exception& error) {  // memory ran out
+      stage_.drop("", Refusal("internal_error", "cameras/" + setup_.cameras[camera] + ": " + error.what()));
+    }
   }
 
   void take(std::size_t camera, const Seen& seen) {

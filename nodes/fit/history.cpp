@@ -27,7 +27,7 @@ double time_of_change(const fs::path& file) {
 }
 
 std::string day_of(double time) {
-  return fmt::format("{:%Y-%m-%d}", fmt::localtime(static_cast<std::time_t>(time)));
+  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(static_cast<std::time_t>(time)));
 }
 
 Eigen::Isometry3d pose_in(const json& rows) {

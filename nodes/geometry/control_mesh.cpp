@@ -30,6 +30,9 @@ void check_control_mesh(const ControlMesh& control) {
   for (const Eigen::Vector3d& p : control.inner)
     if (!p.allFinite()) throw Refusal(refusal::kNonFinite, "an inner node of the control mesh is not finite");
   if (control.regions.empty()) throw Refusal(refusal::kBadMesh, "the control mesh has no region");
+  constexpr std::size_t kMostRegions = 64, kMostLines = 1024;  // each is a picture or a name to be looked for
+  if (control.regions.size() > kMostRegions || control.lines.size() > kMostLines)
+    throw Refusal(refusal::kBadMesh, "the control mesh has more than 64 regions or 1024 lines");
   const auto check_indices = [](const std::vector<int>& list, std::size_t limit, const std::string& of) {
     for (int i : list)
       if (i < 0 || static_cast<std::size_t>(i) >= limit)

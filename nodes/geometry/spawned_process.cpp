@@ -43,12 +43,10 @@ class SpawnSettings {
   posix_spawnattr_t attributes{};
 };
 
-/// Where a parent has left it ignored, how a child ended is lost to waitpid.
+/// Where a parent has left SIGCHLD ignored, how a child ended is lost to waitpid.
 void hear_of_ends() {
   struct sigaction now {};
-  if (sigaction(SIGCHLD, nullptr, &now) == 0 &&
-      (now.sa_handler == SIG_IGN || (now.sa_flags & SA_NOCLDWAIT) != 0))
-    std::signal(SIGCHLD, SIG_DFL);
+  if (sigaction(SIGCHLD, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) std::signal(SIGCHLD, SIG_DFL);
 }
 
 }  // namespace

@@ -15,8 +15,9 @@ struct SpawnedProcess {
 };
 
 /// Starts `program`. It has standard error of this process and no other of its descriptors (a socket of ROS
-/// that it held would stay open after the node closes it), and no blocked or ignored signals. Where this
-/// process ignores SIGCHLD, it does not from then on: ends of children would be lost.
+/// that it held would stay open after the node closes it), and no blocked signals, and the usual ends
+/// by SIGPIPE, SIGINT and SIGTERM. Where this process ignores SIGCHLD, it does not from then on: ends of
+/// children would be lost.
 /// \throw std::runtime_error, as the end of a sentence: it cannot be started
 SpawnedProcess spawn(const std::string& program, const std::vector<std::string>& arguments = {});
 

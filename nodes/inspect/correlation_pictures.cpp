@@ -49,7 +49,7 @@ cv::Mat outlines_from(MakeView make, const CorrelationScene& scene, const Part& 
 }
 
 std::vector<Part> rows_of(const CorrelationScene& scene) {
-  if (!scene.parts.empty()) return scene.parts;
+  if (!scene.parts.empty() && scene.parts.size() <= kMostRows) return scene.parts;
   return {{scene.simulated.vertices, false}};
 }
 

@@ -111,7 +111,7 @@ cv::Mat distortion_picture(const FitScene& scene) {
   std::vector<Polyline> lines = garment_lines(scene.lines_after, kBorderInk);
   for (Polyline& border : warned_borders(scene)) lines.push_back(std::move(border));
   std::vector<Part> rows = scene.parts;
-  if (rows.empty()) rows.push_back({scene.before.vertices, false});
+  if (rows.empty() || rows.size() > kMostRows) rows = {{scene.before.vertices, false}};
   std::vector<cv::Mat> pictures;
   for (const Part& row : rows) {
     const auto from = [&](MakeView make) {

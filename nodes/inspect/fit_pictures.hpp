@@ -19,6 +19,9 @@ struct Part {
   bool behind = false;                 ///< it is seen from behind
 };
 
+/// Of more, the whole body is shown as one: each row is two pictures.
+inline constexpr std::size_t kMostRows = 8;
+
 /// One per region of the control mesh; behind where most of its skin faces backwards.
 std::vector<Part> parts_of(const geometry::ControlMesh& control, const Eigen::Isometry3d& body_from_scan);
 

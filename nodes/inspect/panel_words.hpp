@@ -51,6 +51,7 @@ inline constexpr char kNoAnswer[] = "The fitting pipeline does not answer; what 
                       kNothingToExport[] = "Nothing was exported: no body under a garment is shown so far.",
                       kOldNotExported[] =
                           "Nothing was exported: another scan has come since the body that is shown.",
+                      kTooManyLines[] = "A garment with more than 256 lines is not shown.",
                       kOldNotNamed[] =
                           "The customer was not noted: another scan has come since the body that is shown.";
 std::string solving(int iteration);

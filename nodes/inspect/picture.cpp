@@ -117,8 +117,8 @@ void draw_line(const Polyline& line, const Camera& camera, const Raster& raster,
     const int steps = 1 + static_cast<int>(2 * pixels);
     for (int s = 0; s <= steps; ++s) {
       const Eigen::Vector3d p = a + (b - a) * s / steps;
-      const cv::Point at(static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())));
-      if (at.x < 0 || at.y < 0 || at.x >= picture.cols || at.y >= picture.rows) continue;
+      if (!(p.x() >= 0 && p.y() >= 0 && p.x() < picture.cols && p.y() < picture.rows)) continue;
+      const cv::Point at(static_cast<int>(p.x()), static_cast<int>(p.y()));
       if (p.z() - kLineLift <= raster.depth(at)) cv::circle(picture, at, radius, colour, cv::FILLED);
     }
   }

@@ -9,9 +9,10 @@ namespace {
 constexpr int kSides = 6;  // of a tube
 
 std::vector<Eigen::Vector3d> without_repeats(const std::vector<Eigen::Vector3d>& points) {
+  constexpr double kNear = 1e-9;  // m: the direction of less may be lost
   std::vector<Eigen::Vector3d> kept;
   for (const Eigen::Vector3d& point : points)
-    if (kept.empty() || point != kept.back()) kept.push_back(point);
+    if (kept.empty() || (point - kept.back()).norm() > kNear) kept.push_back(point);
   return kept;
 }
 

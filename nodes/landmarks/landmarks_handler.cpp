@@ -54,6 +54,8 @@ std::optional<LandmarksHandler::Input> LandmarksHandler::add(const BodyModel::Co
 std::optional<LandmarksHandler::Input> LandmarksHandler::alone() {
   const TriangleMesh::ConstPtr mesh = join_.give_up();
   if (!mesh) return std::nullopt;
+  BodyModel::ConstPtr& model = join_.newest<BodyModel>();
+  if (model && model->header.stamp <= mesh->header.stamp) model.reset();  // of a scan before
   alone_ = mesh;
   return Input{mesh, nullptr};
 }

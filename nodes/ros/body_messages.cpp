@@ -140,7 +140,25 @@ Landmarks to_message(const ScanTag& tag, const geometry::BodyMeasures& measures)
   return message;
 }
 
+/// Exports and the panel go through all of them for each: ours have some thirty, and loops of some hundred
+/// points.
+void check_counts(const Landmarks& message) {
+  constexpr std::size_t kMost = 256, kMostNumbers = 3 * 10000;
+  for (const std::size_t count : {message.points.size(), message.heights.size(), message.girths.size(),
+                                  message.loops.size(), message.missing.size()})
+    if (count > kMost)
+      throw Refusal(geometry::refusal::kBadMesh, "the landmarks have more than 256 entries of a kind");
+  for (const GirthLoop& girth : message.loops)
+    if (girth.points.size() > kMostNumbers)
+      throw Refusal(geometry::refusal::kBadMesh, "a girth has more than 10,000 points");
+  for (const auto* measures : {&message.heights, &message.girths})
+    for (const Measure& measure : *measures)
+      if (std::abs(measure.value) > kFarthest)
+        throw Refusal(geometry::refusal::kBadMesh, "measure '" + measure.name + "' is more than 10,000 km");
+}
+
 geometry::BodyMeasures measures_in(const Landmarks& message) {
+  check_counts(message);
   geometry::BodyMeasures measures;
   measures.body_from_scan = isometry_in(message.body_from_scan);
   for (const Landmark& point : message.points) {
@@ -157,6 +175,14 @@ geometry::BodyMeasures measures_in(const Landmarks& message) {
     measures.loops.push_back({girth.name, points_in(girth.points)});
   for (const Missing& missing : message.missing) measures.missing.push_back({missing.name, missing.reason});
   return measures;
+}
+
+void check_lines(const FitState& fit) {
+  constexpr std::size_t kMost = 256, kMostNumbers = 3 * 10000;
+  if (fit.lines.size() > kMost) throw Refusal(geometry::refusal::kBadMesh, "the fit has more than 256 lines");
+  for (const LineResult& line : fit.lines)
+    if (line.course.size() > kMostNumbers || line.course_at_rest.size() > kMostNumbers)
+      throw Refusal(geometry::refusal::kBadMesh, "line '" + line.name + "' has more than 10,000 points");
 }
 
 geometry::BoneFrames bones_of(const FitState& fit, const geometry::BodyMeasures& measures) {

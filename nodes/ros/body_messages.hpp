@@ -32,8 +32,11 @@ std::vector<geometry::Fracture> fractures_in(const TriangleMesh& message);
 
 Landmarks to_message(const ScanTag& tag, const geometry::BodyMeasures& measures);
 
-/// \throw Refusal non_finite, bad_mesh: a transform that is not rigid
+/// \throw Refusal non_finite, bad_mesh: a transform that is not rigid, more entries than any body has
 geometry::BodyMeasures measures_in(const Landmarks& message);
+
+/// \throw Refusal bad_mesh: more lines, or points of their courses, than any garment has
+void check_lines(const FitState& fit);
 
 /// The posture in which a fit is worn. \throw Refusal as BoneFrames
 geometry::BoneFrames bones_of(const FitState& fit, const geometry::BodyMeasures& measures);

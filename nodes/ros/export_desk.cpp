@@ -23,8 +23,21 @@ bool answered(Response& response, const Work& work) {
     response.code = "internal_error";
     response.message = error.what();
   }
-  ROS_ERROR("export: %s: %s", response.code.c_str(), log_words(response.message).c_str());
+  ROS_ERROR("export: %s",
+            log_words(response.code).c_str());  // the caller has the sentence, with the folder's name
   return false;
+}
+
+/// `forget` may have been ordered while it was written, for longer than the vault waits or where the vault
+/// does not look.
+void leave_nothing_forgotten(const std::string& scan_id, const std::string& directory,
+                             ExportFit::Response& response) {
+  if (!HeldScan::of_process().is_forgotten(scan_id)) return;
+  response.files.clear();
+  std::vector<geometry::Refusal> left;
+  delete_exports(directory, scan_id, left);
+  if (!left.empty()) throw left.front();
+  throw geometry::Refusal(geometry::refusal::kNothingYet, "the scan was forgotten");
 }
 
 }  // namespace
@@ -81,6 +94,7 @@ bool ExportDesk::on_export(ExportFit::Request& request, ExportFit::Response& res
     if (HeldScan::of_process().is_forgotten(scan.body->scan_id))
       throw geometry::Refusal(geometry::refusal::kNothingYet, "the scan was forgotten");
     response.files = export_fit(scan, request.directory, options_);
+    leave_nothing_forgotten(scan.body->scan_id, request.directory, response);
     response.message = "wrote scan " + scan.body->scan_id + ", garment " + scan.fit->garment;
   });
   return true;

@@ -110,6 +110,9 @@ std::vector<std::string> delete_exports(const std::string& directory, const std:
         gone.push_back(folder);
       } catch (const Refusal& refusal) {
         left.push_back(refusal);
+      } catch (const fs::filesystem_error& error) {  // the vault may delete it as an old one meanwhile
+        if (error.code() != std::errc::no_such_file_or_directory)
+          left.emplace_back(geometry::refusal::kCannotWrite, folder.string() + ": " + error.code().message());
       }
     }
   } catch (const fs::filesystem_error& error) {

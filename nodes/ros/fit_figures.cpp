@@ -73,6 +73,7 @@ FitFigures figures_of(const FittedScan& scan) {
   figures.control = control_in(*scan.control);
   figures.control_deformed = points_in(scan.fit->outer);
   figures.measures = measures_in(*scan.landmarks);
+  check_lines(*scan.fit);
   check_sizes(figures);
   check_finite(figures);
   figures.in_scan_posture =

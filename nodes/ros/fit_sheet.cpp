@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -205,9 +206,10 @@ std::string garment_of(const std::string& name) {
   std::string shown;
   const std::vector<inspect::GarmentTitle> known = inspect::garments_in(geometry::shipped_folder("garments"));
   std::istringstream parts(name);
+  std::set<std::string> named;
   for (std::string part; std::getline(parts, part, '+');)
     for (const inspect::GarmentTitle& garment : known) {
-      if (garment.name != part) continue;
+      if (garment.name != part || !named.insert(part).second) continue;
       const std::string picture = garment.picture.empty()
                                       ? ""
                                       : "<img alt=\"\" src=\"data:image/png;base64," +

@@ -1,6 +1,7 @@
 #include "ros/forget_desk.hpp"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <diagnostic_msgs/KeyValue.h>
 #include <fmt/format.h>
 #include <tensegric_fit/ForgetOrder.h>
 
@@ -49,16 +50,17 @@ bool is_about_no_body(const std::string& topic, const std::string& forget) {
          topic == "/clock" || topic.rfind(forget, 0) == 0;
 }
 
-/// Topics that nodes publish which let go of scans, and those that scans and labels come on.
+/// Topics that nodes publish or hear which let go of scans, and those that scans and labels come on.
 Names body_topics(const Graph& graph, const Names& asked, const ros::NodeHandle& node) {
   Names topics{node.resolveName("scan/points"), node.resolveName("scan/label"),
                node.resolveName("worn/points")};
   const std::string forget = node.resolveName("forget") + "/";
-  for (const auto& [topic, publishers] : graph.publishers)
-    if (!is_about_no_body(topic, forget) &&
-        std::any_of(publishers.begin(), publishers.end(),
-                    [&asked](const std::string& name) { return asked.count(name) != 0; }))
-      topics.insert(topic);
+  for (const NodesByTopic* side : {&graph.publishers, &graph.subscribers})  // what drivers latch comes in
+    for (const auto& [topic, nodes] : *side)
+      if (!is_about_no_body(topic, forget) &&
+          std::any_of(nodes.begin(), nodes.end(),
+                      [&asked](const std::string& name) { return asked.count(name) != 0; }))
+        topics.insert(topic);
   return topics;
 }
 
@@ -116,14 +118,16 @@ void ForgetDesk::delete_old() {
     ROS_WARN("vault: an old export may be left: %s", log_words(why).c_str());
 }
 
-void ForgetDesk::report() const {
+void ForgetDesk::report() {
+  if (look_again_.exchange(false)) delete_old();
   diagnostic_msgs::DiagnosticStatus status;
   status.name = ros::this_node::getName().substr(1) + ": retention";
   status.hardware_id = "tensegric_fit";
   status.level =
       left_.empty() ? diagnostic_msgs::DiagnosticStatus::OK : diagnostic_msgs::DiagnosticStatus::WARN;
-  status.message = left_.empty() ? fmt::format("exports are kept for {} days", options_.retention_days)
-                                 : "an old export may be left: " + left_.front();
+  status.message = left_.empty()
+                       ? fmt::format("exports are kept for {} days", options_.retention_days)
+                       : "old exports may be left: " + log_words(left_.front());  // paths have names
   diagnostic_msgs::KeyValue left;
   left.key = "left";
   left.value = std::to_string(left_.size());
@@ -156,6 +160,7 @@ Names ForgetDesk::let_go(const Names& asked, const Forget::Request& request, For
     for (const std::string& line : answer.removed) response.removed.push_back(node + ": " + line);
     for (const std::string& line : answer.failed) response.not_reached.push_back(node + ": " + line);
   }
+  answers_.clear();  // they have names of files
   return silent;
 }
 
@@ -205,6 +210,7 @@ bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response)
     if (is_there) delete_exports_of(request.scan_id, folder, response);  // or there was no export so far
   }
   for (const std::string& folder : request.folders) delete_exports_of(request.scan_id, folder, response);
+  look_again_ = true;
   const auto is_of_file = [](const std::string& line) {
     return line.find(": the file ") != std::string::npos;
   };

@@ -6,6 +6,7 @@
 #include <tensegric_fit/Forget.h>
 #include <tensegric_fit/ForgetAnswer.h>
 
+#include <atomic>
 #include <condition_variable>
 #include <map>
 #include <mutex>
@@ -38,8 +39,9 @@ class ForgetDesk {
   static void delete_exports_of(const std::string& scan_id, const std::string& folder,
                                 Forget::Response& response);
   void delete_old();
-  /// What came of the last look for old exports, again and again, as stages report.
-  void report() const;
+  /// What came of the last look for old exports, again and again, as stages report; after a scan was
+  /// forgotten it looks anew.
+  void report();
 
   ros::NodeHandle node_;
   const VaultOptions options_;
@@ -48,7 +50,8 @@ class ForgetDesk {
   ros::Publisher diagnostics_;
   ros::WallTimer daily_, heartbeat_;
   std::vector<std::string> left_;  // why old exports may be left, at the last look
-  std::mutex mutex_;               // guards answers_
+  std::atomic<bool> look_again_{false};
+  std::mutex mutex_;  // guards answers_
   std::condition_variable answered_;
   std::map<std::string, ForgetAnswer> answers_;  // of nodes, to the order given last
   ros::CallbackQueue queue_;

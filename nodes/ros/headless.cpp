@@ -14,6 +14,7 @@ using Plane = Eigen::Hyperplane<double, 3>;
 constexpr double kAboveTape = 0.01;   // m: the tape of the neck stays
 constexpr double kAboveBase = 0.03;   // m above the neck's base, where there is no tape
 constexpr double kTallerThan = 0.03;  // m that a head rises above the cut
+constexpr double kLeastArea = 1e-6;   // m^2, twice: a neck has 0.01
 constexpr double kReach = 0.3;        // m round the neck: a head with its hair, and no lifted arm
 
 struct NeckCut {
@@ -27,6 +28,9 @@ NeckCut cut_above(const Points& loop, const Eigen::Vector3d& up, double above) {
   for (const Eigen::Vector3d& point : loop) middle += point / static_cast<double>(loop.size());
   for (std::size_t i = 0; i < loop.size(); ++i)
     normal += (loop[i] - middle).cross(loop[(i + 1) % loop.size()] - middle);
+  if (!(normal.norm() > kLeastArea))
+    throw geometry::Refusal(std::string(geometry::refusal::kMissingPart) + ":neck",
+                            "the tape of her neck encloses nothing, so her head cannot be cut off");
   normal.normalize();
   if (normal.dot(up) < 0) normal = -normal;
   double radius = 0;
@@ -50,15 +54,6 @@ NeckCut neck_of(const geometry::BodyMeasures& measures) {
       "the parameter with_head to export all of her");
 }
 
-/// Skin beyond the cut and not beside it: arms that are lifted reach no such place.
-bool is_over_neck(const Eigen::Vector3d& place, const NeckCut& neck) {
-  constexpr double kWider = 1.2;               // than the neck
-  constexpr double kHigher = 2 * kTallerThan;  // a stub that was left on purpose is lower, however it leans
-  const Eigen::Vector3d offset = place - neck.middle;
-  const double above = neck.plane.normal().dot(offset);
-  return above > kHigher && (offset - above * neck.plane.normal()).norm() < kWider * neck.radius;
-}
-
 }  // namespace
 
 FitFigures headless(FitFigures figures) {
@@ -77,13 +72,20 @@ FitFigures headless(FitFigures figures) {
         return top > middle.z() + kTallerThan && (centre - middle).head<2>().norm() < kReach;
       });
   figures.body = {cut.of(figures.body.vertices), cut.triangles};
-  if (std::any_of(figures.body.vertices.begin(), figures.body.vertices.end(),
-                  [&neck](const Eigen::Vector3d& place) { return is_over_neck(place, neck); }))
+  if (cut.triangles.empty())
+    throw geometry::Refusal(std::string(geometry::refusal::kMissingPart) + ":neck",
+                            "the tape of her neck lies below all of her, so her head cannot be cut off");
+  const auto is_over_neck = [&](const Eigen::Vector3d& place) {
+    constexpr double kWider = 1.2;  // than the neck
+    const Eigen::Vector3d offset = place - neck.middle, normal = neck.plane.normal();
+    const double beyond = normal.dot(offset), above = (frame * place).z() - middle.z();
+    return beyond > 0 && above > kTallerThan && (offset - beyond * normal).norm() < kWider * neck.radius;
+  };
+  if (std::any_of(figures.body.vertices.begin(), figures.body.vertices.end(), is_over_neck))
     throw geometry::Refusal(
         std::string(geometry::refusal::kMissingPart) + ":neck",
-        "her head cannot be cut off, as its skin goes on into something beside it, such as a hand or an arm: "
-        "scan "
-        "her again with her arms down, or set the parameter with_head to export all of her");
+        "her head cannot be cut off: its skin goes on into something beside it, such as a hand or an arm. "
+        "Scan her again with her arms down, or set the parameter with_head to export all of her");
   figures.deformed = cut.of(figures.deformed);
   figures.in_scan_posture = cut.of(figures.in_scan_posture);
   figures.distortion = cut.of(figures.distortion);

@@ -1,6 +1,5 @@
 #include "ros/held_scan.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace tensegric_fit::node {
@@ -12,9 +11,7 @@ HeldScan& HeldScan::of_process() {
 
 void HeldScan::begin(const std::string& scan_id) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  constexpr std::size_t kMost = 4;  // topics that a stage joins
-  if (!begun_.empty() && begun_ != scan_id) begun_before_.push_back(begun_);
-  if (begun_before_.size() > kMost) begun_before_.pop_front();
+  if (!begun_.empty() && begun_ != scan_id) begun_before_.insert(begun_);
   begun_ = scan_id;
 }
 
@@ -84,7 +81,7 @@ bool HeldScan::holds(const std::string& scan_id) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return begun_ == scan_id || waiting_ == scan_id || working_ == scan_id || published_ == scan_id ||
          tried_.count(scan_id) != 0 || beside_.count(scan_id) != 0 || exported_.count(scan_id) != 0 ||
-         std::find(begun_before_.begin(), begun_before_.end(), scan_id) != begun_before_.end();
+         begun_before_.count(scan_id) != 0;
 }
 
 bool HeldScan::must_finish(const std::string& scan_id) const {

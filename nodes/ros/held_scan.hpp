@@ -1,7 +1,6 @@
 /// Which scans this process holds something of.
 #pragma once
 
-#include <deque>
 #include <mutex>
 #include <set>
 #include <string>
@@ -21,8 +20,8 @@ class HeldScan {
   void work(const std::string& scan_id);     ///< the work that waited is under way
   void rest();                               ///< it is over
   void publish(const std::string& scan_id);  ///< it took the place of what was published before
-  /// The data of a second scan have come, which a stage compares with the first. It is held from then on:
-  /// what is published may name any of those that came.
+  /// The data of a second scan have come, which a stage compares with the first, or keeps for later. It is
+  /// held from then on: what is published may name any of those that came.
   void begin_beside(const std::string& scan_id);
   /// While it lives, an export of that scan is written.
   class Export {
@@ -53,7 +52,7 @@ class HeldScan {
   std::string begun_, waiting_, working_, published_;  // empty: none
   std::set<std::string> tried_;  // worked on since something was published: work that failed leaves its data
   // Before the newest, since something was published: of each topic that a stage joins one may be kept.
-  std::deque<std::string> begun_before_;
+  std::set<std::string> begun_before_;
   std::set<std::string> beside_, forgotten_;
   std::multiset<std::string> exported_;  // at this moment
 };

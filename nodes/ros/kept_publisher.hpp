@@ -3,10 +3,13 @@
 
 #include <ros/ros.h>
 
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <string>
 #include <utility>
+
+#include "ros/log_words.hpp"
 
 namespace tensegric_fit::node {
 
@@ -33,7 +36,11 @@ class KeptPublisher {
  private:
   void welcome(const ros::SingleSubscriberPublisher& newcomer) {
     std::lock_guard<std::mutex> lock(mutex_);
-    if (make_) newcomer.publish(*made());
+    try {
+      if (make_) newcomer.publish(*made());
+    } catch (const std::exception& error) {  // a node does not end because somebody looks
+      ROS_ERROR("%s: %s", publisher_.getTopic().c_str(), log_words(error.what()).c_str());
+    }
   }
 
   const typename Message::ConstPtr& made() {

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include "geometry/status.hpp"
+
 namespace tensegric_fit::node {
 namespace {
 
@@ -103,7 +105,9 @@ std::string without_files(const std::string& sentence) {
 }
 
 std::string log_words(const std::string& sentence) {
-  return without_figures(without_files(sentence));
+  const std::size_t which = sentence.find(geometry::refusal::kMissingPart);
+  const std::string words = without_figures(without_files(sentence.substr(0, which)));
+  return which == std::string::npos ? words : words + geometry::refusal::kMissingPart;
 }
 
 }  // namespace tensegric_fit::node

@@ -1,6 +1,8 @@
 // roscpp binds its XML-RPC server to all addresses, ROS_HOSTNAME or not (that of topics it does not): others
 // in the network could shut nodes down or send them to publishers of their own. It has no setting for that,
 // so the call itself is ours in programs that link this library.
+#include "ros/loopback.hpp"
+
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -9,8 +11,6 @@
 
 #include <cstdlib>
 #include <cstring>
-
-#include "ros/loopback.hpp"
 
 namespace tensegric_fit::node {
 

@@ -29,6 +29,12 @@ class ScanJoin {
     return std::tuple_cat(std::make_tuple(std::exchange(trigger_, nullptr)), context_);
   }
 
+  /// The newest of a context, kept until the next; null where it was let go of.
+  template <typename Message>
+  boost::shared_ptr<const Message>& newest() {
+    return std::get<boost::shared_ptr<const Message>>(context_);
+  }
+
   /// The trigger that waits, if any: it will complete the join no more.
   boost::shared_ptr<const Trigger> give_up() { return std::exchange(trigger_, nullptr); }
 

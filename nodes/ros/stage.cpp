@@ -16,10 +16,16 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
+/// Names and frames of messages are of any length, and a report is sent again every second.
+std::string cut(const std::string& text) {
+  constexpr std::size_t kLongest = 2000;
+  return text.substr(0, kLongest);
+}
+
 diagnostic_msgs::KeyValue fact(const std::string& key, const std::string& value) {
   diagnostic_msgs::KeyValue pair;
   pair.key = key;
-  pair.value = value;
+  pair.value = cut(value);
   return pair;
 }
 
@@ -99,7 +105,7 @@ void Stage::drop(const std::string& scan_id, const geometry::Refusal& refusal) {
   std::lock_guard<std::mutex> lock(report_mutex_);
   state_.last_error = {refusal.code(), refusal.what(), scan_id};
   report();
-  ROS_WARN("%s: dropped: %s: %s", name_.c_str(), refusal.code().c_str(), log_words(refusal.what()).c_str());
+  ROS_WARN("%s: dropped: %s", name_.c_str(), log_words(refusal.code() + ": " + refusal.what()).c_str());
 }
 
 void Stage::serve() {
@@ -184,8 +190,8 @@ void Stage::fail(const std::string& scan_id, const std::string& word, const std:
   state_.facts.clear();
   state_.last_error = {code, message, scan_id};
   report();
-  ROS_ERROR("%s: scan %s %s: %s: %s", name_.c_str(), scan_id.c_str(), word.c_str(), code.c_str(),
-            log_words(message).c_str());
+  ROS_ERROR("%s: scan %s %s: %s", name_.c_str(), scan_id.c_str(), word.c_str(),
+            log_words(code + ": " + message).c_str());
 }
 
 /// A report is given again every second, for as long as the node lives.
@@ -203,7 +209,7 @@ void Stage::report() {
   DiagnosticStatus status;
   status.level = state_.level;
   status.name = ros::this_node::getName().substr(1) + ": " + name_;
-  status.message = state_.message;
+  status.message = cut(state_.message);
   const double working = state_.working_since ? milliseconds_since(*state_.working_since) / 1000 : 0;
   if (working > kSlow) {
     status.level = DiagnosticStatus::WARN;

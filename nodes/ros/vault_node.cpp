@@ -11,9 +11,8 @@ class Vault {
     if (!tensegric_fit::node::is_for_this_machine_only())
       ROS_WARN(
           "vault: nodes are reached from other machines, and ROS 1 knows no passwords: whoever reaches a "
-          "port can "
-          "read bodies and measures, publish scans, export and delete fits (launch/pages/privacy.md, "
-          "Network)");
+          "port can read bodies and measures, publish scans, export and delete fits "
+          "(launch/pages/privacy.md, Network)");
   }
 
  private:

@@ -74,8 +74,10 @@ class WatchedInputs {
       };
       if (!losses->is_overtaken(message->scan_id))
         give();
-      else if (!is_forgotten(message, 0))
+      else if (!is_forgotten(message, 0)) {
+        HeldScan::of_process().begin_beside(message->scan_id);
         *late = {message->scan_id, give};
+      }
     };
     add<const boost::shared_ptr<const Message>&>(from, topic, queue, take, hints);
     inputs_.back().losses = losses;

@@ -193,6 +193,8 @@ std::vector<int> BodyMeshDisplay::unheld_skin() const {
     if (notice.code == geometry::notice::kUnderConstricted)
       for (const std::uint32_t v : notice.vertices)
         if (v < body_.mesh().vertices.size()) skin.push_back(static_cast<int>(v));
+  std::sort(skin.begin(), skin.end());
+  skin.erase(std::unique(skin.begin(), skin.end()), skin.end());
   return with_rim(skin);
 }
 

@@ -21,7 +21,8 @@ constexpr int kTick = 250;  // milliseconds
 constexpr std::chrono::milliseconds kOwnEcho{
     400};  // after an answer: what was asked for is still coming back
 constexpr std::chrono::seconds kPatience{3};
-constexpr double kKeepOld = 120;  // s that it stays
+constexpr std::size_t kMostLines = 256;  // of a garment: each is a row of widgets
+constexpr double kKeepOld = 120;         // s that it stays
 constexpr geometry::Range kKeepOldRange{0, 1e9};
 
 double seconds(std::chrono::steady_clock::time_point time) {
@@ -152,6 +153,7 @@ void FitPanel::take_answer(bool done, const std::string& words) {
 }
 
 void FitPanel::take_garment(const Garment& garment) {
+  if (garment.lines.size() > kMostLines) return answer(words::kTooManyLines);
   worn_ = std::make_shared<const Garment>(garment);
   remember(garment);
   follow_pipeline();
@@ -211,6 +213,7 @@ void FitPanel::follow_pipeline() {
 }
 
 void FitPanel::take_fit(const FitState& fit) {
+  if (fit.lines.size() > kMostLines) return answer(words::kTooManyLines);
   if (fit.status == FitState::SOLVING) {
     if (!body_.empty() && fit.scan_id != body_.scan_id()) return;
     show_words(fit_, words::solving(static_cast<int>(fit.iteration)));

@@ -7,6 +7,7 @@
 
 #include <QDateTime>
 #include <QDir>
+#include <QFile>
 #include <QHBoxLayout>
 #include <QShortcut>
 #include <QVBoxLayout>
@@ -337,7 +338,8 @@ void FitPanel::start_export() {
   }
   QString name = text(body_.scan_id() + "_" + body_.garment()).replace('/', '-');
   name += QDateTime::currentDateTime().toString("_yyyyMMdd-hhmmss");
-  QDir().mkpath(folder);  // where that cannot be, the export says why
+  if (!QDir(folder).exists() && QDir().mkpath(folder))  // where that cannot be, the export says why
+    QFile::setPermissions(folder, QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner);
   exporting_ = true;
   allow_name_and_export();
   answer("");

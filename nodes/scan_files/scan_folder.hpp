@@ -24,6 +24,9 @@ class ScanFolder {
   /// Leaves out what lies there now. \throw Refusal as poll()
   void skip_all();
 
+  /// Lets go of the name of a file that was deleted.
+  void drop(const std::string& name) { files_.erase(name); }
+
   /// Texts that stand for the files returned so far and still there, but for those named; and, for one that
   /// goes on where another ended, to leave those out.
   std::vector<std::string> played(const std::set<std::string>& but = {}) const;

@@ -145,6 +145,9 @@ class ScanPlayer {
             "the file that it was played from, if it was: this node has been started again");
       return;
     }
+    if (!published_.empty() && order.scan_id != published_ && source_key(published_) == source->first)
+      done.failed.push_back("the same points were played again, as scan " + published_ +
+                            ": forget that, too");
     if (order.scan_id == published_ || (setup_.rate > 0 && source->second.path == playing_.path)) {
       publisher_.shutdown();
       publisher_ = advertised();
@@ -184,6 +187,11 @@ class ScanPlayer {
     else {
       done.removed.push_back("the file " + file.path);
       delete_companions(file.path, done);
+      if (folder_) {
+        folder_->drop(fs::path(file.path).filename());
+        remember();
+      }
+      if (playing_.path == file.path) playing_ = {};
       sources_.erase(source);
     }
   }
@@ -241,7 +249,8 @@ class ScanPlayer {
           files_.push_back(path);
         else if (!scan_files::is_companion_name(path))
           stage_.drop("", geometry::Refusal(geometry::refusal::kBrokenFile,
-                                            path + ": scans are not read from files of this type"));
+                                            "a file of type '" + fs::path(path).extension().string() +
+                                                "' is there: scans are not read from it"));
       remember();
     } catch (const geometry::Refusal& refusal) {
       stage_.drop("", refusal);
@@ -265,24 +274,20 @@ class ScanPlayer {
     scans_.clear();  // played by now, and not to be kept where the next file is refused
     at_ = 0;
     busy_ = true;
+    // Until the work is over, whatever comes of it: the stage may drop it.
+    const std::shared_ptr<void> turn(nullptr, [this](void*) { busy_ = false; });
     std::error_code gone;                                      // meanwhile
     const std::string work = fmt::format("file {}", ++read_);  // names of files may be customers'
     playing_ = {path, fs::last_write_time(path, gone), 0, work};
     stage_.begin(work);
-    stage_.post(work, [this, path]() -> Stage::Result {
-      try {
-        const std::vector<FileScan> scans = scans_in(path, setup_.customer);
-        return {[this, scans] {
-                  scans_ = scans;
-                  playing_.scans = scans.size();
-                  at_ = 0;
-                  busy_ = false;
-                },
-                {{"file", path}, {"scans", std::to_string(scans.size())}}};
-      } catch (...) {
-        busy_ = false;
-        throw;
-      }
+    stage_.post(work, [this, path, turn]() -> Stage::Result {
+      const std::vector<FileScan> scans = scans_in(path, setup_.customer);
+      return {[this, scans] {
+                scans_ = scans;
+                playing_.scans = scans.size();
+                at_ = 0;
+              },
+              {{"file", path}, {"scans", std::to_string(scans.size())}}};
     });
   }
 

@@ -222,6 +222,7 @@ std::optional<FitState> TensegricHandler::first_answer(const Input& input, const
                     answer->triangles);
     return state;
   } catch (const geometry::Refusal&) {
+    if (!coarse_taken_) coarse_fitter_.reset();
     return std::nullopt;
   }
 }
@@ -237,6 +238,7 @@ std::optional<TensegricHandler::Output> TensegricHandler::handle(
   if (input.control != taken_) {
     coarse_fitter_.reset();  // it knows the body before
     coarse_taken_.reset();
+    taken_.reset();
     const auto measures = measures_of(input);
     fitter_.take(input.control->scan_id, control_in(*input.control), measures ? &*measures : nullptr,
                  body_of(input));

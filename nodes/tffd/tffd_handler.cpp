@@ -73,6 +73,7 @@ TffdHandler::TffdHandler(Parameters parameters) {
 
 TffdHandler::Output TffdHandler::handle(const Input& input) {
   const auto& [fit, body, landmarks, control] = input;
+  check_lines(*fit);
   FittedScan scan{body, landmarks, control, fit, nullptr, {}};
   if (!bound_ || !is_of(*bound_, scan)) bound_ = bind(scan, options_);
   const std::vector<Eigen::Vector3d> outer = points_in(fit->outer);
@@ -86,6 +87,7 @@ TffdHandler::Output TffdHandler::handle(const Input& input) {
   message->garment = fit->garment;
   message->status = fit->status;
   message->vertices = flat<float>(vertices);
+  points_in(message->vertices);          // refused as any other's would be, and not by who shows them
   for (const double ratio : distortion)  // of a triangle of hardly any area it may be beyond all floats
     message->distortion.push_back(
         static_cast<float>(std::min<double>(ratio, std::numeric_limits<float>::max())));

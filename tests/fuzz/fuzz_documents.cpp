@@ -2,10 +2,13 @@
 // byte chooses which, the rest is the text.
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "batch/batch_page.hpp"
 #include "batch/database.hpp"
@@ -71,16 +74,12 @@ void read_batch(const std::string& text) {
   folder.add("shard-1-of-1.jsonl", text.substr(std::min(end + 1, text.size())));
   const batch::Table table = batch::read_table({folder.path()});
   fuzz::require(table.lines.size() + table.missing.size() == table.rows);
-  try {
-    const std::string before = folder.add("before.csv", batch::table_csv(table));
-    const batch::Comparison same = batch::compare(table, before);
-    if (table.lines.size() == 1)  // several may be of one subject
-      fuzz::require(same.changes.empty() && same.drifts.empty());
-    batch::costs_csv(table);
-    batch::write_database(table, (fs::path(folder.path()) / "table.sqlite").string());
-    batch::batch_page(table, same, {});
-  } catch (const nlohmann::json::exception&) {  // merge() refuses the folder
-  }
+  if (table.rows > 1000) return;  // missing ones take the time
+  const std::string before = folder.add("before.csv", batch::table_csv(table));
+  const batch::Comparison same = batch::compare(table, before);
+  batch::costs_csv(table);
+  batch::write_database(table, (fs::path(folder.path()) / "table.sqlite").string());
+  batch::batch_page(table, same, {});
 }
 
 }  // namespace

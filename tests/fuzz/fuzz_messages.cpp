@@ -31,23 +31,18 @@ void change_all(fuzz::Input& input, Arrays&... arrays) {
   (fuzz::change(input, arrays), ...);
 }
 
-template <typename... Numbers>
-void draw_some(fuzz::Input& input, Numbers&... numbers) {
-  ((input.number(1) % 4 == 0 ? fuzz::draw(input, numbers) : void()), ...);
-}
-
 void change(fuzz::Input& input, TriangleMesh& message) {
   message.filled.assign(message.vertices.size() / 3, 0);
   message.fractures.resize(input.number(1) % 3);
   for (Fracture& fracture : message.fractures)
-    draw_some(input, fracture.centre[0], fracture.radius, fracture.area, fracture.offset);
+    fuzz::draw_some(input, fracture.centre[0], fracture.radius, fracture.area, fracture.offset);
   change_all(input, message.vertices, message.triangles, message.filled);
 }
 
 void change(fuzz::Input& input, Landmarks& message) {
-  for (double& entry : message.body_from_scan) draw_some(input, entry);
-  for (Landmark& point : message.points) draw_some(input, point.position[1], point.confidence);
-  for (Measure& measure : message.heights) draw_some(input, measure.value, measure.half_width);
+  for (double& entry : message.body_from_scan) fuzz::draw_some(input, entry);
+  for (Landmark& point : message.points) fuzz::draw_some(input, point.position[1], point.confidence);
+  for (Measure& measure : message.heights) fuzz::draw_some(input, measure.value, measure.half_width);
   message.loops.resize(input.number(1) % 3);
   for (GirthLoop& loop : message.loops) {
     loop.points = {0, 0, 1, 1, 0, 1, 0, 1, 1};
@@ -65,7 +60,7 @@ void change(fuzz::Input& input, ControlMesh& message) {
 
 void change(fuzz::Input& input, Garment& message) {
   for (GarmentLine& line : message.lines) {
-    draw_some(input, line.ratio, line.stiffness, line.tension_limit, line.width, line.smooth);
+    fuzz::draw_some(input, line.ratio, line.stiffness, line.tension_limit, line.width, line.smooth);
     constexpr const char* kLaws[] = {"", "rigid", "stiffness", "table", "rubber"};
     line.law = kLaws[input.number(1) % 5];
     line.taut = static_cast<std::uint8_t>(input.number(1) % 2);
@@ -82,8 +77,9 @@ void change(fuzz::Input& input, Garment& message) {
 }
 
 void change(fuzz::Input& input, BodyModel& message) {
-  draw_some(input, message.residual, message.ground, message.ground_deviation, message.scale, message.up[2],
-            message.rotation[0], message.rotation[4], message.position[0], message.stature);
+  fuzz::draw_some(input, message.residual, message.ground, message.ground_deviation, message.scale,
+                  message.up[2], message.rotation[0], message.rotation[4], message.position[0],
+                  message.stature);
   change_all(input, message.turns, message.shape, message.vertices, message.off, message.support,
              message.joints, message.bone_points, message.mesh_parts, message.pose_groups, message.bones,
              message.bone_point_names, message.parts);
@@ -92,9 +88,9 @@ void change(fuzz::Input& input, BodyModel& message) {
 
 void change(fuzz::Input& input, FitState& message) {
   change_all(input, message.outer, message.inner, message.lines, message.regions);
-  draw_some(input, message.twist, message.side_lean);
+  fuzz::draw_some(input, message.twist, message.side_lean);
   for (LineResult& line : message.lines) {
-    draw_some(input, line.initial, line.neutral, line.final, line.tension);
+    fuzz::draw_some(input, line.initial, line.neutral, line.final, line.tension);
     change_all(input, line.course, line.course_at_rest, line.nodes);
   }
 }
@@ -105,8 +101,8 @@ void change(fuzz::Input& input, DeformedMesh& message) {
 }
 
 void change(fuzz::Input& input, sensor_msgs::PointCloud2& message) {
-  draw_some(input, message.width, message.height, message.point_step, message.row_step,
-            message.header.stamp.sec);
+  fuzz::draw_some(input, message.width, message.height, message.point_step, message.row_step,
+                  message.header.stamp.sec);
   change_all(input, message.fields, message.data);
 }
 
@@ -282,7 +278,7 @@ void say_figures(fuzz::Input& input) {
   const auto forces = boost::make_shared<LineForces>(forces_of(*fit));
   deformed->vertices = skin->vertices;
   deformed->distortion.assign(skin->vertices.size() / 3, 1);
-  draw_some(input, deformed->volume_before, deformed->volume_after);
+  fuzz::draw_some(input, deformed->volume_before, deformed->volume_after);
   change(input, *deformed);
   change_all(input, forces->lines, forces->tension, forces->newtons, forces->kilopascals);
   if (input.number(1) % 4 == 0) change(input, *skin);

@@ -1,10 +1,13 @@
 // What a booth's sensors send: clouds, which the assembler joins, depth images, and scans as a booth
 // assembled them itself. The first byte chooses which.
 #include <geometry_msgs/TransformStamped.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <optional>
 
 #include "assembler/assembler_handler.hpp"
 #include "depth_cameras/camera_message.hpp"
@@ -17,11 +20,6 @@ namespace {
 
 using namespace tensegric_fit;
 using namespace tensegric_fit::node;
-
-template <typename... Numbers>
-void draw_some(fuzz::Input& input, Numbers&... numbers) {
-  ((input.number(1) % 8 == 0 ? fuzz::draw(input, numbers) : void()), ...);
-}
 
 /// A sheet of points, some of them drawn, and a message that may not be as it says.
 sensor_msgs::PointCloud2 cloud(fuzz::Input& input) {
@@ -36,10 +34,10 @@ sensor_msgs::PointCloud2 cloud(fuzz::Input& input) {
                               input.number(1) % 3 * sizeof number],
                 &number, sizeof number);
   }
-  draw_some(input, message.width, message.height, message.point_step, message.row_step);
+  fuzz::draw_some(input, message.width, message.height, message.point_step, message.row_step);
   fuzz::change(input, message.fields);
   for (sensor_msgs::PointField& field : message.fields)
-    draw_some(input, field.offset, field.datatype, field.count);
+    fuzz::draw_some(input, field.offset, field.datatype, field.count);
   message.header.stamp = ros::Time(input.number(1) % 8, 0);  // none, too
   constexpr std::array kFrames{"left", "right", "booth", "", "elsewhere"};
   message.header.frame_id = kFrames[input.number(1) % kFrames.size()];
@@ -54,7 +52,7 @@ void stand(fuzz::Input& input, tf2::BufferCore& transforms) {
     pose.child_frame_id = sensor;
     pose.transform.rotation.w = 1;
     auto& [shift, turn] = pose.transform;
-    draw_some(input, shift.x, shift.y, shift.z, turn.x, turn.y, turn.z, turn.w);
+    fuzz::draw_some(input, shift.x, shift.y, shift.z, turn.x, turn.y, turn.z, turn.w);
     transforms.setTransform(pose, "fuzzer", input.number(1) % 4 != 0);
   }
 }
@@ -96,11 +94,11 @@ void take_depths(fuzz::Input& input) {
   info.distortion_model = kModels[input.number(1) % kModels.size()];
   constexpr std::array<std::size_t, 6> kNumbers{0, 4, 5, 8, 12, 14};
   info.D.assign(kNumbers[input.number(1) % kNumbers.size()], 0);
-  for (double& number : info.D) draw_some(input, number);
-  for (double& number : info.K) draw_some(input, number);
-  for (double& number : info.P) draw_some(input, number);
-  draw_some(input, info.R[4], image.width, image.height, image.step, image.is_bigendian, info.width,
-            info.binning_x, info.roi.x_offset);
+  for (double& number : info.D) fuzz::draw_some(input, number);
+  for (double& number : info.K) fuzz::draw_some(input, number);
+  for (double& number : info.P) fuzz::draw_some(input, number);
+  fuzz::draw_some(input, info.R[4], image.width, image.height, image.step, image.is_bigendian, info.width,
+                  info.binning_x, info.roi.x_offset);
   fuzz::change(input, info.D);
   fuzz::change(input, image.data);
   if (input.number(1) % 16 == 0) image.header.stamp = ros::Time();

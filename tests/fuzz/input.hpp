@@ -50,6 +50,12 @@ void draw(Input& input, T& value) {
     value = static_cast<T>(input.any());
 }
 
+/// Each of them at times.
+template <typename... Numbers>
+void draw_some(Input& input, Numbers&... numbers) {
+  ((input.number(1) % 4 == 0 ? draw(input, numbers) : void()), ...);
+}
+
 /// An entry too few or too many, none at all, another value in one place; often nothing.
 template <typename T>
 void change(Input& input, std::vector<T>& values) {

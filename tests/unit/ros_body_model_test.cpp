@@ -231,6 +231,17 @@ TEST(LandmarksHandlerTest, AModelOfAnotherScanIsNeverUsed) {
   EXPECT_FALSE(stage.add(model_of("D")));
 }
 
+TEST(LandmarksHandlerTest, NoModelIsKeptOfAScanBeforeAMeshThatComesAlone) {
+  LandmarksHandler stage = landmarks_handler();
+  const BodyModel::ConstPtr before = model_of("A");
+  stage.add(before);
+  ASSERT_TRUE(stage.add(mesh_of("A")));
+  stage.add(mesh_of("B"));
+  EXPECT_GT(before.use_count(), 1);
+  ASSERT_TRUE(stage.alone());
+  EXPECT_EQ(before.use_count(), 1);
+}
+
 TEST(LandmarksHandlerTest, RegistersTheModelToAMeshThatComesAlone) {
   LandmarksHandler stage = landmarks_handler();
   stage.add(mesh_of("A"));

@@ -50,6 +50,15 @@ TEST_F(HeldScanTest, AScanWhoseWorkFailedIsHeldUntilAnotherTakesItsPlace) {
   EXPECT_FALSE(held_.holds("a"));
 }
 
+/// A stage may still have what came of the first: nothing of that kind has come since.
+TEST_F(HeldScanTest, AllScansAreHeldSinceSomethingWasPublished) {
+  for (const char* scan_id : {"a", "b", "c", "d", "e", "f", "g"}) held_.begin(scan_id);
+  EXPECT_TRUE(held_.holds("a"));
+  take("h");
+  do_work("h");
+  EXPECT_FALSE(held_.holds("a"));
+}
+
 TEST_F(HeldScanTest, SecondScansAreHeldUntilANewStart) {
   do_work("a");
   held_.begin_beside("worn");

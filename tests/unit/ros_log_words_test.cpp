@@ -37,6 +37,11 @@ TEST(LogWords, FilesAreLeftOutAndTopicsStay) {
   EXPECT_EQ(log_words("/tmp/Muster, Anna Maria.ply: is truncated"), "(file): is truncated");
 }
 
+TEST(LogWords, WhichPartABodyLacksIsLeftOut) {
+  EXPECT_EQ(log_words("missing_part:underbust_L: the landmark underbust_L was not found"), "missing_part");
+  EXPECT_EQ(log_words("7 scans; landmarks: missing_part: her left hand"), "# scans; landmarks: missing_part");
+}
+
 /// Figures that a launch file gives are nobody's; names of files may be.
 TEST(LogWords, OfAStartFilesAloneAreLeftOut) {
   EXPECT_EQ(without_files("parameter 'rate': 2000 is not within 0 to 1000"),
