@@ -313,7 +313,8 @@ class FitBatch(unittest.TestCase):
                         ({"rows": "3"}, {"rows": -1}, {"rows": 10 ** 15}, {"build": 5}, {"manifest_identity": None})]
         lines = [json.dumps({**line, **change}) for change in
                  ({"row": 0}, {"name": 5}, {"inputs": "a"}, {"settings": []}, {"status": "refused"}, {"status": None}, {"reason": "none"},
-                  {"result": {"confidence": {"girths": {"bust": {"confidence": "high"}}}}})]
+                  {"result": 5}, {"cost": {"seconds": "long"}})]
+        lines.append(json.dumps({part: value for part, value in line.items() if part != "inputs"}))
         for description, text in [*((each, "") for each in [*descriptions, "{}", deep]), *((json.dumps(whole), each) for each in [*lines, deep])]:
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir()
@@ -322,6 +323,13 @@ class FitBatch(unittest.TestCase):
             done = subprocess.run([PROGRAMS / "fit_batch", "merge", folder, "--out", self.folder / "of_others_merged"], capture_output=True, text=True,
                                   timeout=60, check=False)
             self.assertEqual((done.returncode, "broken_file" in done.stderr), (3, True), (description[:100], text[:100], done.stderr))
+
+    def test_lines_of_an_earlier_build_may_lack_parts(self):
+        folder = self.folder / "of_earlier_build"
+        shutil.copytree(self.whole, folder)
+        with open(folder / "shard-1-of-9.jsonl", "w", encoding="utf-8") as file:
+            file.write(json.dumps({"row": 1, "key": "a", "status": "ok", "build": "earlier"}) + "\n")
+        self.assertEqual(self.merged(folder), (0, self.table))
 
     def test_a_pipe_is_no_scan(self):
         manifest, folder = self.folder / "pipe.csv", self.folder / "pipe"
