@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "geometry/status.hpp"
 #include "ros/export_folders.hpp"
 #include "ros/held_scan.hpp"
@@ -35,7 +37,8 @@ void leave_nothing_forgotten(const std::string& scan_id, const std::string& dire
   if (!HeldScan::of_process().is_forgotten(scan_id)) return;
   response.files.clear();
   std::vector<geometry::Refusal> left;
-  delete_exports(directory, scan_id, left);
+  std::error_code gone;  // the vault may have been there
+  if (std::filesystem::exists(directory, gone)) delete_exports(directory, scan_id, left);
   if (!left.empty()) throw left.front();
   throw geometry::Refusal(geometry::refusal::kNothingYet, "the scan was forgotten");
 }

@@ -1,7 +1,6 @@
 #include "ros/forget_desk.hpp"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
-#include <diagnostic_msgs/KeyValue.h>
 #include <fmt/format.h>
 #include <tensegric_fit/ForgetOrder.h>
 
@@ -105,17 +104,19 @@ ForgetDesk::ForgetDesk(ros::NodeHandle node, const ros::NodeHandle& private_node
 }
 
 void ForgetDesk::delete_old() {
-  left_.clear();
+  left_in_.clear();
   std::size_t gone = 0;
   for (const std::string& folder : options_.folders) {
+    std::vector<std::string> left;
     std::error_code unknown;
     const bool is_there = std::filesystem::exists(folder, unknown);
-    if (unknown) left_.push_back(fmt::format("'{}' cannot be looked at: {}", folder, unknown.message()));
-    if (is_there) gone += delete_old_exports(folder, options_.retention_days, left_).size();
+    if (unknown) left.push_back(fmt::format("'{}' cannot be looked at: {}", folder, unknown.message()));
+    if (is_there) gone += delete_old_exports(folder, options_.retention_days, left).size();
+    for (const std::string& why : left)
+      ROS_WARN("vault: an old export may be left: %s", log_words(why).c_str());
+    if (!left.empty()) left_in_.insert(folder);
   }
   if (gone > 0) ROS_INFO("vault: exports were deleted, as they were old");
-  for (const std::string& why : left_)
-    ROS_WARN("vault: an old export may be left: %s", log_words(why).c_str());
 }
 
 void ForgetDesk::report() {
@@ -123,15 +124,10 @@ void ForgetDesk::report() {
   diagnostic_msgs::DiagnosticStatus status;
   status.name = ros::this_node::getName().substr(1) + ": retention";
   status.hardware_id = "tensegric_fit";
-  status.level =
-      left_.empty() ? diagnostic_msgs::DiagnosticStatus::OK : diagnostic_msgs::DiagnosticStatus::WARN;
-  status.message = left_.empty()
-                       ? fmt::format("exports are kept for {} days", options_.retention_days)
-                       : "old exports may be left: " + log_words(left_.front());  // paths have names
-  diagnostic_msgs::KeyValue left;
-  left.key = "left";
-  left.value = std::to_string(left_.size());
-  status.values.push_back(left);
+  const bool fine = left_in_.empty();
+  status.level = fine ? diagnostic_msgs::DiagnosticStatus::OK : diagnostic_msgs::DiagnosticStatus::WARN;
+  status.message = fine ? fmt::format("exports are kept for {} days", options_.retention_days)
+                        : fmt::format("old exports may be left in {}", fmt::join(left_in_, ", "));
   diagnostic_msgs::DiagnosticArray array;
   array.header.stamp = ros::Time::now();
   array.status.push_back(status);

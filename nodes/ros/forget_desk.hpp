@@ -49,7 +49,7 @@ class ForgetDesk {
   ros::Subscriber answers_in_;
   ros::Publisher diagnostics_;
   ros::WallTimer daily_, heartbeat_;
-  std::vector<std::string> left_;  // why old exports may be left, at the last look
+  std::set<std::string> left_in_;  // folders in which old exports may be left, at the last look
   std::atomic<bool> look_again_{false};
   std::mutex mutex_;  // guards answers_
   std::condition_variable answered_;

@@ -76,10 +76,11 @@ FitFigures headless(FitFigures figures) {
     throw geometry::Refusal(std::string(geometry::refusal::kMissingPart) + ":neck",
                             "the tape of her neck lies below all of her, so her head cannot be cut off");
   const auto is_over_neck = [&](const Eigen::Vector3d& place) {
-    constexpr double kWider = 1.2;  // than the neck
+    constexpr double kWider = 1.2,
+                     kRim = 1e-3;  // than the neck; m, above the cut's own rim, which is in the plane
     const Eigen::Vector3d offset = place - neck.middle, normal = neck.plane.normal();
     const double beyond = normal.dot(offset), above = (frame * place).z() - middle.z();
-    return beyond > 0 && above > kTallerThan && (offset - beyond * normal).norm() < kWider * neck.radius;
+    return beyond > kRim && above > kTallerThan && (offset - beyond * normal).norm() < kWider * neck.radius;
   };
   if (std::any_of(figures.body.vertices.begin(), figures.body.vertices.end(), is_over_neck))
     throw geometry::Refusal(

@@ -186,18 +186,16 @@ class ScanPlayer {
       done.failed.push_back("the file " + file.path + " was not deleted");
     else {
       done.removed.push_back("the file " + file.path);
+      if (folder_) folder_->drop(fs::path(file.path).filename());
       delete_companions(file.path, done);
-      if (folder_) {
-        folder_->drop(fs::path(file.path).filename());
-        remember();
-      }
+      if (folder_) remember();
       if (playing_.path == file.path) playing_ = {};
       sources_.erase(source);
     }
   }
 
   /// Textures are photographs of her. They have the name of the scan file, as those of another scan may.
-  static void delete_companions(const fs::path& file, ForgetAnswer& done) {
+  void delete_companions(const fs::path& file, ForgetAnswer& done) {
     const fs::path scan = fs::absolute(file);
     std::vector<fs::path> companions;
     bool is_shared = false;
@@ -213,11 +211,13 @@ class ScanPlayer {
                             " were not looked for: " + error.message());
     for (const fs::path& path : companions)
       if (!is_shared && fs::symlink_status(path, error).type() == fs::file_type::regular &&
-          fs::remove(path, error))
+          fs::remove(path, error)) {
         done.removed.push_back("the file " + path.string());
-      else
+        if (folder_) folder_->drop(path.filename());
+      } else {
         done.failed.push_back("the file " + path.string() + " was not deleted: " +
                               (is_shared ? "another scan has that name, too" : "it is a link, or stays"));
+      }
   }
 
   /// A file that is played over and over has a stamp each time, and the same points.

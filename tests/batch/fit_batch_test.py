@@ -331,6 +331,17 @@ class FitBatch(unittest.TestCase):
             file.write(json.dumps({"row": 1, "key": "a", "status": "ok", "build": "earlier"}) + "\n")
         self.assertEqual(self.merged(folder), (0, self.table))
 
+    def test_a_folder_from_before_manifests_had_an_identity_is_merged(self):
+        folder = self.folder / "without_identity"
+        shutil.copytree(self.whole, folder)
+        description = json.loads((folder / "batch.json").read_text())
+        description.pop("manifest_identity")
+        (folder / "batch.json").write_text(json.dumps(description))
+        for file in folder.glob("*.jsonl"):
+            lines = [json.loads(text) for text in file.read_text().splitlines()]
+            file.write_text("".join(json.dumps({part: value for part, value in line.items() if part != "manifest"}) + "\n" for line in lines))
+        self.assertEqual(self.merged(folder), (0, self.table))
+
     def test_a_pipe_is_no_scan(self):
         manifest, folder = self.folder / "pipe.csv", self.folder / "pipe"
         os.mkfifo(self.folder / "pipe.ply")

@@ -179,6 +179,19 @@ TEST_F(ExportFitTest, AHeadThatIsJoinedToSomethingBesideItIsNotExportedAsNone) {
   EXPECT_FALSE(fs::exists(root_ / "headless"));
 }
 
+/// Of a head that is held forward: the back of the cut's rim is higher than a head need be.
+TEST_F(ExportFitTest, AHeadIsCutOffInAPlaneThatLeans) {
+  const auto landmarks = boost::make_shared<Landmarks>(*scan_.landmarks);
+  for (GirthLoop& loop : landmarks->loops)
+    if (loop.name == "neck")
+      for (std::size_t i = 0; i < loop.points.size(); i += 3)
+        loop.points[i + 2] = 1.25 + std::tan(40 * kPi / 180) * loop.points[i + 1];
+  scan_.landmarks = landmarks;
+  export_fit(scan_, root_ / "one", {});
+  const geometry::TriangleMesh body = geometry::read_ply_mesh(root_ / "one" / "body.ply");
+  for (const Eigen::Vector3d& v : body.vertices) EXPECT_LT(v.z(), 1.28 + std::tan(40 * kPi / 180) * v.y());
+}
+
 TEST_F(ExportFitTest, TheHeadIsCutOffJustAboveTheTapeOfTheNeck) {
   export_fit(scan_, root_ / "whole", kWhole);
   const fs::path folder = root_ / "one";
