@@ -66,6 +66,10 @@ std::vector<int> numbers_in(const std::vector<std::uint32_t>& numbers) {
   return {numbers.begin(), numbers.end()};
 }
 
+// Entries of a kind, and numbers of a loop or a course, that any message has: ours have some thirty, and some
+// hundred points.
+constexpr std::size_t kMost = 256, kMostNumbers = 3 * 10000;
+
 }  // namespace
 
 TriangleMesh to_message(const ScanTag& tag, const geometry::TriangleMesh& mesh,
@@ -140,10 +144,8 @@ Landmarks to_message(const ScanTag& tag, const geometry::BodyMeasures& measures)
   return message;
 }
 
-/// Exports and the panel go through all of them for each: ours have some thirty, and loops of some hundred
-/// points.
+/// Exports and the panel go through all of them for each.
 void check_counts(const Landmarks& message) {
-  constexpr std::size_t kMost = 256, kMostNumbers = 3 * 10000;
   for (const std::size_t count : {message.points.size(), message.heights.size(), message.girths.size(),
                                   message.loops.size(), message.missing.size()})
     if (count > kMost)
@@ -178,7 +180,6 @@ geometry::BodyMeasures measures_in(const Landmarks& message) {
 }
 
 void check_lines(const FitState& fit) {
-  constexpr std::size_t kMost = 256, kMostNumbers = 3 * 10000;
   if (fit.lines.size() > kMost) throw Refusal(geometry::refusal::kBadMesh, "the fit has more than 256 lines");
   for (const LineResult& line : fit.lines)
     if (line.course.size() > kMostNumbers || line.course_at_rest.size() > kMostNumbers)

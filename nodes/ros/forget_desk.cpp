@@ -94,7 +94,10 @@ ForgetDesk::ForgetDesk(ros::NodeHandle node, const ros::NodeHandle& private_node
   if (options_.retention_days > 0) {
     diagnostics_ = node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 4);
     delete_old();
-    heartbeat_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) { report(); });
+    heartbeat_ = node.createWallTimer(ros::WallDuration(1), [this](const ros::WallTimerEvent&) {
+      if (look_again_.exchange(false)) delete_old();
+      report();
+    });
     daily_ = node.createWallTimer(kDay, [this](const ros::WallTimerEvent&) { delete_old(); });
   }
   ros::NodeHandle own(node);
@@ -119,8 +122,7 @@ void ForgetDesk::delete_old() {
   if (gone > 0) ROS_INFO("vault: exports were deleted, as they were old");
 }
 
-void ForgetDesk::report() {
-  if (look_again_.exchange(false)) delete_old();
+void ForgetDesk::report() const {
   diagnostic_msgs::DiagnosticStatus status;
   status.name = ros::this_node::getName().substr(1) + ": retention";
   status.hardware_id = "tensegric_fit";

@@ -39,9 +39,8 @@ class ForgetDesk {
   static void delete_exports_of(const std::string& scan_id, const std::string& folder,
                                 Forget::Response& response);
   void delete_old();
-  /// What came of the last look for old exports, again and again, as stages report; after a scan was
-  /// forgotten it looks anew.
-  void report();
+  /// What came of the last look for old exports, again and again, as stages report.
+  void report() const;
 
   ros::NodeHandle node_;
   const VaultOptions options_;
@@ -49,9 +48,9 @@ class ForgetDesk {
   ros::Subscriber answers_in_;
   ros::Publisher diagnostics_;
   ros::WallTimer daily_, heartbeat_;
-  std::set<std::string> left_in_;  // folders in which old exports may be left, at the last look
-  std::atomic<bool> look_again_{false};
-  std::mutex mutex_;  // guards answers_
+  std::set<std::string> left_in_;        // folders in which old exports may be left, at the last look
+  std::atomic<bool> look_again_{false};  // a scan was forgotten since
+  std::mutex mutex_;                     // guards answers_
   std::condition_variable answered_;
   std::map<std::string, ForgetAnswer> answers_;  // of nodes, to the order given last
   ros::CallbackQueue queue_;
