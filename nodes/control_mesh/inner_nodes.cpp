@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/status.hpp"
@@ -13,6 +14,9 @@ using Eigen::Vector3d;
 constexpr double kShareOfBody = 0.4;  // of the way through the body: the inner node stays inside
 constexpr double kLeastVolumeShare =
     0.1;  // of the outer triangle's area that the inner one must keep, facing the same way
+constexpr double kOpen = 0.1;          // openness that units over bone are given
+constexpr int kMostSlides = 30;        // 300 leave as much undone
+constexpr double kLongestSlide = 0.3;  // of an edge, in one of them
 constexpr int kSmoothingRounds = 2;
 constexpr double kShrink = 0.9;
 constexpr int kMostRounds = 40;
@@ -96,6 +100,65 @@ void bend_least(const geometry::ControlMesh& control, std::vector<Vector3d>& pla
     if (number[i] >= 0) places[i] = at.row(number[i]);
 }
 
+// How far a unit is from being turned inside out, and what changes it: each of its triangles as seen from the
+// middle of the other, over that of an upright unit of the same outer triangle and depth. The solver's
+// barrier keeps both above 0.
+struct Openness {
+  double share;
+  std::array<Vector3d, 3> by_inner;  // its derivative by the inner nodes, 1/m
+};
+std::array<Openness, 2> openness_of(const std::vector<Vector3d>& outer, const std::vector<Vector3d>& inner,
+                                    const Eigen::Vector3i& corners) {
+  const auto& [a, b, c] = std::array<int, 3>{corners[0], corners[1], corners[2]};
+  const Vector3d upper = geometry::area_vector(outer[a], outer[b], outer[c]),
+                 lower = geometry::area_vector(inner[a], inner[b], inner[c]),
+                 depth = (outer[a] - inner[a] + outer[b] - inner[b] + outer[c] - inner[c]) / 3;
+  const double upright = upper.norm() * depth.norm();
+  Openness from_below{upper.dot(depth) / upright, {}}, from_above{lower.dot(depth) / upright, {}};
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d across = inner[corners[(i + 1) % 3]] - inner[corners[(i + 2) % 3]];
+    from_below.by_inner[i] = -upper / (3 * upright);
+    from_above.by_inner[i] = (across.cross(depth) - lower / 3) / upright;
+  }
+  return {from_below, from_above};
+}
+
+// Slides places on the surface that they make until no unit is nearly turned inside out: under a hanging
+// breast, whose skin looks down and back, they have to lie higher than the skin does. Each unit moves its own
+// by what it lacks, and where units disagree a place moves by the mean (position based dynamics: Mueller et
+// al., J. Vis. Commun. Image R. 18, 2007, 109).
+void slide_open(const geometry::ControlMesh& control, std::vector<Vector3d>& places) {
+  for (int round = 0; round < kMostSlides; ++round) {
+    std::vector<Vector3d> move(places.size(), Vector3d::Zero());
+    std::vector<int> asked(places.size(), 0);
+    const std::vector<Vector3d> normals = geometry::vertex_normals(places, control.triangles);
+    for (const Eigen::Vector3i& corners : control.triangles)
+      for (const Openness& openness : openness_of(control.outer, places, corners)) {
+        if (!(openness.share < kOpen)) continue;
+        std::array<Vector3d, 3> along;
+        double squares = 0, longest = 0;
+        for (int i = 0; i < 3; ++i) {
+          const Vector3d& by = openness.by_inner[i];
+          const Vector3d& normal = normals[corners[i]];
+          along[i] =
+              control.inner_fixed[corners[i]] ? Vector3d(0, 0, 0) : Vector3d(by - by.dot(normal) * normal);
+          squares += along[i].squaredNorm();
+          longest = std::max(longest, along[i].norm());
+        }
+        if (!(longest > 0)) continue;
+        const double edge = (control.outer[corners[0]] - control.outer[corners[1]]).norm();
+        const double by = std::min((kOpen - openness.share) / squares, kLongestSlide * edge / longest);
+        for (int i = 0; i < 3; ++i) {
+          move[corners[i]] += by * along[i];
+          ++asked[corners[i]];
+        }
+      }
+    if (std::all_of(asked.begin(), asked.end(), [](int n) { return n == 0; })) return;
+    for (std::size_t v = 0; v < places.size(); ++v)
+      if (asked[v] > 0) places[v] += move[v] / asked[v];
+  }
+}
+
 }  // namespace
 
 void place_on_bone(geometry::ControlMesh& control, const BoneRule& rule, double scale) {
@@ -103,12 +166,12 @@ void place_on_bone(geometry::ControlMesh& control, const BoneRule& rule, double 
   std::vector<Vector3d> bone(control.outer.size());
   for (std::size_t v = 0; v < bone.size(); ++v) bone[v] = control.outer[v] - rule.inset * normals[v];
   bend_least(control, bone);
+  slide_open(control, bone);
   for (std::size_t v = 0; v < bone.size(); ++v) {
     const double depth = (control.outer[v] - bone[v]).dot(normals[v]);
     bone[v] -= std::max(0.0, rule.least - depth) * normals[v];
     control.inner[v] = control.outer[v] + scale * rule.share * (bone[v] - control.outer[v]);
   }
-  thin_folded_units(control);
 }
 
 std::vector<double> thickness_of(const CushionRule& rule, const geometry::ControlMesh& control) {

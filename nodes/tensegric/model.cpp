@@ -196,6 +196,7 @@ ModelOptions papers_model() {
   options.lateral_stiffness = 1;
   options.skin = 0;
   options.volume_stiffness = 0;
+  options.shear_stiffness = 0;
   options.stiffening = 0;
   options.prestress = 0.05;
   return options;

@@ -42,13 +42,15 @@ struct ModelOptions {
   InnerNodes inner = InnerNodes::bound;
   int layers = 1;        ///< of units, one below the other, between the skin and the inner nodes
   bool uniform = false;  ///< all parts of a kind have one k, as in the papers, whatever tissue they stand for
-  double strut_stiffness = 0.71;    ///< of struts; edges have 1. The papers' rigid strut is the limit
-  double lateral_stiffness = 0.47;  ///< of the tensile parts from outer to inner node
-  double skin = 0.105;              ///< m of tissue that the skin is as stiff as, added to the outer edges
+  double strut_stiffness = 0.55;    ///< of struts; edges have 1. The papers' rigid strut is the limit
+  double lateral_stiffness = 0.48;  ///< of the tensile parts from outer to inner node
+  double skin = 0.071;              ///< m of tissue that the skin is as stiff as, added to the outer edges
   double volume_stiffness =
-      2.7;                  ///< pressure per relative change of a unit's volume; equilibrium solver only
-  double modulus = 1205;    ///< Pa, of tissue for which a kind's share is 1: what forces are in newtons
-  double stiffening = 320;  ///< of struts and tensile parts: k (1 + stiffening e^2) at strain e
+      2.8;  ///< pressure per relative change of a unit's volume; equilibrium solver only
+  double shear_stiffness =
+      0.39;                 ///< force / area per shear of a unit's skin side against its bone side; likewise
+  double modulus = 1110;    ///< Pa, of tissue for which a kind's share is 1: what forces are in newtons
+  double stiffening = 337;  ///< of struts and tensile parts: k (1 + stiffening e^2) at strain e
   double prestress = 0.1;   ///< mean tension of the tensile parts at rest / their mean k, at most
   std::vector<StiffPart> stiff_parts;
 };
@@ -65,6 +67,7 @@ inline constexpr ModelNumber kModelNumbers[] = {
     {"lateral_stiffness", &ModelOptions::lateral_stiffness, {1e-3, 1e3}},
     {"skin", &ModelOptions::skin, {0, 10}},
     {"volume_stiffness", &ModelOptions::volume_stiffness, {0, 1e3}},
+    {"shear_stiffness", &ModelOptions::shear_stiffness, {0, 1e3}},
     {"stiffening", &ModelOptions::stiffening, {0, 1e4}},
     {"modulus", &ModelOptions::modulus, {1, 1e7}},
     {"prestress", &ModelOptions::prestress, {1e-6, 0.5}},

@@ -9,6 +9,7 @@
 #include "tensegric/region_volume.hpp"
 #include "tensegric/solver.hpp"
 #include "tensegric/unit_pressure.hpp"
+#include "tensegric/unit_shear.hpp"
 
 namespace tensegric_fit::tensegric {
 
@@ -22,6 +23,7 @@ struct Problem {
   std::vector<RegionVolume> volumes;
   std::vector<UnitVolume> units;
   std::vector<UnitPressure> pressures;
+  std::vector<UnitShear> shears;
   double force_scale;  ///< mean tension of the tensile parts at rest
   SkinFolds folds;     ///< empty: nothing is known of the skin
 };

@@ -9,8 +9,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 6>;
 
-constexpr double kFlat = 1e-3;  // volume / that of an upright unit, below which it resists nothing
-
 // The unit's surface, oriented outward: with weight 1 its two triangles, with 1/2 both foldings of each side.
 struct Face {
   int a, b, c;
@@ -79,7 +77,7 @@ std::vector<UnitPressure> unit_pressures(const Model& model, const std::vector<i
     const double depth = ((corners[0] - corners[3]).norm() + (corners[1] - corners[4]).norm() +
                           (corners[2] - corners[5]).norm()) /
                          3;
-    if (moves && unit.rest > kFlat * area * depth) units.push_back(unit);
+    if (moves && unit.rest > kFlatUnit * area * depth) units.push_back(unit);
   }
   return units;
 }

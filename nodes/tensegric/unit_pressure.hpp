@@ -11,6 +11,10 @@
 
 namespace tensegric_fit::tensegric {
 
+/// Volume over that of an upright unit, below which a unit resists neither a change of its volume nor shear:
+/// its directions are rounding.
+inline constexpr double kFlatUnit = 1e-3;
+
 /// The prism between a triangle and the one below it, each side face taken as the mean of its
 /// two foldings. With V its volume it adds the energy 1/2 stiffness V0 (V / V0 - 1)^2.
 struct UnitPressure {

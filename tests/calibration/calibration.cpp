@@ -36,12 +36,13 @@ struct Parameter {
   double& (*of)(Adjusted&);
   double low, high;
 };
-constexpr std::array<Parameter, 9> kParameters = {{
+constexpr std::array<Parameter, 10> kParameters = {{
     {"strut_stiffness", [](Adjusted& a) -> double& { return a.settings.model.strut_stiffness; }, 0.02, 200},
     {"lateral_stiffness", [](Adjusted& a) -> double& { return a.settings.model.lateral_stiffness; }, 0.005,
      50},
     {"skin", [](Adjusted& a) -> double& { return a.settings.model.skin; }, 1e-3, 1},
     {"volume_stiffness", [](Adjusted& a) -> double& { return a.settings.model.volume_stiffness; }, 0.02, 200},
+    {"shear_stiffness", [](Adjusted& a) -> double& { return a.settings.model.shear_stiffness; }, 1e-3, 20},
     {"stiffening", [](Adjusted& a) -> double& { return a.settings.model.stiffening; }, 0.1, 1e3},
     {"modulus", [](Adjusted& a) -> double& { return a.settings.model.modulus; }, 10, 1e6},
     {"prestress", [](Adjusted& a) -> double& { return a.settings.model.prestress; }, 1e-3, 0.5},

@@ -54,6 +54,8 @@ std::vector<Case> option_cases() {
         add("skin/" + text(skin) + " at " + text(ratio), ratio).skin = skin;
       for (double stiffness : {0.0, 1.0, 30.0, 1e3})
         add("volume stiffness/" + text(stiffness) + " at " + text(ratio), ratio).volume_stiffness = stiffness;
+      for (double stiffness : {0.0, 10.0, 1e3})
+        add("shear stiffness/" + text(stiffness) + " at " + text(ratio), ratio).shear_stiffness = stiffness;
     }
     for (const int layers : {0, 2, 3, 8, 9})
       for (double ratio : {0.97, 0.9}) {

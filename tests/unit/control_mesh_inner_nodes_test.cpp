@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/status.hpp"
@@ -46,6 +48,34 @@ TEST(Bone, BelowABreastOnAFlatChestIsFlat) {
   // Normals are averaged with those around them, so that the rim's are within 2 degrees of upright.
   for (const Eigen::Vector3d& p : control.inner) EXPECT_NEAR(p.z(), -0.012, 0.001);
   EXPECT_NEAR((control.outer[middle()] - control.inner[middle()]).norm(), 0.072, 0.001);
+}
+
+// Of a unit's two triangles the lesser volume seen from the middle of the other, over an upright unit's.
+double openness(const geometry::ControlMesh& control, const Eigen::Vector3i& t) {
+  const auto& [a, b, c] = std::array<int, 3>{t[0], t[1], t[2]};
+  const Eigen::Vector3d outer =
+                            (control.outer[b] - control.outer[a]).cross(control.outer[c] - control.outer[a]),
+                        inner =
+                            (control.inner[b] - control.inner[a]).cross(control.inner[c] - control.inner[a]),
+                        depth = (control.outer[a] - control.inner[a] + control.outer[b] - control.inner[b] +
+                                 control.outer[c] - control.inner[c]) /
+                                3;
+  return std::min(outer.dot(depth), inner.dot(depth)) / (outer.norm() * depth.norm());
+}
+
+// Its skin looks down (-y) and back below the nipple. Bone right behind it would turn units inside out.
+TEST(Bone, UnitsUnderAHangingBreastStandOpen) {
+  geometry::ControlMesh control = sheet(0.08);
+  for (Eigen::Vector3d& p : control.outer) p.y() -= p.z();
+  int overhang = 0;
+  for (const Eigen::Vector3i& t : control.triangles)
+    overhang +=
+        (control.outer[t[1]] - control.outer[t[0]]).cross(control.outer[t[2]] - control.outer[t[0]]).z() < 0;
+  EXPECT_GT(overhang, 10);
+  place_on_bone(control, {0.012, 0.010, 1}, 1);
+  for (const Eigen::Vector3i& t : control.triangles) EXPECT_GT(openness(control, t), 0.05);
+  for (const Eigen::Vector3d& p : control.inner)
+    EXPECT_LT(p.z(), 0);  // still below the chest, not in the breast
 }
 
 TEST(Bone, LiesUnderTheLeastTissueWhereTheSkinDipsToIt) {

@@ -124,9 +124,14 @@ TEST_F(Equilibrium, WarmStartAfterAnotherGarment) {
   for (std::size_t i = 0; i < control.outer.size(); ++i)  // as for any warm start
     EXPECT_LE((warm.outer[i] - cold.outer[i]).norm(), 1e-8);
   for (int most = 1; most < warm.iterations; ++most) {
+    SCOPED_TRACE(most);
     SolverOptions options;
     options.max_iterations = most;
     const Solution s = solve(model, tips, options, &before);
+    if (s.status == Status::converged) {  // the cap may end the way from the other garment sooner
+      expect_exact(s);
+      continue;
+    }
     EXPECT_EQ(s.status, Status::capped);
     EXPECT_LE(s.iterations, most);
     EXPECT_LE(s.residual, 1);  // no force above the tissue's own at rest
@@ -232,7 +237,7 @@ TEST_F(Equilibrium, TautLineDrawsTheTipsTogether) {
 TEST_F(Equilibrium, GravitySags) {
   Garment bare;
   SolverOptions options;
-  options.gravity = {0, 0, -0.002};
+  options.gravity = {0, 0, -0.004};
   const Solution s = solve(model, bare, options);
   EXPECT_EQ(s.status, Status::converged);
   const int tip = control.node("bust_point_L");
