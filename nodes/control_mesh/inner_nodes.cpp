@@ -14,9 +14,12 @@ using Eigen::Vector3d;
 constexpr double kShareOfBody = 0.4;  // of the way through the body: the inner node stays inside
 constexpr double kLeastVolumeShare =
     0.1;  // of the outer triangle's area that the inner one must keep, facing the same way
-constexpr double kOpen = 0.1;          // openness that units over bone are given
-constexpr int kMostSlides = 30;        // 300 leave as much undone
-constexpr double kLongestSlide = 0.3;  // of an edge, in one of them
+// Openness that units over bone are given: 0.05 and 0.2 came as near to finite elements, within 0.03 mm.
+constexpr double kOpen = 0.1;
+constexpr int kMostSlides = 30;  // 300 leave as much undone
+// Of an edge, in one of them: a unit that no slide opens, with its skin towards the bone, stays near where it
+// was.
+constexpr double kLongestSlide = 0.3;
 constexpr int kSmoothingRounds = 2;
 constexpr double kShrink = 0.9;
 constexpr int kMostRounds = 40;
@@ -100,12 +103,12 @@ void bend_least(const geometry::ControlMesh& control, std::vector<Vector3d>& pla
     if (number[i] >= 0) places[i] = at.row(number[i]);
 }
 
-// How far a unit is from being turned inside out, and what changes it: each of its triangles as seen from the
-// middle of the other, over that of an upright unit of the same outer triangle and depth. The solver's
-// barrier keeps both above 0.
+// How far a unit is from being turned inside out, and what changes it: the volume between each of its
+// triangles and the middle of the other, over that of an upright unit of the same outer triangle and depth.
+// The solver keeps both above 0.
 struct Openness {
   double share;
-  std::array<Vector3d, 3> by_inner;  // its derivative by the inner nodes, 1/m
+  std::array<Vector3d, 3> by_inner;  // its derivative by the inner nodes at this depth, 1/m
 };
 std::array<Openness, 2> openness_of(const std::vector<Vector3d>& outer, const std::vector<Vector3d>& inner,
                                     const Eigen::Vector3i& corners) {
@@ -123,22 +126,27 @@ std::array<Openness, 2> openness_of(const std::vector<Vector3d>& outer, const st
   return {from_below, from_above};
 }
 
-// Slides places on the surface that they make until no unit is nearly turned inside out: under a hanging
-// breast, whose skin looks down and back, they have to lie higher than the skin does. Each unit moves its own
-// by what it lacks, and where units disagree a place moves by the mean (position based dynamics: Mueller et
-// al., J. Vis. Commun. Image R. 18, 2007, 109).
-void slide_open(const geometry::ControlMesh& control, std::vector<Vector3d>& places) {
+// Slides places on the surface that they make until no unit with inner nodes `share` of the way to them is
+// nearly turned inside out: under a hanging breast, whose skin looks down and back, they have to lie higher
+// than the skin does. Each unit moves its own by what it lacks, and where units disagree a place moves by the
+// mean, each counted by what it lacks, so that one that lacks next to nothing does not count (position based
+// dynamics: Mueller et al., J. Vis. Commun. Image R. 18, 2007, 109).
+void slide_open(const geometry::ControlMesh& control, double share, std::vector<Vector3d>& places) {
+  std::vector<Vector3d> inner(places.size());
   for (int round = 0; round < kMostSlides; ++round) {
+    for (std::size_t v = 0; v < places.size(); ++v)
+      inner[v] = control.outer[v] + share * (places[v] - control.outer[v]);
     std::vector<Vector3d> move(places.size(), Vector3d::Zero());
-    std::vector<int> asked(places.size(), 0);
+    std::vector<double> lacking(places.size(), 0);
     const std::vector<Vector3d> normals = geometry::vertex_normals(places, control.triangles);
     for (const Eigen::Vector3i& corners : control.triangles)
-      for (const Openness& openness : openness_of(control.outer, places, corners)) {
-        if (!(openness.share < kOpen)) continue;
+      for (const Openness& openness : openness_of(control.outer, inner, corners)) {
+        const double lack = kOpen - openness.share;
+        if (!(lack > 0)) continue;
         std::array<Vector3d, 3> along;
         double squares = 0, longest = 0;
         for (int i = 0; i < 3; ++i) {
-          const Vector3d& by = openness.by_inner[i];
+          const Vector3d by = share * openness.by_inner[i];
           const Vector3d& normal = normals[corners[i]];
           along[i] =
               control.inner_fixed[corners[i]] ? Vector3d(0, 0, 0) : Vector3d(by - by.dot(normal) * normal);
@@ -147,15 +155,29 @@ void slide_open(const geometry::ControlMesh& control, std::vector<Vector3d>& pla
         }
         if (!(longest > 0)) continue;
         const double edge = (control.outer[corners[0]] - control.outer[corners[1]]).norm();
-        const double by = std::min((kOpen - openness.share) / squares, kLongestSlide * edge / longest);
+        const double by = std::min(lack / squares, kLongestSlide * edge / longest);
         for (int i = 0; i < 3; ++i) {
-          move[corners[i]] += by * along[i];
-          ++asked[corners[i]];
+          move[corners[i]] += lack * by * along[i];
+          lacking[corners[i]] += lack;
         }
       }
-    if (std::all_of(asked.begin(), asked.end(), [](int n) { return n == 0; })) return;
     for (std::size_t v = 0; v < places.size(); ++v)
-      if (asked[v] > 0) places[v] += move[v] / asked[v];
+      if (lacking[v] > 0) places[v] += move[v] / lacking[v];
+  }
+}
+
+// Brings inner nodes nearer to their outer ones until none of their units is too thick, or they have all but
+// come there.
+template <typename TooThick>
+void thin_units(geometry::ControlMesh& control, const TooThick& is_too_thick) {
+  for (int round = 0; round < kMostRounds; ++round) {
+    std::vector<char> too_thick(control.outer.size(), 0);
+    for (const Eigen::Vector3i& corners : control.triangles)
+      if (is_too_thick(corners))
+        for (int i = 0; i < 3; ++i) too_thick[corners[i]] = 1;
+    if (std::find(too_thick.begin(), too_thick.end(), 1) == too_thick.end()) return;
+    for (std::size_t v = 0; v < too_thick.size(); ++v)
+      if (too_thick[v]) control.inner[v] = control.outer[v] + kShrink * (control.inner[v] - control.outer[v]);
   }
 }
 
@@ -166,12 +188,16 @@ void place_on_bone(geometry::ControlMesh& control, const BoneRule& rule, double 
   std::vector<Vector3d> bone(control.outer.size());
   for (std::size_t v = 0; v < bone.size(); ++v) bone[v] = control.outer[v] - rule.inset * normals[v];
   bend_least(control, bone);
-  slide_open(control, bone);
+  slide_open(control, scale * rule.share, bone);
   for (std::size_t v = 0; v < bone.size(); ++v) {
     const double depth = (control.outer[v] - bone[v]).dot(normals[v]);
     bone[v] -= std::max(0.0, rule.least - depth) * normals[v];
     control.inner[v] = control.outer[v] + scale * rule.share * (bone[v] - control.outer[v]);
   }
+  thin_units(control, [&control](const Eigen::Vector3i& corners) {  // what no slide opened
+    const auto [from_below, from_above] = openness_of(control.outer, control.inner, corners);
+    return from_above.share <= 0 && from_below.share > 0;
+  });
 }
 
 std::vector<double> thickness_of(const CushionRule& rule, const geometry::ControlMesh& control) {
@@ -203,23 +229,16 @@ bool place_inner_nodes(geometry::ControlMesh& control, std::vector<double> thick
 }
 
 bool thin_folded_units(geometry::ControlMesh& control) {
-  for (int round = 0;; ++round) {
-    std::vector<char> too_thick(control.outer.size(), 0);
-    bool folded = false;
-    for (const Eigen::Vector3i& k : control.triangles) {
-      const Vector3d outer =
-          geometry::area_vector(control.outer[k[0]], control.outer[k[1]], control.outer[k[2]]);
-      const Vector3d inner =
-          geometry::area_vector(control.inner[k[0]], control.inner[k[1]], control.inner[k[2]]);
-      folded = folded || inner.dot(outer) < 0;
-      if (inner.dot(outer) < kLeastVolumeShare * outer.squaredNorm())
-        for (int i = 0; i < 3; ++i) too_thick[k[i]] = 1;
-    }
-    if (round == kMostRounds || std::find(too_thick.begin(), too_thick.end(), 1) == too_thick.end())
-      return !folded;
-    for (std::size_t v = 0; v < too_thick.size(); ++v)
-      if (too_thick[v]) control.inner[v] = control.outer[v] + kShrink * (control.inner[v] - control.outer[v]);
-  }
+  const auto facing = [&control](
+                          const Eigen::Vector3i& k) {  // of the inner triangle, over the outer one's area
+    const Vector3d outer =
+        geometry::area_vector(control.outer[k[0]], control.outer[k[1]], control.outer[k[2]]);
+    return geometry::area_vector(control.inner[k[0]], control.inner[k[1]], control.inner[k[2]]).dot(outer) /
+           outer.squaredNorm();
+  };
+  thin_units(control, [&](const Eigen::Vector3i& k) { return facing(k) < kLeastVolumeShare; });
+  return std::none_of(control.triangles.begin(), control.triangles.end(),
+                      [&](const Eigen::Vector3i& k) { return facing(k) < 0; });
 }
 
 }  // namespace tensegric_fit::control_mesh

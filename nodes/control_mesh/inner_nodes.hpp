@@ -20,7 +20,7 @@ std::vector<double> thickness_of(const CushionRule& rule, const geometry::Contro
 /// Puts the inner nodes on the smooth surface through `inset` below the nodes whose inner ones are held: of
 /// all such surfaces the one that bends least (the umbrella operator of its nodes, squared, summed), pressed
 /// down where less than `least` would be left. On it they slide until, as far as can be, no unit is nearly
-/// turned inside out. Of the depth they take the rule's share, times `scale`.
+/// turned inside out; the others are thinned. Of the depth they take the rule's share, times `scale`.
 void place_on_bone(geometry::ControlMesh& control, const BoneRule& rule, double scale);
 
 /// Brings inner nodes nearer to their outer ones wherever an inner triangle is folded or a sliver. False

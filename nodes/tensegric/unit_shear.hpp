@@ -1,5 +1,5 @@
-/// A unit's resistance to a shift of its skin side against its bone side. Ours: of the lattice alone it fades
-/// where units are flatter than they are wide, as struts then lie along the skin.
+/// A unit's resistance to a shift of its skin side against its bone side. Ours: struts alone resist it the
+/// less the flatter a unit is, as they lie along the skin then.
 #pragma once
 
 #include <Eigen/Core>

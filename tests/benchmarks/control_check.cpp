@@ -39,7 +39,14 @@ geometry::TriangleMesh trunk_of(const geometry::TriangleMesh& body, const body_m
   return geometry::submesh(body, keep);
 }
 
-/// Outer triangles that face against the skin nearest to them, inner ones that face against their outer one.
+/// Whether a unit is turned inside out: one of its triangles faces away from the middle of the other.
+bool inside_out(const geometry::ControlMesh& control, const Eigen::Vector3i& t) {
+  Vector3d depth = Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) depth += control.outer[t[i]] - control.inner[t[i]];
+  return area_of(control.outer, t).dot(depth) <= 0 || area_of(control.inner, t).dot(depth) <= 0;
+}
+
+/// Outer triangles that face against the skin nearest to them, and units that are turned inside out.
 int folded_triangles(const geometry::ControlMesh& control, const geometry::TriangleMesh& body) {
   const control_mesh::Skin skin(body);  // nearest vertices may be those of the other side of a fold
   int folded = 0;
@@ -48,7 +55,7 @@ int folded_triangles(const geometry::ControlMesh& control, const geometry::Trian
     const Vector3d middle = (control.outer[t[0]] + control.outer[t[1]] + control.outer[t[2]]) / 3;
     Vector3d below = skin.normal_near(middle);
     for (int i = 0; i < 3; ++i) below += skin.normal_near((middle + control.outer[t[i]]) / 2);
-    folded += outer.dot(below) <= 0 || outer.dot(area_of(control.inner, t)) <= 0;
+    folded += outer.dot(below) <= 0 || inside_out(control, t);
   }
   return folded;
 }

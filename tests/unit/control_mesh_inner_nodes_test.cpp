@@ -72,10 +72,16 @@ TEST(Bone, UnitsUnderAHangingBreastStandOpen) {
     overhang +=
         (control.outer[t[1]] - control.outer[t[0]]).cross(control.outer[t[2]] - control.outer[t[0]]).z() < 0;
   EXPECT_GT(overhang, 10);
-  place_on_bone(control, {0.012, 0.010, 1}, 1);
-  for (const Eigen::Vector3i& t : control.triangles) EXPECT_GT(openness(control, t), 0.05);
-  for (const Eigen::Vector3d& p : control.inner)
-    EXPECT_LT(p.z(), 0);  // still below the chest, not in the breast
+  for (const double share : {0.6, 0.77, 1.0}) {
+    place_on_bone(control, {0.012, 0.010, share}, 1);
+    // A tenth is aimed at; with 30 rounds, and skin that is pressed down afterwards, a little less is
+    // reached.
+    for (const Eigen::Vector3i& t : control.triangles) EXPECT_GT(openness(control, t), 0.05) << share;
+    for (std::size_t v = 0; v < control.inner.size(); ++v) {  // on the way below the chest, not in the breast
+      const Eigen::Vector3d bone = control.outer[v] + (control.inner[v] - control.outer[v]) / share;
+      EXPECT_LT(bone.z(), 0) << share;
+    }
+  }
 }
 
 TEST(Bone, LiesUnderTheLeastTissueWhereTheSkinDipsToIt) {

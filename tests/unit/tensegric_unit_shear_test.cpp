@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <random>
+#include <string>
 
 #include "tensegric/solver.hpp"
 #include "tensegric_bust.hpp"
@@ -142,7 +145,7 @@ TEST(UnitShear, NearlyFlatUnitsHaveNone) {
   }
 }
 
-// Skin that is drawn sideways by a line moves less the stiffer its units are against shear.
+// Skin that a force draws sideways moves less the stiffer its units are against shear.
 TEST(UnitShear, HoldsSkinBack) {
   double moves[2];
   for (const double stiffness : {0.0, 3.0}) {
