@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <random>
 
 #include "tensegric/solver.hpp"
 #include "tensegric_bust.hpp"
+#include "tensegric_derivatives.hpp"
 
 namespace tensegric_fit::tensegric {
 namespace {
@@ -41,44 +41,11 @@ ModelOptions stiff_tissue(double volume_stiffness) {
 
 TEST(UnitPressure, DerivativesAreThoseOfItsEnergy) {
   const Model model = build_model(bust_mesh(), stiff_tissue(3));
-  const std::vector<int> free_index = model.free_index();
-  const std::vector<UnitPressure> units = unit_pressures(model, free_index);
+  const std::vector<UnitPressure> units = unit_pressures(model, model.free_index());
   ASSERT_GT(units.size(), 60U);
-  std::vector<std::pair<int, int>> pairs;
-  for (const UnitPressure& unit : units)
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < i; ++j)
-        if (free_index[unit.nodes[i]] >= 0 && free_index[unit.nodes[j]] >= 0)
-          pairs.emplace_back(free_index[unit.nodes[i]], free_index[unit.nodes[j]]);
-  const unsigned seed = std::random_device{}();
-  const testing::ScopedTrace trace{__FILE__, __LINE__, "seed " + std::to_string(seed)};
-  std::mt19937 random{seed};
-  std::normal_distribution<double> normal(0, 1);
-  const int rows = 3 * model.free_nodes();
-  const Eigen::VectorXd direction =
-      Eigen::VectorXd::NullaryExpr(rows, [&](Eigen::Index) { return normal(random); });
-  Positions x = model.rest_positions();
-  const auto moved = [&](double step) {
-    Positions y = x;
-    for (std::size_t i = 0; i < y.size(); ++i)
-      if (free_index[i] >= 0) y[i] += step * direction.segment<3>(3 * free_index[i]);
-    return y;
-  };
-  x = moved(0.003);
-  const auto gradient = [&](const Positions& y) {
-    Eigen::VectorXd g = Eigen::VectorXd::Zero(rows);
-    add_pressure_gradient(units, y, free_index, g);
-    return g;
-  };
-  constexpr double kStep = 1e-6;  // m; the third derivative and rounding then stay below 1e-7 of the result
-  const double slope =
-      (pressure_energy(units, moved(kStep)) - pressure_energy(units, moved(-kStep))) / (2 * kStep);
-  EXPECT_NEAR(gradient(x).dot(direction), slope, 1e-6 * std::abs(slope));
-  NodeMatrix hessian(model.free_nodes(), pairs);
-  add_pressure_hessian(units, x, free_index, hessian);
-  const Eigen::VectorXd change = (gradient(moved(kStep)) - gradient(moved(-kStep))) / (2 * kStep);
-  const Eigen::VectorXd product = hessian.lower().selfadjointView<Eigen::Lower>() * direction;
-  EXPECT_LE((change - product).norm(), 1e-6 * change.norm());
+  expect_derivatives(model, units, pressure_energy, add_pressure_gradient,
+                     [](const auto& of, const Positions& x, const std::vector<int>& index,
+                        NodeMatrix& hessian) { add_pressure_hessian(of, x, index, hessian); });
 }
 
 // A unit that leans so far that it is nearly flat resists nothing: where it holds less than a thousandth of

@@ -5,11 +5,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <random>
-#include <string>
 
 #include "tensegric/solver.hpp"
 #include "tensegric_bust.hpp"
+#include "tensegric_derivatives.hpp"
 
 namespace tensegric_fit::tensegric {
 namespace {
@@ -77,48 +76,14 @@ TEST(UnitShear, DerivativesAreThoseOfItsEnergy) {
   options.inner = InnerNodes::bound;
   options.shear_stiffness = kShearStiffness;
   const Model model = build_model(bust_mesh(), options);
-  const std::vector<int> free_index = model.free_index();
-  const std::vector<UnitShear> units = unit_shears(model, free_index);
+  const std::vector<UnitShear> units = unit_shears(model, model.free_index());
   ASSERT_GT(units.size(), 60U);
-  std::vector<std::pair<int, int>> pairs;
-  for (const UnitShear& unit : units)
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < i; ++j)
-        if (free_index[unit.nodes[i]] >= 0 && free_index[unit.nodes[j]] >= 0)
-          pairs.emplace_back(free_index[unit.nodes[i]], free_index[unit.nodes[j]]);
-  const unsigned seed = std::random_device{}();
-  const testing::ScopedTrace trace{__FILE__, __LINE__, "seed " + std::to_string(seed)};
-  std::mt19937 random{seed};
-  std::normal_distribution<double> normal(0, 1);
-  const int rows = 3 * model.free_nodes();
-  const Eigen::VectorXd direction =
-      Eigen::VectorXd::NullaryExpr(rows, [&](Eigen::Index) { return normal(random); });
-  Positions x = model.rest_positions();
-  const auto stepped = [&](double step) {
-    Positions y = x;
-    for (std::size_t i = 0; i < y.size(); ++i)
-      if (free_index[i] >= 0) y[i] += step * direction.segment<3>(3 * free_index[i]);
-    return y;
-  };
-  x = stepped(0.003);
-  const auto gradient = [&](const Positions& y) {
-    Eigen::VectorXd g = Eigen::VectorXd::Zero(rows);
-    add_shear_gradient(units, y, free_index, g);
-    return g;
-  };
-  constexpr double kStep = 1e-6;  // m; the third derivative and rounding then stay below 1e-7 of the result
-  const double slope =
-      (shear_energy(units, stepped(kStep)) - shear_energy(units, stepped(-kStep))) / (2 * kStep);
-  EXPECT_NEAR(gradient(x).dot(direction), slope, 1e-6 * std::abs(slope));
-  NodeMatrix hessian(model.free_nodes(), pairs);
-  add_shear_hessian(units, x, free_index, hessian);
-  const Eigen::VectorXd change = (gradient(stepped(kStep)) - gradient(stepped(-kStep))) / (2 * kStep);
-  const Eigen::VectorXd product = hessian.lower().selfadjointView<Eigen::Lower>() * direction;
-  EXPECT_LE((change - product).norm(), 1e-6 * change.norm());
+  expect_derivatives(model, units, shear_energy, add_shear_gradient,
+                     [](const auto& of, const Positions& x, const std::vector<int>& index,
+                        NodeMatrix& hessian) { add_shear_hessian(of, x, index, hessian); });
 }
 
-// Three layers of one sheet shear like one: what the lattice alone cannot do, whose struts lie flatter in
-// each.
+// Three layers of one sheet shear like one: struts alone cannot do that, as they lie flatter in each.
 TEST(UnitShear, IsTheSameInLayers) {
   Model model = sheet(0.02);
   Matrix3d shear = Matrix3d::Identity();
