@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Ends `fit` at every system call by which it writes its results: by SIGKILL there, and by a full disk (ENOSPC) there. What stands in the
-folder then under a result's name is whole, a report stands only where all else does, and `fit` started again makes everything. Resumable;
-left out with a word where strace is not installed or may not trace.
+"""Ends a program at every system call by which it writes its results: by SIGKILL there, and by a full disk (ENOSPC) there. Resumable; left out
+with a word where strace is not installed or may not trace.
+Without --export `fit`: what stands in the folder then under a result's name is whole, a report stands only where all else does, and `fit`
+started again makes everything. With it the export of a node, by the program write_export: the folder is whole or not there, and the
+next export leaves nothing of the one that was ended.
 
-Usage: every_write.py FOLDER_OF_THE_PROGRAMS --work DIR [--every N] [--anew]   N: every N-th of them only"""
+Usage: every_write.py FOLDER_OF_THE_PROGRAMS --work DIR [--export PROGRAM] [--every N] [--anew]   N: every N-th of them only"""
 import argparse
 import json
 import pathlib
@@ -13,26 +15,27 @@ import subprocess
 import sys
 
 LEFT_OUT = 77  # ctest's SKIP_RETURN_CODE
-CALLS = ("openat", "write", "writev", "pwrite64", "fsync", "rename", "mkdir")
+CALLS = ("openat", "write", "writev", "pwrite64", "fsync", "rename", "renameat", "mkdir", "mkdirat")
 FULL_DISK = 1  # exit code: cannot be written
 LINE = re.compile(r"^(\d+)\s+(\w+)\((.*)$")
 
 
-class Fit:
-    def __init__(self, programs, work):
-        self.work, self.mesh, self.out = work, work / "coarse.ply", work / "out"
-        self.command = [programs / "fit", "--mesh", self.mesh, "--garment", "B1", "--export", "obj,glb,stl", "--quiet", "--out", self.out]
-        if not self.mesh.exists():  # few triangles: the calls are the same, and each takes two fits
-            for made in ([programs / "virtual_booth", "--seed", "5", "--points", "1000", "--out", work / "woman"],
-                         [programs / "repose", work / "woman/body.ply", "--triangles", "8000", "--out", self.mesh]):
-                subprocess.run(made, check=True, stdout=subprocess.DEVNULL)
+class Writer:
+    """A program that writes results into the folder `out`, with nothing else of it in the folder around it."""
+
+    def __init__(self, command, place):
+        self.command, self.place, self.out = command, place, place / "out"
 
     def run(self, *before):
-        return subprocess.run([*before, *self.command], capture_output=True, text=True, check=False, timeout=300)
+        return subprocess.run([*before, *self.command, self.out], capture_output=True, text=True, check=False, timeout=300)
+
+    def clear(self):
+        shutil.rmtree(self.place, ignore_errors=True)
+        self.place.mkdir(parents=True)
 
     def traced(self):
         """Calls of the main thread that concern the folder: name and place among its calls of that name."""
-        trace = self.work / "trace.txt"
+        trace = self.place.parent / "trace.txt"
         done = self.run("strace", "-f", "-y", "-s", "0", "-e", "trace=" + ",".join(CALLS), "-o", trace)
         if done.returncode != 0:
             print("strace may not trace here:", done.stderr)
@@ -46,12 +49,43 @@ class Fit:
             if match[1] != main:
                 continue
             counts[match[2]] = counts.get(match[2], 0) + 1
-            if str(self.out) in match[3]:
+            if str(self.place) in match[3]:
                 found.append((match[2], counts[match[2]]))
         return found
 
     def results(self):
         return {file.name: content(file) for file in self.out.iterdir()} if self.out.exists() else {}
+
+
+class Fit(Writer):
+    def __init__(self, programs, work):
+        mesh = work / "coarse.ply"
+        super().__init__([programs / "fit", "--mesh", mesh, "--garment", "B1", "--export", "obj,glb,stl", "--quiet", "--out"], work / "fit")
+        if not mesh.exists():  # few triangles: the calls are the same, and each takes two fits
+            for made in ([programs / "virtual_booth", "--seed", "5", "--points", "1000", "--out", work / "woman"],
+                         [programs / "repose", work / "woman/body.ply", "--triangles", "8000", "--out", mesh]):
+                subprocess.run(made, check=True, stdout=subprocess.DEVNULL)
+
+    def faults_of_left(self, left, whole, refused):
+        faults = [f"{file} is half" for file, content_there in left.items() if not file.endswith(".part") and content_there != whole[file]]
+        if "report.json" in left and set(whole) - set(left):
+            faults.append("a report without " + ", ".join(sorted(set(whole) - set(left))))
+        return faults + [f"{file} is left" for file in left if refused and file.endswith(".part")]
+
+    def make_way(self):
+        """`fit` goes on in the folder that is there."""
+
+
+class Export(Writer):
+    def __init__(self, program, work):
+        super().__init__([program], work / "exports")
+
+    def faults_of_left(self, left, whole, refused):
+        faults = ["the folder is half"] if self.out.exists() and left != whole else []
+        return faults + [f"{entry.name} is left" for entry in self.place.iterdir() if refused]
+
+    def make_way(self):
+        shutil.rmtree(self.out, ignore_errors=True)  # a whole one, which is never overwritten
 
 
 def content(file):
@@ -63,21 +97,19 @@ def content(file):
     return report
 
 
-def faults_of(fit, whole, name, place, how):
+def faults_of(writer, whole, name, place, how):
     """What is wrong after one end at that call."""
-    shutil.rmtree(fit.out, ignore_errors=True)
-    done = fit.run("strace", "-f", "-o", "/dev/null", "-e", f"trace={name}", "-e", f"inject={name}:{how}:when={place}")
-    faults, left = [], fit.results()
-    if how.startswith("error"):
-        if done.returncode != FULL_DISK or not done.stderr:
-            faults.append(f"exit code {done.returncode}, words '{done.stderr}'")
-        faults += [f"{file} is left" for file in left if file.endswith(".part")]
-    faults += [f"{file} is half" for file, bytes_there in left.items() if not file.endswith(".part") and bytes_there != whole[file]]
-    if "report.json" in left and set(whole) - set(left):
-        faults.append("a report without " + ", ".join(sorted(set(whole) - set(left))))
-    again = fit.run()
-    if again.returncode != 0 or fit.results() != whole:
-        faults.append(f"started again: exit code {again.returncode}, {sorted(set(fit.results()) ^ set(whole))} {again.stderr}")
+    writer.clear()
+    done = writer.run("strace", "-f", "-o", "/dev/null", "-e", f"trace={name}", "-e", f"inject={name}:{how}:when={place}")
+    refused = how.startswith("error")
+    faults = writer.faults_of_left(writer.results(), whole, refused)
+    if refused and (done.returncode != FULL_DISK or not done.stderr):
+        faults.append(f"exit code {done.returncode}, words '{done.stderr}'")
+    writer.make_way()
+    again = writer.run()
+    if again.returncode != 0 or writer.results() != whole:
+        faults.append(f"started again: exit code {again.returncode}, {sorted(set(writer.results()) ^ set(whole))} {again.stderr}")
+    faults += [f"{entry.name} is left beside it" for entry in writer.place.iterdir() if entry != writer.out]
     return faults
 
 
@@ -85,6 +117,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("programs", type=pathlib.Path)
     parser.add_argument("--work", type=pathlib.Path, required=True)
+    parser.add_argument("--export", type=pathlib.Path, metavar="PROGRAM", help="write_export")
     parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--anew", action="store_true", help="forgets what was done")
     arguments = parser.parse_args()
@@ -92,16 +125,17 @@ def main():
         print("strace is not installed: nothing was ended at its writes")
         return LEFT_OUT
     arguments.work.mkdir(parents=True, exist_ok=True)
-    fit = Fit(arguments.programs, arguments.work.resolve())
-    shutil.rmtree(fit.out, ignore_errors=True)
-    calls = fit.traced()
+    work = arguments.work.resolve()
+    writer = Export(arguments.export.resolve(), work) if arguments.export else Fit(arguments.programs, work)
+    writer.clear()
+    calls = writer.traced()
     if calls is None:
         return LEFT_OUT
-    whole = fit.results()
-    if len(calls) < 3 * len(whole):  # each file is opened, written and renamed
+    whole = writer.results()
+    if len(calls) < 3 * len(whole):  # each file is opened, written and taken to the disk
         print(f"{len(calls)} calls for {len(whole)} files: they were not seen")
         return 1
-    log = arguments.work / "results.jsonl"
+    log = work / "results.jsonl"
     if arguments.anew:
         log.unlink(missing_ok=True)
     known = {line["call"]: line for line in map(json.loads, log.read_text(encoding="utf-8").splitlines())} if log.exists() else {}
@@ -110,7 +144,7 @@ def main():
         for how in ("signal=KILL", "error=ENOSPC"):
             call = f"{name} {place} {how}"
             if call not in known:
-                known[call] = {"call": call, "faults": faults_of(fit, whole, name, place, how)}
+                known[call] = {"call": call, "faults": faults_of(writer, whole, name, place, how)}
                 with open(log, "a", encoding="utf-8") as file:
                     file.write(json.dumps(known[call]) + "\n")
             if known[call]["faults"]:
