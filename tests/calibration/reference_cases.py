@@ -4,7 +4,7 @@
 DATA has bodies in open/ and fem/bodies/, references in fem/ (NAME_VARIANT_rNNN.npz) and their tensions in fem/summary.json. Writes a CSV a
 reference and OUT/cases.yaml. VARIANT: skin, hull (taut over the cleavage), strap, hip, hiphull (taut); all but hip where none is named: the
 reference's skin band goes into the cleft between the buttocks. B1, H1: the shipped garment in place of skin's and hiphull's own band; string: B1 without
-width. Requests below 0.95 are left out: they are for looking at.
+width; B1_taut: B1 as a taut band, in place of hull's; H1_sides: H1 ended at her sides, where skin carries it. Requests below 0.95 are left out: they are for looking at.
 """
 import json
 import pathlib
@@ -14,17 +14,20 @@ import reference_csv
 
 GARMENTS = pathlib.Path(__file__).resolve().parents[2] / "launch" / "garments"
 GARMENT = {"skin": "chest", "hull": "hull", "strap": "strap", "hip": "hip", "hiphull": "hiphull"}
-SHIPPED = {"B1": "skin", "H1": "hiphull", "string": "skin"}  # the reference that a shipped garment is compared with
+SHIPPED = {"B1": "skin", "H1": "hiphull", "string": "skin", "B1_taut": "hull", "H1_sides": "hiphull"}  # garment -> the reference that it is compared with
+CHANGED = {"string": ("B1", "ratio:", "width: 0\n    ratio:"), "B1_taut": ("B1", "ratio:", "follow: taut\n    ratio:"),
+           "H1_sides": ("H1", "hip_front_L, hip_side_L, buttock_point_L, centre_back, buttock_point_R, hip_side_R, hip_front_R", "hip_side_L, buttock_point_L, centre_back, buttock_point_R, hip_side_R")}  # shipped garments with a change
 USUAL = ("skin", "hull", "strap", "hiphull")
 LEAST_REQUEST = 0.95
 
 
 def garment_of(data, out, body, variant):
     """The garment's file. The taut band has the course of the one on the skin."""
-    if variant == "string":
-        band = (GARMENTS / "B1.yaml").read_text()
-        (out / "string.yaml").write_text(band.replace("ratio:", "width: 0\n    ratio:"))
-        return out / "string.yaml"
+    if variant in CHANGED:
+        shipped, text, instead = CHANGED[variant]
+        changed = (GARMENTS / f"{shipped}.yaml").read_text().replace(text, instead)
+        (out / f"{variant}.yaml").write_text(changed)
+        return out / f"{variant}.yaml"
     if variant in SHIPPED:
         return GARMENTS / f"{variant}.yaml"
     path = data / "fem" / f"{body}_{GARMENT[variant]}.yaml"
