@@ -62,8 +62,9 @@ void drop_repeats(std::vector<Vector3d>& points) {
                points.end());
 }
 
+constexpr double kFarthest = 1e4;  // m: beyond it coordinates are nonsense, and may overflow
+
 PointCloud in_booth(const PointCloud& seen, const Isometry3d& booth_from_sensor) {
-  constexpr double kFarthest = 1e4;  // m: beyond it coordinates are nonsense, and may overflow
   PointCloud cloud;
   for (const Vector3d& p : seen.points) {
     const Vector3d q = booth_from_sensor * p;
@@ -87,6 +88,14 @@ Assembly assemble(const Capture& capture, const std::vector<Isometry3d>& booth_f
       if (capture.clouds[sensor])
         clouds[sensor] = in_booth(capture.clouds[sensor]->cloud, booth_from_sensor[sensor]);
   });
+  for (std::size_t sensor = 0; sensor < clouds.size(); ++sensor)
+    if (capture.clouds[sensor] && !capture.clouds[sensor]->cloud.points.empty() &&
+        clouds[sensor].points.empty())
+      throw geometry::Refusal(
+          geometry::refusal::kEmptyCloud,
+          fmt::format("of sensor {} of {} no point lies within {:.0f} km of the booth: its points, or where "
+                      "it stands, are wrong",
+                      sensor + 1, clouds.size(), kFarthest / 1000));
   std::vector<bool> lost(clouds.size());  // where the sensor stood
   for (const SharedFrame& frame : shared)
     for (const int sensor : frame.sensors) lost[sensor] = true;

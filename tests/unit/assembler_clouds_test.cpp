@@ -128,6 +128,20 @@ TEST(AssemblerTest, PointsThatAreNotFiniteAndSensorsThatAreMissingAreLeftOut) {
     ASSERT_TRUE(assembly.cloud.points[i].allFinite() && assembly.cloud.normals[i].allFinite());
 }
 
+TEST(AssemblerTest, ASensorThatStandsNowhereNearTheBoothIsNamed) {
+  Booth booth = off_by(0);
+  booth.booth_from_sensor[3].translation().x() = 1e38;
+  try {
+    assemble(booth.capture, booth.booth_from_sensor, by_column());
+    FAIL() << "let in";
+  } catch (const geometry::Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), geometry::refusal::kEmptyCloud);
+    EXPECT_NE(std::string(refusal.what()).find("sensor 4 of 12"), std::string::npos) << refusal.what();
+  }
+  booth.capture.clouds[3] = nullptr;  // one that is missing is not looked at
+  EXPECT_GT(assemble(booth.capture, booth.booth_from_sensor, by_column()).cloud.points.size(), 50000u);
+}
+
 TEST(AssemblerTest, ColumnsThatAreOffAreBroughtTogether) {
   for (const double off : {0.0005, 0.002}) {
     const Booth& booth = off_by(off);
