@@ -75,6 +75,19 @@ PointCloud in_booth(const PointCloud& seen, const Isometry3d& booth_from_sensor)
   return cloud;
 }
 
+/// \throw Refusal no_transform: it saw something, and nothing of that is near the booth
+void check_place(const SensorCloud& sent, const PointCloud& placed) {
+  const auto& seen = sent.cloud.points;
+  if (!placed.points.empty() ||
+      std::none_of(seen.begin(), seen.end(), [](const Vector3d& p) { return p.allFinite(); }))
+    return;
+  throw geometry::Refusal(
+      geometry::refusal::kNoTransform,
+      fmt::format("no point of the cloud in frame '{}' lies within {:.0f} km of the booth: its points, or "
+                  "where its sensor stands, are wrong",
+                  sent.frame_id, kFarthest / 1000));
+}
+
 }  // namespace
 
 Assembly assemble(const Capture& capture, const std::vector<Isometry3d>& booth_from_sensor,
@@ -89,13 +102,7 @@ Assembly assemble(const Capture& capture, const std::vector<Isometry3d>& booth_f
         clouds[sensor] = in_booth(capture.clouds[sensor]->cloud, booth_from_sensor[sensor]);
   });
   for (std::size_t sensor = 0; sensor < clouds.size(); ++sensor)
-    if (capture.clouds[sensor] && !capture.clouds[sensor]->cloud.points.empty() &&
-        clouds[sensor].points.empty())
-      throw geometry::Refusal(
-          geometry::refusal::kEmptyCloud,
-          fmt::format("of sensor {} of {} no point lies within {:.0f} km of the booth: its points, or where "
-                      "it stands, are wrong",
-                      sensor + 1, clouds.size(), kFarthest / 1000));
+    if (capture.clouds[sensor]) check_place(*capture.clouds[sensor], clouds[sensor]);
   std::vector<bool> lost(clouds.size());  // where the sensor stood
   for (const SharedFrame& frame : shared)
     for (const int sensor : frame.sensors) lost[sensor] = true;
@@ -116,6 +123,8 @@ Assembly assemble(const Capture& capture, const std::vector<Isometry3d>& booth_f
   }
   // 3. One cloud. A normal that may point into the body is worse than none.
   for (const PointCloud& column : columns) geometry::append(assembly.cloud, column);
+  if (assembly.cloud.points.empty())
+    throw geometry::Refusal(geometry::refusal::kEmptyCloud, "no sensor saw anything");
   for (std::size_t i = 0; i < assembly.cloud.normals.size(); ++i)
     if (lost[assembly.cloud.sensor[i]]) assembly.cloud.normals[i].setZero();
   return assembly;

@@ -12,7 +12,6 @@
 namespace tensegric_fit::benchmarks {
 namespace {
 
-const std::string kLaunch = TENSEGRIC_FIT_LAUNCH;
 std::string body_file;
 
 // The value for `key`, made where it is not there yet.

@@ -1,4 +1,4 @@
-/// Whom the benchmarks dress: a body of the virtual booth, or one from a file.
+/// Whom the benchmarks dress, a body of the virtual booth or one from a file, and in what.
 #pragma once
 
 #include <string>
@@ -10,6 +10,8 @@
 #include "virtual_body/virtual_body.hpp"
 
 namespace tensegric_fit::benchmarks {
+
+inline const std::string kLaunch = TENSEGRIC_FIT_LAUNCH;  ///< folder of templates and garments
 
 /// A body mesh to use from now on; empty: the virtual booth's. To be called before everything else here.
 void choose_body(const std::string& ply_file);

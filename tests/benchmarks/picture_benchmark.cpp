@@ -8,8 +8,6 @@
 namespace tensegric_fit::benchmarks {
 namespace {
 
-const std::string kLaunch = TENSEGRIC_FIT_LAUNCH;
-
 void pictures(benchmark::State& state) {
   fit::StageTimes times;
   const fit::Body body = fit::measure_scan(scan(180000), {}, times);

@@ -13,8 +13,6 @@
 namespace tensegric_fit::benchmarks {
 namespace {
 
-const std::string kLaunch = TENSEGRIC_FIT_LAUNCH;
-
 struct Scene {
   std::vector<std::string> regions;  ///< none: measured only
   std::string garment;

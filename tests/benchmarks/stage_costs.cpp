@@ -69,7 +69,7 @@ class Rounds {
       measures =
           landmarks::find_landmarks(body.mesh, body.filled, made->model, landmarks::shipped_precision());
     });
-    const auto pattern = control_mesh::load_template(TENSEGRIC_FIT_LAUNCH "/templates/bust.yaml");
+    const auto pattern = control_mesh::load_template(kLaunch + "/templates/bust.yaml");
     measure("control_mesh", 1,
             [&] { control = control_mesh::fit_template(pattern, body.mesh, measures, {}, &made->model); });
     std::optional<tensegric::Model> model;

@@ -15,8 +15,11 @@ import reference_csv
 GARMENTS = pathlib.Path(__file__).resolve().parents[2] / "launch" / "garments"
 GARMENT = {"skin": "chest", "hull": "hull", "strap": "strap", "hip": "hip", "hiphull": "hiphull"}
 SHIPPED = {"B1": "skin", "H1": "hiphull", "string": "skin", "B1_taut": "hull", "H1_sides": "hiphull"}  # garment -> the reference that it is compared with
-CHANGED = {"string": ("B1", "ratio:", "width: 0\n    ratio:"), "B1_taut": ("B1", "ratio:", "follow: taut\n    ratio:"),
-           "H1_sides": ("H1", "hip_front_L, hip_side_L, buttock_point_L, centre_back, buttock_point_R, hip_side_R, hip_front_R", "hip_side_L, buttock_point_L, centre_back, buttock_point_R, hip_side_R")}  # shipped garments with a change
+CHANGED = {  # shipped garments with changes
+    "string": ("B1", [("ratio:", "width: 0\n    ratio:")]),
+    "B1_taut": ("B1", [("ratio:", "follow: taut\n    ratio:")]),
+    "H1_sides": ("H1", [("hip_front_L, ", ""), (", hip_front_R", "")]),
+}
 USUAL = ("skin", "hull", "strap", "hiphull")
 LEAST_REQUEST = 0.95
 
@@ -24,9 +27,13 @@ LEAST_REQUEST = 0.95
 def garment_of(data, out, body, variant):
     """The garment's file. The taut band has the course of the one on the skin."""
     if variant in CHANGED:
-        shipped, text, instead = CHANGED[variant]
-        changed = (GARMENTS / f"{shipped}.yaml").read_text().replace(text, instead)
-        (out / f"{variant}.yaml").write_text(changed)
+        shipped, changes = CHANGED[variant]
+        text = (GARMENTS / f"{shipped}.yaml").read_text()
+        for old, new in changes:
+            if old not in text:
+                sys.exit(f"{shipped}.yaml has no '{old}': {variant} would be {shipped}")
+            text = text.replace(old, new)
+        (out / f"{variant}.yaml").write_text(text)
         return out / f"{variant}.yaml"
     if variant in SHIPPED:
         return GARMENTS / f"{variant}.yaml"

@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 """Ends a program at every system call by which it writes its results: by SIGKILL there, and by a full disk (ENOSPC) there. Resumable; left out
 with a word where strace is not installed or may not trace.
-Without --export `fit`: what stands in the folder then under a result's name is whole, a report stands only where all else does, and `fit`
-started again makes everything. With it the export of a node, by the program write_export: the folder is whole or not there, and the
-next export leaves nothing of the one that was ended.
+Without --export it is `fit`: what stands in the folder then under a result's name is whole, a report stands only where all else does, and `fit`
+started again makes everything. With it `write_export`, which writes what a node exports: the folder is whole or not there, and the
+next export of that name leaves nothing of the one that was ended.
 
-Usage: every_write.py FOLDER_OF_THE_PROGRAMS --work DIR [--export PROGRAM] [--every N] [--anew]   N: every N-th of them only"""
+Usage: every_write.py FOLDER_OF_THE_PROGRAMS --work DIR [--export] [--every N] [--anew]   N: every N-th of them, the first of each
+kind, and what comes after the last byte was written"""
 import argparse
 import json
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -67,7 +69,7 @@ class Fit(Writer):
                 subprocess.run(made, check=True, stdout=subprocess.DEVNULL)
 
     def faults_of_left(self, left, whole, refused):
-        faults = [f"{file} is half" for file, content_there in left.items() if not file.endswith(".part") and content_there != whole[file]]
+        faults = [f"{file} is half" for file, content_there in left.items() if not file.endswith(".part") and content_there != whole.get(file)]
         if "report.json" in left and set(whole) - set(left):
             faults.append("a report without " + ", ".join(sorted(set(whole) - set(left))))
         return faults + [f"{file} is left" for file in left if refused and file.endswith(".part")]
@@ -77,8 +79,8 @@ class Fit(Writer):
 
 
 class Export(Writer):
-    def __init__(self, program, work):
-        super().__init__([program], work / "exports")
+    def __init__(self, programs, work):
+        super().__init__([programs / "write_export"], work / "exports")
 
     def faults_of_left(self, left, whole, refused):
         faults = ["the folder is half"] if self.out.exists() and left != whole else []
@@ -91,7 +93,10 @@ class Export(Writer):
 def content(file):
     if file.name != "report.json":
         return file.read_bytes()
-    report = json.loads(file.read_text(encoding="utf-8"))
+    try:
+        report = json.loads(file.read_text(encoding="utf-8"))
+    except ValueError:
+        return None  # half
     report.pop("stages", None)
     report.get("solver", {}).pop("ms", None)
     return report
@@ -105,6 +110,8 @@ def faults_of(writer, whole, name, place, how):
     faults = writer.faults_of_left(writer.results(), whole, refused)
     if refused and (done.returncode != FULL_DISK or not done.stderr):
         faults.append(f"exit code {done.returncode}, words '{done.stderr}'")
+    if not refused and done.returncode != -signal.SIGKILL:  # strace ends as what it traces
+        faults.append(f"it was not ended there: exit code {done.returncode}")
     writer.make_way()
     again = writer.run()
     if again.returncode != 0 or writer.results() != whole:
@@ -113,11 +120,17 @@ def faults_of(writer, whole, name, place, how):
     return faults
 
 
+def chosen(calls, every):
+    last = max(i for i, (name, _) in enumerate(calls) if name.startswith(("write", "pwrite")))
+    first = {name: i for i, (name, _) in reversed(list(enumerate(calls)))}
+    return [call for i, call in enumerate(calls) if i % every == 0 or i > last or i == first[call[0]]]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("programs", type=pathlib.Path)
     parser.add_argument("--work", type=pathlib.Path, required=True)
-    parser.add_argument("--export", type=pathlib.Path, metavar="PROGRAM", help="write_export")
+    parser.add_argument("--export", action="store_true", help="of a node's export")
     parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--anew", action="store_true", help="forgets what was done")
     arguments = parser.parse_args()
@@ -126,7 +139,7 @@ def main():
         return LEFT_OUT
     arguments.work.mkdir(parents=True, exist_ok=True)
     work = arguments.work.resolve()
-    writer = Export(arguments.export.resolve(), work) if arguments.export else Fit(arguments.programs, work)
+    writer = Export(arguments.programs.resolve(), work) if arguments.export else Fit(arguments.programs, work)
     writer.clear()
     calls = writer.traced()
     if calls is None:
@@ -135,12 +148,12 @@ def main():
     if len(calls) < 3 * len(whole):  # each file is opened, written and taken to the disk
         print(f"{len(calls)} calls for {len(whole)} files: they were not seen")
         return 1
-    log = work / "results.jsonl"
+    log = work / f"{writer.place.name}.jsonl"
     if arguments.anew:
         log.unlink(missing_ok=True)
     known = {line["call"]: line for line in map(json.loads, log.read_text(encoding="utf-8").splitlines())} if log.exists() else {}
     wrong = 0
-    for name, place in calls[::arguments.every]:
+    for name, place in chosen(calls, arguments.every):
         for how in ("signal=KILL", "error=ENOSPC"):
             call = f"{name} {place} {how}"
             if call not in known:

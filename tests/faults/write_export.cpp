@@ -21,7 +21,7 @@ int main(int count, char** words) {
                                     tensegric_fit::node::kWhole);
   } catch (const tensegric_fit::geometry::Refusal& refusal) {
     std::fprintf(stderr, "%s: %s\n", refusal.code().c_str(), refusal.what());
-    return 1;
+    return refusal.code() == tensegric_fit::geometry::refusal::kCannotWrite ? 1 : 3;
   }
   return 0;
 }

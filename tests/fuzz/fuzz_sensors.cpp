@@ -30,9 +30,8 @@ sensor_msgs::PointCloud2 cloud(fuzz::Input& input) {
   }
   for (std::uint32_t drawn = input.number(1) % 8; drawn > 0; --drawn) {
     const auto number = static_cast<float>(input.real());
-    std::memcpy(&message.data[input.number(1) % message.width * message.point_step +
-                              input.number(1) % 3 * sizeof number],
-                &number, sizeof number);
+    const std::uint32_t point = input.number(1) % message.width, axis = input.number(1) % 3;
+    std::memcpy(&message.data[point * message.point_step + axis * sizeof number], &number, sizeof number);
   }
   fuzz::draw_some(input, message.width, message.height, message.point_step, message.row_step);
   fuzz::change(input, message.fields);
@@ -64,7 +63,8 @@ void join_clouds(fuzz::Input& input) {
   stand(input, transforms);
   double now = 0;
   while (!input.at_end()) {
-    fuzz::refused_or_done([&] { stage.add(static_cast<int>(input.number(1) % 2), cloud(input), now); });
+    const int sensor = static_cast<int>(input.number(1) % 2);
+    fuzz::refused_or_done([&] { stage.add(sensor, cloud(input), now); });
     now += input.number(1) / 64.0;
     while (const std::optional<assembler::Capture> capture = stage.next(now))
       fuzz::refused_or_done([&] {
