@@ -23,9 +23,10 @@ using namespace tensegric_fit::node;
 
 /// A sheet of points, some of them drawn, and a message that may not be as it says.
 sensor_msgs::PointCloud2 cloud(fuzz::Input& input) {
-  sensor_msgs::PointCloud2 message = xyz_cloud(64);
+  sensor_msgs::PointCloud2 message = xyz_cloud(256);  // two of them can be moved onto each other
   for (std::uint32_t i = 0; i < message.width; ++i) {
-    const std::array<float, 3> place{0.01F * static_cast<float>(i % 8), 0.01F * static_cast<float>(i / 8), 1};
+    const auto column = static_cast<float>(i % 16), row = static_cast<float>(i / 16);
+    const std::array<float, 3> place{0.005F * column, 0.005F * row, 1 + 0.0005F * column * row};
     std::memcpy(&message.data[i * message.point_step], place.data(), sizeof place);
   }
   for (std::uint32_t drawn = input.number(1) % 8; drawn > 0; --drawn) {
@@ -51,6 +52,7 @@ void stand(fuzz::Input& input, tf2::BufferCore& transforms) {
     pose.child_frame_id = sensor;
     pose.transform.rotation.w = 1;
     auto& [shift, turn] = pose.transform;
+    shift.z = 1e-4 * static_cast<double>(input.number(1));
     fuzz::draw_some(input, shift.x, shift.y, shift.z, turn.x, turn.y, turn.z, turn.w);
     transforms.setTransform(pose, "fuzzer", input.number(1) % 4 != 0);
   }

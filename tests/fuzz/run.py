@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Fuzzing with clang, libFuzzer, AddressSanitizer and UBSan: builds the targets in a folder of their own and runs each until its coverage
-has stood still. Resumable: the corpus that was found, and how far each target is, stay in --work.
+has stood still. Resumable: the corpus that was found, and how far each target is, stay in --work. A new --work begins with what earlier
+campaigns found (tests/fuzz/found); --keep adds to that: as few inputs as reach every edge.
 
-Usage: tests/fuzz/run.py --work DIR [--still SECONDS] [--targets meshes,yaml,...] [--results FILE] [--uncovered] [--no-build]
+Usage: tests/fuzz/run.py --work DIR [--still SECONDS] [--targets meshes,yaml,...] [--results FILE] [--uncovered] [--no-build] [--keep]
 
 Prints a line of JSON per target: executions, coverage of lines of what it tests, crashes (their inputs are in DIR/crashes). Seconds
 are the processor's, so that other work on the machine does not make coverage stand still."""
@@ -14,10 +15,12 @@ import re
 import resource
 import subprocess
 import sys
+import tarfile
+import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-CORPUS, DICTIONARIES = ROOT / "tests/fuzz/corpus", ROOT / "tests/fuzz/dictionaries"
+CORPUS, DICTIONARIES, FOUND = ROOT / "tests/fuzz/corpus", ROOT / "tests/fuzz/dictionaries", ROOT / "tests/fuzz/found"
 FLAGS = ("-g1 -O2 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined "
          f"-fsanitize-coverage-allowlist={ROOT}/tests/fuzz/covered.txt -fprofile-instr-generate -fcoverage-mapping")
 TESTED = {  # whose lines count
@@ -66,10 +69,34 @@ def program_of(folder, target):
     return next(path for path in folder.rglob(f"fuzz_{target}") if path.is_file() and os.access(path, os.X_OK))
 
 
+def corpus_in(work, target):
+    """The folder of what was found; a new one has what was kept."""
+    found, kept = work / "corpus" / target, FOUND / f"{target}.tar.xz"
+    if not found.exists():
+        found.mkdir(parents=True)
+        if kept.exists():
+            with tarfile.open(kept) as archive:
+                archive.extractall(found)
+    return found
+
+
+def keep(program, target, work):
+    """The fewest inputs that reach every edge, as a file that is the same for the same inputs."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([program, "-merge=1", "-use_counters=0", f"-max_len={LONGEST.get(target, 4096)}", folder, CORPUS / target, corpus_in(work, target)],
+                       env=dict(os.environ, LLVM_PROFILE_FILE="/dev/null"), capture_output=True, check=True)
+        FOUND.mkdir(exist_ok=True)
+        with tarfile.open(FOUND / f"{target}.tar.xz", "w:xz") as archive:
+            for path in sorted(pathlib.Path(folder).iterdir()):
+                entry = tarfile.TarInfo(path.name)
+                entry.size = path.stat().st_size
+                with open(path, "rb") as file:
+                    archive.addfile(entry, file)
+
+
 def run_round(program, target, work, seconds):
     """One stretch of fuzzing: executions, edges covered, seconds of the processor, crashed."""
-    found, crashes = work / "corpus" / target, work / "crashes"
-    found.mkdir(parents=True, exist_ok=True)
+    found, crashes = corpus_in(work, target), work / "crashes"
     crashes.mkdir(exist_ok=True)
     environment = dict(os.environ, LLVM_PROFILE_FILE="/dev/null", ASAN_OPTIONS="detect_leaks=1:allocator_may_return_null=1",
                        UBSAN_OPTIONS="print_stacktrace=1")
@@ -88,8 +115,7 @@ def run_round(program, target, work, seconds):
 
 def lines_of(program, target, work):
     """Of each file that is tested: line -> executions, with the whole corpus."""
-    found = work / "corpus" / target
-    found.mkdir(parents=True, exist_ok=True)
+    found = corpus_in(work, target)
     pattern, data = work / f"{target}-%m.profraw", work / f"{target}.profdata"
     for old in work.glob(f"{target}-*.profraw"):
         old.unlink()
@@ -158,6 +184,7 @@ def main():
     parser.add_argument("--still", type=int, default=900, help="seconds of the processor")
     parser.add_argument("--targets", default=",".join(TESTED))
     parser.add_argument("--no-build", action="store_true", help="the targets are built")
+    parser.add_argument("--keep", action="store_true", help="only keep what was found in tests/fuzz/found")
     parser.add_argument("--uncovered", action="store_true", help="only print which lines the corpus does not reach")
     parser.add_argument("--results", type=pathlib.Path, help="file of JSON lines that results are added to")
     arguments = parser.parse_args()
@@ -170,6 +197,9 @@ def main():
         program = program_of(work / "build", target)
         if arguments.uncovered:
             show_uncovered(lines_of(program, target, work))
+            continue
+        if arguments.keep:
+            keep(program, target, work)
             continue
         result = fuzz(program, target, work, arguments.still)
         print(json.dumps(result), flush=True)
