@@ -26,9 +26,9 @@ struct Assembly {
 
 /// Brings the clouds of a capture into the booth's frame. `booth_from_sensor` has one transform per sensor;
 /// those of missing sensors are not looked at. Where the sensors of `shared` stood is unknown. Points that
-/// are not finite are left out. \throw Refusal bad_option: the sensors are not whole columns, or an option of
-/// register_columns; no_transform: what a sensor saw lies more than 10 km from the booth; empty_cloud: none
-/// saw anything
+/// are not finite, or more than 10 km away, are left out. \throw Refusal bad_option: the sensors are not
+/// whole columns, or an option of register_columns; no_transform: what a sensor saw lies more than 10 km from
+/// the booth; empty_cloud: none saw anything
 Assembly assemble(const Capture& capture, const std::vector<Eigen::Isometry3d>& booth_from_sensor,
                   const AssemblerOptions& options, const std::vector<SharedFrame>& shared = {});
 

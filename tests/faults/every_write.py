@@ -121,6 +121,7 @@ def faults_of(writer, whole, name, place, how):
 
 
 def chosen(calls, every):
+    """Every N-th call, the first of each kind, and those after the last byte, by which a folder takes its name."""
     last = max(i for i, (name, _) in enumerate(calls) if name.startswith(("write", "pwrite")))
     first = {name: i for i, (name, _) in reversed(list(enumerate(calls)))}
     return [call for i, call in enumerate(calls) if i % every == 0 or i > last or i == first[call[0]]]
@@ -139,7 +140,7 @@ def main():
         return LEFT_OUT
     arguments.work.mkdir(parents=True, exist_ok=True)
     work = arguments.work.resolve()
-    writer = Export(arguments.programs.resolve(), work) if arguments.export else Fit(arguments.programs, work)
+    writer = Export(arguments.programs.resolve(), work) if arguments.export else Fit(arguments.programs.resolve(), work)
     writer.clear()
     calls = writer.traced()
     if calls is None:

@@ -69,24 +69,34 @@ def program_of(folder, target):
     return next(path for path in folder.rglob(f"fuzz_{target}") if path.is_file() and os.access(path, os.X_OK))
 
 
+def kept_file(target):
+    return FOUND / f"{target}.tar.xz"
+
+
+def unpack_kept(target, folder):
+    """What earlier campaigns kept, if anything, into the folder."""
+    if kept_file(target).exists():
+        with tarfile.open(kept_file(target)) as archive:
+            archive.extractall(folder)
+
+
 def corpus_in(work, target):
     """The folder of what was found; a new one has what was kept."""
-    found, kept = work / "corpus" / target, FOUND / f"{target}.tar.xz"
+    found = work / "corpus" / target
     if not found.exists():
         found.mkdir(parents=True)
-        if kept.exists():
-            with tarfile.open(kept) as archive:
-                archive.extractall(found)
+        unpack_kept(target, found)
     return found
 
 
 def keep(program, target, work):
     """The fewest inputs that reach every edge, as a file that is the same for the same inputs."""
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([program, "-merge=1", "-use_counters=0", f"-max_len={LONGEST.get(target, 4096)}", folder, CORPUS / target, corpus_in(work, target)],
-                       env=dict(os.environ, LLVM_PROFILE_FILE="/dev/null"), capture_output=True, check=True)
+    with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as before:
+        unpack_kept(target, before)  # `work` may be older than it
+        subprocess.run([program, "-merge=1", "-use_counters=0", f"-max_len={LONGEST.get(target, 4096)}", folder, CORPUS / target, before,
+                        corpus_in(work, target)], env=dict(os.environ, LLVM_PROFILE_FILE="/dev/null"), capture_output=True, check=True)
         FOUND.mkdir(exist_ok=True)
-        with tarfile.open(FOUND / f"{target}.tar.xz", "w:xz") as archive:
+        with tarfile.open(kept_file(target), "w:xz") as archive:
             for path in sorted(pathlib.Path(folder).iterdir()):
                 entry = tarfile.TarInfo(path.name)
                 entry.size = path.stat().st_size

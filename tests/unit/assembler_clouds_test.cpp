@@ -137,7 +137,7 @@ std::string refused(const Booth& booth) {
   return "";
 }
 
-void blind(Booth& booth, int sensor) {  // it saw something, but no depth of it
+void blind(Booth& booth, int sensor) {  // what a depth camera sends that sees nothing
   assembler::SensorCloud cloud = *booth.capture.clouds[sensor];
   for (Vector3d& p : cloud.cloud.points) p.setConstant(std::numeric_limits<double>::quiet_NaN());
   booth.capture.clouds[sensor] = std::make_shared<const assembler::SensorCloud>(cloud);
