@@ -60,6 +60,8 @@ std::optional<CorrelationHandler::Input> CorrelationHandler::add(const TriangleM
     stamp_ = body->header.stamp;
     worn_.reset();
     fit_.reset();
+    if (early_ && !is_before_body(early_->tag)) worn_ = {early_->points, early_->tag, scan_id_};
+    early_.reset();
   }
   return completed(join_.add(body));
 }
@@ -70,19 +72,25 @@ std::optional<CorrelationHandler::Input> CorrelationHandler::add(const DeformedM
 
 std::optional<CorrelationHandler::Input> CorrelationHandler::add(
     const sensor_msgs::PointCloud2::ConstPtr& worn, const ScanTag& tag) {
-  if (scan_id_.empty())
-    throw geometry::Refusal(
-        geometry::refusal::kNothingYet,
-        "a scan in the garment came before one without it: there is no body to compare it with");
-  if (const ros::Time stamp = tag.header.stamp; !stamp.isZero() && stamp < stamp_)
+  if (scan_id_.empty()) {
+    early_ = {worn, tag, ""};
+    throw geometry::Refusal(geometry::refusal::kNothingYet,
+                            "a scan in the garment came before one without it: there is no body to compare "
+                            "it with, unless the first that comes was scanned before it");
+  }
+  if (is_before_body(tag))
     throw geometry::Refusal(
         geometry::refusal::kNothingYet,
         fmt::format(
             "the scan in the garment was made {:.1f} s before the newest one without it: is it of the "
             "customer before, or are the clocks of two scanners not set alike?",
-            (stamp_ - stamp).toSec()));
+            (stamp_ - tag.header.stamp).toSec()));
   worn_ = {worn, tag, scan_id_};
   return input();
+}
+
+bool CorrelationHandler::is_before_body(const ScanTag& worn) const {
+  return !worn.header.stamp.isZero() && worn.header.stamp < stamp_;
 }
 
 std::optional<CorrelationHandler::Input> CorrelationHandler::completed(

@@ -62,8 +62,9 @@ class CorrelationHandler {
   std::optional<Input> add(const ControlMesh::ConstPtr& control) { return completed(join_.add(control)); }
   /// Shapes on the way of a fit do not count.
   std::optional<Input> add(const DeformedMesh::ConstPtr& deformed);
-  /// \throw Refusal nothing_yet: there is no body that it could be a second scan of, or its stamp is earlier
-  /// than the body's: what a publisher latched of the customer before
+  /// \throw Refusal nothing_yet: there is no body so far that it could be a second scan of (it waits for the
+  /// first one: where this node was started again, what is latched comes in any order), or its stamp is
+  /// earlier than the body's: what a publisher latched of the customer before
   std::optional<Input> add(const sensor_msgs::PointCloud2::ConstPtr& worn, const ScanTag& tag);
 
   /// scan_id of the newest body; empty before the first.
@@ -82,6 +83,7 @@ class CorrelationHandler {
   Output handle(const Input& input);
 
  private:
+  bool is_before_body(const ScanTag& worn) const;
   std::optional<Input> completed(const std::optional<Join::Joined>& fit);
   std::optional<Input> input() const;
 
@@ -92,6 +94,7 @@ class CorrelationHandler {
   ros::Time stamp_;                  // of that scan
   std::optional<Join::Joined> fit_;  // newest
   std::optional<Worn> worn_;         // newest
+  std::optional<Worn> early_;        // newest that came before any body
 
   /// A worn scan as far as it is known without a fit: another garment needs no other reconstruction.
   struct WornBody {

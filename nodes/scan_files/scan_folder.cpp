@@ -50,6 +50,11 @@ void ScanFolder::skip_all() {
   for (const auto& [name, version] : look()) files_[name] = {version, 0, true};
 }
 
+bool ScanFolder::is_played(const std::string& name) const {
+  const auto file = files_.find(name);
+  return file != files_.end() && file->second.played;
+}
+
 std::string ScanFolder::text_of(const std::string& name, const Version& version) {
   return std::to_string(version.changed) + " " + std::to_string(version.size) + " " + name;
 }

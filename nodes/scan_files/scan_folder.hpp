@@ -24,6 +24,9 @@ class ScanFolder {
   /// Leaves out what lies there now. \throw Refusal as poll()
   void skip_all();
 
+  /// Whether the file of that name was returned, or left out.
+  bool is_played(const std::string& name) const;
+
   /// Lets go of the name of a file that was deleted.
   void drop(const std::string& name) { files_.erase(name); }
 

@@ -39,8 +39,9 @@ struct Setup {
   std::string file, frame_id;
   double rate, interval, settle;
   bool existing;
-  std::regex customer;                    // in the names of files
-  std::vector<std::string> played_files;  // what this node played before it was respawned
+  std::regex customer;                         // in the names of files
+  std::vector<std::string> played_files;       // what this node played before it was respawned
+  std::vector<std::string> interrupted_files;  // what it was at when it ended, by name
 };
 
 Setup setup_from(Parameters parameters) {
@@ -53,6 +54,7 @@ Setup setup_from(Parameters parameters) {
   setup.existing = parameters.flag("existing", false);
   setup.customer = scan_files::customer_pattern(parameters.text("customer_pattern", ""));
   setup.played_files = parameters.texts("played_files");
+  setup.interrupted_files = parameters.texts("interrupted_files");
   parameters.check_all_known();
   if (!fs::exists(setup.file))
     throw geometry::Refusal(geometry::refusal::kBadOption,
@@ -113,6 +115,7 @@ class ScanPlayer {
         folder_->skip(setup_.played_files);
       else if (!setup_.existing)
         skip_existing();
+      name_lost();
       remember();
     } else {
       files_.push_back(setup_.file);
@@ -134,6 +137,16 @@ class ScanPlayer {
                             "are, and those with existing:=true.",
                             count)};
       });
+  }
+
+  /// A file that this node was at when it ended is played again, unless that was its second time or some of
+  /// its scans are out.
+  void name_lost() {
+    for (const std::string& name : setup_.interrupted_files)
+      if (folder_->is_played(name))
+        stage_.drop("", geometry::Refusal(geometry::refusal::kBrokenFile,
+                                          "this node ended while it read a file for the second time, or "
+                                          "between the scans of a file: the rest of it is not played"));
   }
 
   /// If it restarted, it would play its files again.
@@ -230,10 +243,20 @@ class ScanPlayer {
 
   void go_on() {
     if (folder_) look();
-    if (busy_ || ros::SteadyTime::now().toSec() < next_) return;
+    if (busy_) return;
+    if (!begun_.empty() && at_ == scans_.size()) {  // refused, or without scans
+      begun_.clear();
+      remember();
+    }
+    if (ros::SteadyTime::now().toSec() < next_) return;
     if (setup_.rate > 0 && at_ == scans_.size()) at_ = 0;
     if (at_ < scans_.size()) {
       publish(scans_[at_++]);
+      if (folder_) {
+        again_ = false;  // not twice
+        if (at_ == scans_.size()) begun_.clear();
+        remember();
+      }
       if (setup_.rate == 0) scans_[at_ - 1] = {};  // played once
     } else if (!files_.empty()) {
       read_next();
@@ -257,20 +280,31 @@ class ScanPlayer {
     }
   }
 
-  /// Files that wait are played by its next life.
+  /// Files that wait are played by its next life, and the one that it is at, if `again_`.
   void remember() {
     std::set<std::string> waiting;
     for (const std::string& path : files_) waiting.insert(fs::path(path).filename());
-    XmlRpc::XmlRpcValue texts;
-    texts.setSize(0);
-    for (const std::string& text : folder_->played(waiting)) texts[texts.size()] = text;
-    set_parameter(private_node_, "played_files", texts);
+    if (again_ && !begun_.empty()) waiting.insert(begun_);
+    set_texts("played_files", folder_->played(waiting));
+    set_texts("interrupted_files", begun_.empty() ? std::vector<std::string>{} : std::vector{begun_});
+  }
+
+  void set_texts(const std::string& name, const std::vector<std::string>& texts) const {
+    XmlRpc::XmlRpcValue value;
+    value.setSize(0);
+    for (const std::string& text : texts) value[value.size()] = text;
+    set_parameter(private_node_, name, value);
   }
 
   void read_next() {
     const std::string path = std::move(files_.front());
     files_.pop_front();
-    if (folder_) remember();
+    if (folder_) {
+      const std::vector<std::string>& interrupted = setup_.interrupted_files;
+      begun_ = fs::path(path).filename();
+      again_ = std::find(interrupted.begin(), interrupted.end(), begun_) == interrupted.end();
+      remember();
+    }
     scans_.clear();  // played by now, and not to be kept where the next file is refused
     at_ = 0;
     busy_ = true;
@@ -313,6 +347,8 @@ class ScanPlayer {
   std::optional<scan_files::ScanFolder> folder_;
   std::size_t read_ = 0;           // files
   std::deque<std::string> files_;  // complete, to be read
+  std::string begun_;              // name of the file of a folder that is read or played
+  bool again_ = false;             // whether the node's next life may play that once more
   std::vector<FileScan> scans_;    // of the file read last; the worker's while busy
   Played playing_;
   std::string published_;  // scan_id

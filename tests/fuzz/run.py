@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Fuzzing with clang, libFuzzer, AddressSanitizer and UBSan: builds the targets in a folder of their own and runs each until its coverage
-has stood still. Resumable: the corpus that was found, and how far each target is, stay in --work. A new --work begins with what earlier
+has stood still: that of the lines of what it tests, or with --edges that of all edges which guide the fuzzer. Resumable: the corpus that was found, and how far each target is, stay in --work. A new --work begins with what earlier
 campaigns found (tests/fuzz/found); --keep adds to that: as few inputs as reach every edge.
 
-Usage: tests/fuzz/run.py --work DIR [--still SECONDS] [--targets meshes,yaml,...] [--results FILE] [--uncovered] [--no-build] [--keep]
+Usage: tests/fuzz/run.py --work DIR [--still SECONDS] [--edges] [--targets meshes,yaml,...] [--results FILE] [--uncovered] [--no-build] [--keep]
 
-Prints a line of JSON per target: executions, coverage of lines of what it tests, crashes (their inputs are in DIR/crashes). Seconds
-are the processor's, so that other work on the machine does not make coverage stand still."""
+Prints a line of JSON per target: executions, lines reached of what it tests and edges, for how many seconds there was no new one, crashes
+(their inputs are in DIR/crashes). Seconds are the processor's, so that other work on the machine does not make coverage stand still."""
 import argparse
 import json
 import os
@@ -49,6 +49,7 @@ TESTED = {  # whose lines count
 }
 
 
+ROUND = 310  # seconds of fuzzing between two looks at what was reached; three are 15 minutes
 LONGEST = {"bag": 16384, "documents": 8192, "yaml": 8192}  # bytes of an input: an empty bag has 4 kB, a template 4
 LEFT_OUT = {  # target -> source -> functions that no input of it can reach
     "bag": {"nodes/scan_files/scan_bag.cpp": ["write_bag_scan"]},  # writes
@@ -162,22 +163,33 @@ def span_of(source, function):
     return range(first + 1, last + 2)
 
 
-def percent(lines):
+def reached(lines):
+    """How many, and of how many."""
     counts = [count for of_file in lines.values() for count in of_file.values()]
-    return round(100 * sum(count > 0 for count in counts) / max(1, len(counts)), 1)
+    return sum(count > 0 for count in counts), len(counts)
 
 
-def fuzz(program, target, work, still):
+def percent(lines):
+    some, every = reached(lines)
+    return round(100 * some / max(1, every), 1)
+
+
+def fuzz(program, target, work, still, by_edges):
     """Until nothing new was covered for so long; goes on from where it was stopped."""
     path = work / f"{target}.json"
-    state = json.loads(path.read_text()) if path.exists() else {"executions": 0, "edges": 0, "quiet": 0, "processor_s": 0}
+    state = {"executions": 0, "processor_s": 0, "edges": 0, "edges_quiet": 0, "lines": 0, "lines_quiet": 0}
+    if path.exists():
+        state.update(json.loads(path.read_text()))
+    else:
+        state["lines"] = reached(lines_of(program, target, work))[0]  # of what it begins with
     crashed = False
-    while state["quiet"] < still and not crashed:
-        more, covered, seconds, crashed = run_round(program, target, work, 300)
+    while state["edges_quiet" if by_edges else "lines_quiet"] < still and not crashed:
+        more, edges, seconds, crashed = run_round(program, target, work, ROUND)
         state["executions"] += more
         state["processor_s"] = round(state["processor_s"] + seconds, 1)
-        state["quiet"] = 0 if covered > state["edges"] else round(state["quiet"] + seconds, 1)
-        state["edges"] = max(state["edges"], covered)
+        for what, covered in (("edges", edges), ("lines", reached(lines_of(program, target, work))[0])):
+            state[f"{what}_quiet"] = 0 if covered > state[what] else round(state[f"{what}_quiet"] + seconds, 1)
+            state[what] = max(state[what], covered)
         path.write_text(json.dumps(state))
     return {"target": target, **state, "lines_percent": percent(lines_of(program, target, work)), "crashed": crashed}
 
@@ -192,6 +204,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--work", type=pathlib.Path, required=True)
     parser.add_argument("--still", type=int, default=900, help="seconds of the processor")
+    parser.add_argument("--edges", action="store_true", help="until no new edge was found, in place of no new line of what is tested")
     parser.add_argument("--targets", default=",".join(TESTED))
     parser.add_argument("--no-build", action="store_true", help="the targets are built")
     parser.add_argument("--keep", action="store_true", help="only keep what was found in tests/fuzz/found")
@@ -211,7 +224,7 @@ def main():
         if arguments.keep:
             keep(program, target, work)
             continue
-        result = fuzz(program, target, work, arguments.still)
+        result = fuzz(program, target, work, arguments.still, arguments.edges)
         print(json.dumps(result), flush=True)
         if arguments.results and not result["crashed"]:
             with open(arguments.results, "a", encoding="utf-8") as file:

@@ -19,21 +19,23 @@ class CorrelationHandlerTest : public testing::Test {
  protected:
   using Input = CorrelationHandler::Input;
 
-  void SetUp() override {
+  void SetUp() override { add_body(handler_); }
+  static void add_body(CorrelationHandler& handler) {
     const auto body = boost::make_shared<TriangleMesh>(to_message(some_tag(), tetrahedron(), {}));
     body->filled.push_back(0);  // one flag too many
-    handler_.add(TriangleMesh::ConstPtr(body));
+    handler.add(TriangleMesh::ConstPtr(body));
     const auto landmarks = boost::make_shared<Landmarks>();
     landmarks->scan_id = body->scan_id;
-    handler_.add(Landmarks::ConstPtr(landmarks));
-    handler_.add(
+    handler.add(Landmarks::ConstPtr(landmarks));
+    handler.add(
         ControlMesh::ConstPtr(boost::make_shared<ControlMesh>(to_message(some_tag(), small_control_mesh()))));
   }
   /// Another garment.
-  std::optional<Input> fit() {
+  std::optional<Input> fit() { return fit(handler_); }
+  static std::optional<Input> fit(CorrelationHandler& handler) {
     const auto deformed = boost::make_shared<DeformedMesh>();
     deformed->scan_id = some_tag().scan_id;
-    return handler_.add(DeformedMesh::ConstPtr(deformed));
+    return handler.add(DeformedMesh::ConstPtr(deformed));
   }
   /// Another number of points is another scan.
   std::optional<Input> worn(std::size_t points) {
@@ -70,6 +72,21 @@ TEST_F(CorrelationHandlerTest, ASurfaceThatFailedIsTriedAgain) {
   EXPECT_EQ(refusal(worn(1)), "surface_failed");
   EXPECT_EQ(refusal(fit()), "surface_failed");
   EXPECT_EQ(measured_, 2);
+}
+
+// Where the node was started again, what is latched comes in any order. Only a body that was scanned before
+// the worn scan is hers.
+TEST_F(CorrelationHandlerTest, AWornScanThatCameFirstIsComparedWithABodyScannedBeforeIt) {
+  for (const double seconds : {-1.0, 1.0}) {
+    CorrelationHandler started{Parameters(YAML::Load("{}"), "correlation"),
+                               [](const geometry::PointCloud&) { return MeasuredScan{}; }};
+    const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(xyz_cloud(1));
+    cloud->header.stamp = some_tag().header.stamp + ros::Duration(seconds);
+    EXPECT_EQ(code_of([&] { started.add(sensor_msgs::PointCloud2::ConstPtr(cloud), tag_of(*cloud)); }),
+              "nothing_yet");
+    add_body(started);
+    EXPECT_EQ(fit(started).has_value(), seconds > 0);
+  }
 }
 
 TEST_F(CorrelationHandlerTest, ReadsWhatTheFirstScanDidNotSee) {
