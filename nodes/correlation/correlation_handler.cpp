@@ -73,10 +73,10 @@ std::optional<CorrelationHandler::Input> CorrelationHandler::add(const DeformedM
 std::optional<CorrelationHandler::Input> CorrelationHandler::add(
     const sensor_msgs::PointCloud2::ConstPtr& worn, const ScanTag& tag) {
   if (scan_id_.empty()) {
-    early_ = {worn, tag, ""};
+    if (!tag.header.stamp.isZero()) early_ = {worn, tag, ""};
     throw geometry::Refusal(geometry::refusal::kNothingYet,
-                            "a scan in the garment came before one without it: there is no body to compare "
-                            "it with, unless the first that comes was scanned before it");
+                            "a scan in the garment came before any body: it is compared with the first one "
+                            "if that was scanned before it");
   }
   if (is_before_body(tag))
     throw geometry::Refusal(

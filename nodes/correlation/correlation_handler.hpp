@@ -62,10 +62,13 @@ class CorrelationHandler {
   std::optional<Input> add(const ControlMesh::ConstPtr& control) { return completed(join_.add(control)); }
   /// Shapes on the way of a fit do not count.
   std::optional<Input> add(const DeformedMesh::ConstPtr& deformed);
-  /// \throw Refusal nothing_yet: there is no body so far that it could be a second scan of (it waits for the
-  /// first one: where this node was started again, what is latched comes in any order), or its stamp is
-  /// earlier than the body's: what a publisher latched of the customer before
+  /// \throw Refusal nothing_yet: there is no body so far that it could be a second scan of (one with a stamp
+  /// waits for the first body: where this node was started again, what is latched comes in any order), or its
+  /// stamp is earlier than the body's: what a publisher latched of the customer before
   std::optional<Input> add(const sensor_msgs::PointCloud2::ConstPtr& worn, const ScanTag& tag);
+
+  /// Whether the scan in the garment of that id waits for a body.
+  bool waits(const std::string& worn_scan_id) const { return early_ && early_->tag.scan_id == worn_scan_id; }
 
   /// scan_id of the newest body; empty before the first.
   const std::string& scan_id() const { return scan_id_; }

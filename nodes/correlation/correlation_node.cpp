@@ -60,10 +60,12 @@ class CorrelationNode {
   void on_worn(const sensor_msgs::PointCloud2::ConstPtr& worn) {
     const ScanTag tag = tag_of(*worn);
     if (HeldScan::of_process().is_forgotten(tag.scan_id)) return;
-    HeldScan::of_process().begin_beside(tag.scan_id);  // also where it is refused: it may wait for a body
     try {
-      post(handler_.add(worn, tag));
+      const std::optional<CorrelationHandler::Input> input = handler_.add(worn, tag);
+      HeldScan::of_process().begin_beside(tag.scan_id);
+      post(input);
     } catch (const geometry::Refusal& refusal) {
+      if (handler_.waits(tag.scan_id)) HeldScan::of_process().begin_beside(tag.scan_id);
       stage_.drop(tag.scan_id, refusal);
     }
   }

@@ -50,13 +50,17 @@ void ScanFolder::skip_all() {
   for (const auto& [name, version] : look()) files_[name] = {version, 0, true};
 }
 
-bool ScanFolder::is_played(const std::string& name) const {
-  const auto file = files_.find(name);
-  return file != files_.end() && file->second.played;
-}
-
 std::string ScanFolder::text_of(const std::string& name, const Version& version) {
   return std::to_string(version.changed) + " " + std::to_string(version.size) + " " + name;
+}
+
+std::string ScanFolder::text(const std::string& name) const {
+  const auto file = files_.find(name);
+  return text_of(name, file == files_.end() ? Version{} : file->second.version);
+}
+
+std::string ScanFolder::name_in(const std::string& text) {
+  return text.substr(text.find(' ', text.find(' ') + 1) + 1);  // 0 where there is no space
 }
 
 std::vector<std::string> ScanFolder::played(const std::set<std::string>& but) const {

@@ -24,9 +24,6 @@ class ScanFolder {
   /// Leaves out what lies there now. \throw Refusal as poll()
   void skip_all();
 
-  /// Whether the file of that name was returned, or left out.
-  bool is_played(const std::string& name) const;
-
   /// Lets go of the name of a file that was deleted.
   void drop(const std::string& name) { files_.erase(name); }
 
@@ -34,6 +31,10 @@ class ScanFolder {
   /// goes on where another ended, to leave those out.
   std::vector<std::string> played(const std::set<std::string>& but = {}) const;
   void skip(const std::vector<std::string>& played);
+
+  /// The text of one file that was returned, of no version where it is gone; and the name in such a text.
+  std::string text(const std::string& name) const;
+  static std::string name_in(const std::string& text);
 
  private:
   struct Version {

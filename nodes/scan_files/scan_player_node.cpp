@@ -41,7 +41,7 @@ struct Setup {
   bool existing;
   std::regex customer;                         // in the names of files
   std::vector<std::string> played_files;       // what this node played before it was respawned
-  std::vector<std::string> interrupted_files;  // what it was at when it ended, by name
+  std::vector<std::string> interrupted_files;  // what it was at when it ended
 };
 
 Setup setup_from(Parameters parameters) {
@@ -115,7 +115,7 @@ class ScanPlayer {
         folder_->skip(setup_.played_files);
       else if (!setup_.existing)
         skip_existing();
-      name_lost();
+      report_lost();
       remember();
     } else {
       files_.push_back(setup_.file);
@@ -141,9 +141,12 @@ class ScanPlayer {
 
   /// A file that this node was at when it ended is played again, unless that was its second time or some of
   /// its scans are out.
-  void name_lost() {
-    for (const std::string& name : setup_.interrupted_files)
-      if (folder_->is_played(name))
+  void report_lost() {
+    const std::vector<std::string> played = folder_->played();
+    for (const std::string& text : setup_.interrupted_files)
+      if (std::find(played.begin(), played.end(), text) == played.end())
+        interrupted_.insert(text);
+      else
         stage_.drop("", geometry::Refusal(geometry::refusal::kBrokenFile,
                                           "this node ended while it read a file for the second time, or "
                                           "between the scans of a file: the rest of it is not played"));
@@ -199,7 +202,11 @@ class ScanPlayer {
       done.failed.push_back("the file " + file.path + " was not deleted");
     else {
       done.removed.push_back("the file " + file.path);
-      if (folder_) folder_->drop(fs::path(file.path).filename());
+      if (folder_) {
+        const std::string name = fs::path(file.path).filename();
+        let_go(name);
+        folder_->drop(name);
+      }
       delete_companions(file.path, done);
       if (folder_) remember();
       if (playing_.path == file.path) playing_ = {};
@@ -244,17 +251,17 @@ class ScanPlayer {
   void go_on() {
     if (folder_) look();
     if (busy_) return;
-    if (!begun_.empty() && at_ == scans_.size()) {  // refused, or without scans
-      begun_.clear();
+    if (!begun_.empty() &&
+        at_ == scans_.size()) {  // refused; or published at the tick before, and sent since
+      let_go(scan_files::ScanFolder::name_in(begun_));
       remember();
     }
     if (ros::SteadyTime::now().toSec() < next_) return;
     if (setup_.rate > 0 && at_ == scans_.size()) at_ = 0;
     if (at_ < scans_.size()) {
       publish(scans_[at_++]);
-      if (folder_) {
-        again_ = false;  // not twice
-        if (at_ == scans_.size()) begun_.clear();
+      if (folder_ && again_ && at_ < scans_.size()) {
+        again_ = false;  // scans of it are out
         remember();
       }
       if (setup_.rate == 0) scans_[at_ - 1] = {};  // played once
@@ -280,29 +287,41 @@ class ScanPlayer {
     }
   }
 
-  /// Files that wait are played by its next life, and the one that it is at, if `again_`.
+  /// Files that wait are played by its next life, and the one that it is at, if `again_`. Where this node
+  /// ends between the two, the file is played once more.
   void remember() {
-    std::set<std::string> waiting;
+    std::set<std::string> waiting, interrupted = interrupted_;
     for (const std::string& path : files_) waiting.insert(fs::path(path).filename());
-    if (again_ && !begun_.empty()) waiting.insert(begun_);
+    if (!begun_.empty()) interrupted.insert(begun_);
+    if (!begun_.empty() && again_) waiting.insert(scan_files::ScanFolder::name_in(begun_));
+    set_texts("interrupted_files", interrupted);
     set_texts("played_files", folder_->played(waiting));
-    set_texts("interrupted_files", begun_.empty() ? std::vector<std::string>{} : std::vector{begun_});
   }
 
-  void set_texts(const std::string& name, const std::vector<std::string>& texts) const {
+  template <typename Texts>
+  void set_texts(const std::string& name, const Texts& texts) const {
     XmlRpc::XmlRpcValue value;
     value.setSize(0);
     for (const std::string& text : texts) value[value.size()] = text;
     set_parameter(private_node_, name, value);
   }
 
+  /// The next life does not ask about the file of that name, in any version.
+  void let_go(const std::string& name) {
+    for (auto text = interrupted_.begin(); text != interrupted_.end();)
+      text = scan_files::ScanFolder::name_in(*text) == name ? interrupted_.erase(text) : std::next(text);
+    if (scan_files::ScanFolder::name_in(begun_) == name) begun_.clear();
+  }
+
   void read_next() {
     const std::string path = std::move(files_.front());
     files_.pop_front();
     if (folder_) {
-      const std::vector<std::string>& interrupted = setup_.interrupted_files;
-      begun_ = fs::path(path).filename();
-      again_ = std::find(interrupted.begin(), interrupted.end(), begun_) == interrupted.end();
+      const std::string name = fs::path(path).filename();
+      const std::string text = folder_->text(name);
+      again_ = interrupted_.count(text) == 0;
+      let_go(name);
+      begun_ = text;
       remember();
     }
     scans_.clear();  // played by now, and not to be kept where the next file is refused
@@ -345,11 +364,12 @@ class ScanPlayer {
   ros::NodeHandle node_, private_node_;
   ros::Publisher publisher_, labels_;
   std::optional<scan_files::ScanFolder> folder_;
-  std::size_t read_ = 0;           // files
-  std::deque<std::string> files_;  // complete, to be read
-  std::string begun_;              // name of the file of a folder that is read or played
-  bool again_ = false;             // whether the node's next life may play that once more
-  std::vector<FileScan> scans_;    // of the file read last; the worker's while busy
+  std::size_t read_ = 0;               // files
+  std::deque<std::string> files_;      // complete, to be read
+  std::set<std::string> interrupted_;  // files that its life before was at, until they are read again
+  std::string begun_;                  // the file of a folder that is read or played
+  bool again_ = false;                 // whether the node's next life may play that once more
+  std::vector<FileScan> scans_;        // of the file read last; the worker's while busy
   Played playing_;
   std::string published_;  // scan_id
   Sources sources_;

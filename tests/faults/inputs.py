@@ -4,7 +4,7 @@
 Usage: build/devel/env.sh python3 tests/faults/inputs.py --work DIR [--kills 40] [--soon 5] [--anew]
 
 Each case kills one of them at a random moment while it is at a scan, or at a scan in the garment. The newest scan must then have the result that it has without faults, to the bit, at most 5 s after
-the node is heard again; no result is another scan's. A line of JSON per case in DIR/inputs.jsonl; cases that are there are not done again. Exit: 0 all hold, 1 otherwise."""
+the node is heard again; no result is another scan's. The last case kills scan_player twice while it reads one file. A line of JSON per case in DIR/inputs.jsonl; cases that are there are not done again. Exit: 0 all hold, 1 otherwise."""
 import argparse
 import hashlib
 import json
@@ -28,7 +28,7 @@ from graph import BODIES, PATIENCE, SOON, STAGES
 from launched import free_port, nodes_at, points_of, program, wait_until
 
 KILLED = {"cameras": ("depth_cameras", "assembler"), "files": ("scan_player", "correlation")}
-WHEN = {"depth_cameras": (0, 0.4), "assembler": (0, 0.8), "scan_player": (0, 0.04), "correlation": (0, 2)}  # s from what it gets, or begins to read: while it is at that
+WHEN = {"depth_cameras": (0, 0.4), "assembler": (0, 0.8), "scan_player": (0, 0.4), "correlation": (0, 2)}  # s from what it gets, or begins to read: while it is at that
 CAMERAS = 4
 
 
@@ -39,7 +39,7 @@ class Booths:
         self.work, self.folder, self.port = work, work / "folder", free_port()
         self.lock = threading.Lock()
         self.found = {"cameras": [], "files": [], "worn": []}  # (digest, seconds)
-        self.heard = {}  # booth/node -> seconds
+        self.heard, self.errors = {}, {}  # booth/node -> seconds; its last error
         self.files = 0
         self.publishers = {}
         self.environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{self.port}", ROS_HOSTNAME="localhost")
@@ -88,7 +88,9 @@ class Booths:
 
     def hear(self, array):
         for status in array.status:
-            self.heard[status.name.split(":")[0]] = time.monotonic()
+            node = status.name.split(":")[0]
+            self.heard[node] = time.monotonic()
+            self.errors[node] = next((pair.value for pair in status.values if pair.key == "last_error"), "")
 
     def newest(self, what):
         with self.lock:
@@ -122,6 +124,15 @@ class Booths:
         from std_msgs.msg import Header
         self.publish("/files/worn/points", point_cloud2.create_cloud_xyz32(Header(stamp=rospy.Time.now(), frame_id="files/booth"),
                                                                           points_of(self.work / str(body) / "scan.ply")))
+
+    def wait_for_reading(self, again=False):
+        """Until the scan player has begun to read a file; `again`: one that its life before was at, which counts as played by now."""
+        import rospy
+
+        def reads():
+            texts, played = (rospy.get_param(f"/files/scan_player/{name}_files", []) for name in ("interrupted", "played"))
+            return any(not again or text in played for text in texts)
+        wait_until(reads, "reading", PATIENCE, 0.001)
 
     def processes(self):
         return nodes_at(f"http://localhost:{self.port}", [node for nodes in KILLED.values() for node in nodes])
@@ -159,11 +170,10 @@ def kill(booths, right, case, soon):
         booths.wait("files", since, right["files"][body])
         what, since = "worn", time.monotonic()
         booths.scan_worn(body)
-    if name == "scan_player":
-        import rospy
-        wait_until(lambda: rospy.get_param("/files/scan_player/interrupted_files", []), "reading", PATIENCE, 0.001)
-    time.sleep(delay)
     before = booths.processes()[node]
+    if name == "scan_player":
+        booths.wait_for_reading()
+    time.sleep(delay)
     os.kill(before, signal.SIGKILL)
     killed = time.monotonic()
     wait_until(lambda: booths.processes().get(node, before) != before and booths.heard[node] > killed + 0.3, node, PATIENCE)
@@ -171,8 +181,24 @@ def kill(booths, right, case, soon):
     seconds = booths.wait(what, since, right[what][body])[1] - back
     time.sleep(1)  # a later one would be another
     strange = [digest for digest, at in booths.found[what] if at > since and digest != right[what][body]]
-    return {"node": node, "body": body, "delay": round(delay, 2), "return": round(back - killed, 2), "seconds": round(seconds, 2), "strange": len(strange),
-            "fine": seconds <= soon and not strange}
+    return {"node": node, "body": body, "delay": round(delay, 2), "return": round(back - killed, 2), "seconds": round(seconds, 2), "was_through": seconds + back < killed,
+            "strange": len(strange), "fine": seconds <= soon and not strange}
+
+
+def kill_twice(booths, right):
+    """A file that may be what ends the scan player is not read a third time, and that is said; the next file is played."""
+    begin, node = time.monotonic(), "files/scan_player"
+    booths.scan_files(0)
+    for reading in (1, 2):
+        process = booths.processes()[node]
+        booths.wait_for_reading(again=reading == 2)
+        os.kill(process, signal.SIGKILL)
+        wait_until(lambda: booths.processes().get(node, process) != process, node, PATIENCE)
+    wait_until(lambda: booths.errors.get(node) == "broken_file", "the name of the loss", PATIENCE)
+    lost = booths.newest("files")[1] < begin
+    booths.scan_files(1)
+    booths.wait("files", begin, right["files"][1])
+    return {"node": node, "twice": True, "fine": lost}
 
 
 def bodies_in(work):
@@ -198,16 +224,16 @@ def main():
     bodies_in(work)
     with Booths(work) as booths, open(path, "a", encoding="utf-8") as file:
         right = right_results(booths)
-        for case in range(len(rows), arguments.kills):
+        for case in range(len(rows), arguments.kills + 1):
             try:
-                row = kill(booths, right, case, arguments.soon)
+                row = kill(booths, right, case, arguments.soon) if case < arguments.kills else kill_twice(booths, right)
             except TimeoutError as error:
                 row = {"fine": False, "error": str(error)}
             rows.append({"case": case, **row})
             file.write(json.dumps(rows[-1]) + "\n")
             file.flush()
             print(json.dumps(rows[-1]), flush=True)
-    print(f"{len(rows)} kills, {sum(row['fine'] for row in rows)} fine")
+    print(f"{len(rows)} cases, {sum(row['fine'] for row in rows)} fine")
     return 0 if all(row["fine"] for row in rows) else 1
 
 

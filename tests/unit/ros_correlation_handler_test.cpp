@@ -20,8 +20,9 @@ class CorrelationHandlerTest : public testing::Test {
   using Input = CorrelationHandler::Input;
 
   void SetUp() override { add_body(handler_); }
-  static void add_body(CorrelationHandler& handler) {
+  static void add_body(CorrelationHandler& handler, const ros::Time& stamp = some_tag().header.stamp) {
     const auto body = boost::make_shared<TriangleMesh>(to_message(some_tag(), tetrahedron(), {}));
+    body->header.stamp = stamp;
     body->filled.push_back(0);  // one flag too many
     handler.add(TriangleMesh::ConstPtr(body));
     const auto landmarks = boost::make_shared<Landmarks>();
@@ -77,15 +78,17 @@ TEST_F(CorrelationHandlerTest, ASurfaceThatFailedIsTriedAgain) {
 // Where the node was started again, what is latched comes in any order. Only a body that was scanned before
 // the worn scan is hers.
 TEST_F(CorrelationHandlerTest, AWornScanThatCameFirstIsComparedWithABodyScannedBeforeIt) {
-  for (const double seconds : {-1.0, 1.0}) {
+  const ros::Time bare(100);
+  for (const ros::Time& worn : {ros::Time(0), ros::Time(99), ros::Time(101)}) {
     CorrelationHandler started{Parameters(YAML::Load("{}"), "correlation"),
                                [](const geometry::PointCloud&) { return MeasuredScan{}; }};
     const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(xyz_cloud(1));
-    cloud->header.stamp = some_tag().header.stamp + ros::Duration(seconds);
+    cloud->header.stamp = worn;
     EXPECT_EQ(code_of([&] { started.add(sensor_msgs::PointCloud2::ConstPtr(cloud), tag_of(*cloud)); }),
               "nothing_yet");
-    add_body(started);
-    EXPECT_EQ(fit(started).has_value(), seconds > 0);
+    EXPECT_EQ(started.waits(tag_of(*cloud).scan_id), !worn.isZero());
+    add_body(started, bare);
+    EXPECT_EQ(fit(started).has_value(), worn > bare);
   }
 }
 

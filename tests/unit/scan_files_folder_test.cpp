@@ -110,6 +110,22 @@ TEST_F(ScanFolderTest, AFileThatStillWaitsIsForTheNextLife) {
   EXPECT_EQ(played(second, 1), "b.ply");
 }
 
+// What the player says of the file that it is at: another version of it is another file.
+TEST_F(ScanFolderTest, ATextHasTheNameAndTheVersion) {
+  const std::string name = "1 2 of Mrs. Example.ply";
+  ScanFolder folder(root_, 1);
+  write(name, "scan");
+  EXPECT_EQ(played(folder, 0), "");
+  EXPECT_EQ(played(folder, 1), name);
+  const std::string text = folder.text(name);
+  EXPECT_EQ(folder.played(), std::vector{text});
+  EXPECT_EQ(ScanFolder::name_in(text), name);
+  write(name, "scan");
+  EXPECT_EQ(played(folder, 2), "");
+  EXPECT_EQ(played(folder, 3), name);
+  EXPECT_NE(folder.text(name), text);
+}
+
 TEST_F(ScanFolderTest, AFolderThatIsGoneIsSaidAndMayComeBack) {
   ScanFolder folder(root_, 1);
   fs::remove_all(root_);
