@@ -122,8 +122,8 @@ class Booths:
         import rospy
         from sensor_msgs import point_cloud2
         from std_msgs.msg import Header
-        self.publish("/files/worn/points", point_cloud2.create_cloud_xyz32(Header(stamp=rospy.Time.now(), frame_id="files/booth"),
-                                                                          points_of(self.work / str(body) / "scan.ply")))
+        header = Header(stamp=rospy.Time.now(), frame_id="files/booth")
+        self.publish("/files/worn/points", point_cloud2.create_cloud_xyz32(header, points_of(self.work / str(body) / "scan.ply")))
 
     def wait_for_reading(self, again=False):
         """Until the scan player has begun to read a file; `again`: one that its life before was at, which counts as played by now."""
