@@ -12,6 +12,7 @@ from matplotlib import image
 
 PATIENCE = 120  # seconds, for a scan on a busy machine
 STILL = 60  # seconds at most until the screen stands still
+FRAMES = "Frame Rate: 30\n"  # of launch/rviz/*.rviz
 BACKGROUND = (238, 240, 243)  # of launch/rviz/inspect.rviz
 VIEW, PANEL = "840x709+0+62", "430x541+850+230"  # of the screen; the panel without the garment's name, where a cursor blinks
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -167,8 +168,15 @@ class Session:
                 and fit.status == body.status == "converged" and all(abs(line.request - ratio) < 1e-6 for line in fit.lines))
 
     def start_rviz(self, config, name="rviz", shows_a_body=True):
-        """Returns it once its window stands still, with a body in it."""
-        rviz = self.start(name, "rviz", "-d", config)
+        """Returns it once its window stands still, with a body in it. It draws few frames: without a graphics card each
+        takes the processor from the chain."""
+        with open(config) as file:
+            text = file.read()
+        assert FRAMES in text
+        path = os.path.join(self.out, name + "_slow.rviz")
+        with open(path, "w") as file:
+            file.write(text.replace(FRAMES, "Frame Rate: 5\n"))
+        rviz = self.start(name, "rviz", "-d", path)
         wait_for("window of rviz", lambda: self.windows() or rviz.poll() is not None)
         assert rviz.poll() is None, "rviz has ended: see %s.log" % name
         subprocess.check_call(["xdotool", "windowfocus", self.windows()[-1]])  # there is no window manager to do it
