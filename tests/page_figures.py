@@ -195,10 +195,10 @@ def control_mesh(runs):
         panel.set_axis_off()
     for (row, column), name in names.items():
         at = places[row * columns + column]
-        axes[0].annotate(name, at, (2, 4), textcoords="offset points", fontsize=6.5)
+        axes[0].annotate(name, at, (2, 3), textcoords="offset points", fontsize=6, rotation=30)
     axes[0].margins(0.08)
     axes[0].legend(fontsize=7, loc="lower center", ncol=3, bbox_to_anchor=(0.5, -0.1))
-    axes[0].set_title("the template's grid, named nodes of her left half", fontsize=9)
+    axes[0].set_title("the template's grid, named nodes of her left half", fontsize=9, pad=12)
     middle, size = outer[:, 1:].mean(0), np.ptp(outer[:, 1:], axis=0)
     axes[1].set_xlim(middle[0] - 0.62 * size[0], middle[0] + 0.62 * size[0])
     axes[1].set_ylim(middle[1] - 0.6 * size[1], middle[1] + 0.6 * size[1])

@@ -216,7 +216,7 @@ void FitPanel::take_fit(const FitState& fit) {
   if (fit.lines.size() > kMostLines) return answer(words::kTooManyLines);
   if (fit.status == FitState::SOLVING) {
     if (!body_.empty() && fit.scan_id != body_.scan_id()) return;
-    show_words(fit_, words::solving(static_cast<int>(fit.iteration)));
+    fit_->say(words::solving(static_cast<int>(fit.iteration)));
     const std::vector<AskedLine> worn = session_.now().worn();
     for (std::size_t i = 0; i < std::min(worn.size(), fit.line_ratios.size()); ++i)
       for (LineRow* row : rows_)
@@ -325,7 +325,7 @@ void FitPanel::show_lines() {
 
 void FitPanel::answer(const std::string& words, bool done) {
   if (answer_->toolTip() == text(words)) return;
-  show_words(answer_, words);
+  answer_->say(words);
   answer_->setStyleSheet(done ? "" : "color: #8a4b00");
   if (!words.empty()) ROS_INFO("fit panel: %s", node::log_words(words).c_str());
 }
@@ -371,7 +371,7 @@ void FitPanel::show_state() {
   show_age();
   if (state.trouble && said_ != state.words) ROS_WARN("fit panel: %s", node::log_words(state.words).c_str());
   said_ = state.words;
-  show_words(pipeline_, state.words + (!old_since_ ? "" : old_gone_ ? words::kOldBodyGone : words::kOldBody));
+  pipeline_->say(state.words + (!old_since_ ? "" : old_gone_ ? words::kOldBodyGone : words::kOldBody));
   pipeline_->setStyleSheet(state.trouble ? "color: #b2182b" : "");
   const QString garment = text(session_.now().garment);
   const int listed = garment_->findData(garment);

@@ -26,6 +26,7 @@
 #include "rviz/fit_client.hpp"
 #include "rviz/girth_table.hpp"
 #include "rviz/line_row.hpp"
+#include "rviz/sentence.hpp"
 #include "rviz/view_row.hpp"
 #endif
 
@@ -90,8 +91,9 @@ class FitPanel : public rviz::Panel {
   void forget_customer();
   void show_outcome();
   void forget_outcome();
-  void show_warnings(std::vector<std::string> messages);  // those of lines, and of the skin
-  std::string lack_of(const LineResult& line) const;      // "" where the line holds
+  void say_warnings(std::string& which, const std::string& words);  // of folds_ and tightness_
+  void show_warnings(std::vector<std::string> messages);            // those of lines, and of the skin
+  std::string lack_of(const LineResult& line) const;                // "" where the line holds
   void show_lines();
   void show_girths();
   void show_whose();
@@ -130,7 +132,8 @@ class FitPanel : public rviz::Panel {
   double keep_old_ = 0;  // s; 0: for good
 
   QComboBox* garment_;
-  QLabel *pipeline_, *fit_, *answer_, *folds_, *tightness_, *volumes_;
+  Sentence *pipeline_, *fit_, *answer_, *warned_, *volumes_;
+  std::string folds_, tightness_;  // what is warned of
   QProgressBar* progress_;
   QWidget *lines_box_, *regions_box_;
   std::vector<LineRow*> rows_;

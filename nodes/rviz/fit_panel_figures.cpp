@@ -33,7 +33,9 @@ std::string region_of(const LineResult& line, const ControlMesh& control) {
 void FitPanel::forget_outcome() {
   session_.forget_lengths();
   for (LineRow* row : rows_) row->forget_outcome();
-  for (QLabel* label : {fit_, folds_, volumes_, tightness_}) show_words(label, "");
+  for (Sentence* label : {fit_, volumes_}) label->say("");
+  say_warnings(folds_, "");
+  say_warnings(tightness_, "");
   build_regions();
   show_lines();
 }
@@ -43,8 +45,7 @@ void FitPanel::show_outcome() {
   const FitState& fit = *fitted_;
   if (!body_.empty() && fit.scan_id != body_.scan_id()) return forget_outcome();
   const std::string ended = words::fit_ended(fit.garment, fit.status, fit.note, fit.milliseconds);
-  fit_->setText(text(words::without_details(ended)));
-  fit_->setToolTip(text(ended));
+  fit_->say(words::without_details(ended), ended);
   std::map<std::string, std::string> regions;
   std::vector<std::string> messages;
   const std::string& asked = session_.now().garment;
@@ -78,13 +79,18 @@ void FitPanel::show_outcome() {
   if (is_of_asked)
     show_warnings(messages);
   else
-    show_words(folds_, "");
+    say_warnings(folds_, "");
   QStringList volumes;
   for (const RegionResult& region : fit.regions)
     volumes << text(words::volume(region.name, region.volume_before, region.volume_after));
-  volumes_->setText(volumes.join(" \u00b7 "));
+  volumes_->say(volumes.join(" \u00b7 ").toStdString());
   build_regions();
   show_lines();
+}
+
+void FitPanel::say_warnings(std::string& which, const std::string& words) {
+  which = words;
+  warned_->say(folds_ + (folds_.empty() || tightness_.empty() ? "" : " ") + tightness_);
 }
 
 void FitPanel::show_warnings(std::vector<std::string> messages) {
@@ -102,9 +108,8 @@ void FitPanel::show_warnings(std::vector<std::string> messages) {
         (notice.code == geometry::notice::kUnderConstricted && !is_said(notice.line)))
       messages.push_back(notice.message);
   const std::string words = words::warnings(messages);
-  if (!words.empty() && folds_->toolTip() != text(words))
-    ROS_WARN("fit panel: %s", node::log_words(words).c_str());
-  show_words(folds_, words);
+  if (!words.empty() && folds_ != words) ROS_WARN("fit panel: %s", node::log_words(words).c_str());
+  say_warnings(folds_, words);
 }
 
 std::string FitPanel::lack_of(const LineResult& line) const {
@@ -122,7 +127,7 @@ void FitPanel::show_girths() {
   table_->show_measures(measures_, {body_.mesh(), worn});
 
   const std::string pressed = extreme_skin(true), stretched = extreme_skin(false);
-  show_words(tightness_, pressed + (pressed.empty() || stretched.empty() ? "" : " ") + stretched);
+  say_warnings(tightness_, pressed + (pressed.empty() || stretched.empty() ? "" : " ") + stretched);
 }
 
 // As in the scan's posture: what the garment alone does.

@@ -31,13 +31,8 @@ constexpr int kLongestCustomer = 60;  // letters of a customer id
 constexpr char kWarning[] = "color: #b2182b; font-weight: bold";
 constexpr char kDisplay[] = "tensegric_fit/BodyMesh";
 
-// Words in a place of so many lines, so that nothing below moves under the mouse.
-QLabel* sentence(QVBoxLayout* layout, int lines, const char* style = "") {
-  auto* label = new QLabel;
-  label->setWordWrap(true);
-  label->setStyleSheet(style);
-  label->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  label->setFixedHeight(lines * label->fontMetrics().lineSpacing() + 2);
+Sentence* sentence(QVBoxLayout* layout, int lines, const char* style = "") {
+  auto* label = new Sentence(lines, style);
   layout->addWidget(label);
   return label;
 }
@@ -87,8 +82,7 @@ FitPanel::FitPanel(QWidget* parent) : rviz::Panel(parent) {
   layout->addWidget(progress_);
   build_garment(layout);
   fit_ = sentence(layout, 2);
-  folds_ = sentence(layout, 3, kWarning);
-  tightness_ = sentence(layout, 2, kWarning);
+  warned_ = sentence(layout, 5, kWarning);
   layout->addWidget(lines_box_ = new QWidget);
   layout->addWidget(regions_box_ = new QWidget);
   build_buttons(layout);
