@@ -37,9 +37,6 @@ double smooth_step(double t) {
   return t * t * (3 - 2 * t);
 }
 
-Vector3d mirrored(const Vector3d& p) {
-  return {p.x(), -p.y(), p.z()};
-}
 Vector3d on_left(const Vector3d& p) {
   return {p.x(), std::abs(p.y()), p.z()};
 }

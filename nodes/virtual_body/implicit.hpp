@@ -7,6 +7,11 @@
 
 namespace tensegric_fit::virtual_body {
 
+/// At y = 0.
+inline Eigen::Vector3d mirrored(const Eigen::Vector3d& p) {
+  return {p.x(), -p.y(), p.z()};
+}
+
 /// A shape that is its own mirror image at y = 0, or nearly so.
 class Implicit {
  public:

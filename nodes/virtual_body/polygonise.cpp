@@ -20,10 +20,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-Vector3d mirrored(const Vector3d& p) {
-  return {p.x(), -p.y(), p.z()};
-}
-
 // The half space y >= 0 of the shape, or of its mirror image.
 struct Half {
   const Implicit& shape;
