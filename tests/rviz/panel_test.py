@@ -100,14 +100,14 @@ def the_wheel_turns_what_was_chosen_only(shop):
         time.sleep(1)
 
     shop.comes_to(0.95)
-    for chosen, x, y in (("alt+g", 1100, 414), ("alt+g", 1005, 391), ("alt+1", 1040, 192)):  # slider, per cent, garment
+    for chosen, x, y in (("alt+g", 1100, 406), ("alt+g", 1005, 383), ("alt+1", 1040, 192)):  # slider, per cent, garment
         shop.press(chosen)
         wheel(x, y, "5")
         assert shop.ratio() == 0.95, "the wheel over the panel changed a line"
         assert shop.message["body/deformed"].garment == "B1", "the wheel over the panel changed the garment"
         wheel(950, 110, "4", 10)  # the panel scrolled: up again
     shop.press("alt+1")  # the slider is chosen
-    wheel(1100, 414, "5")
+    wheel(1100, 406, "5")
     wait_for("line that the wheel changed", lambda: shop.ratio() not in (None, 0.95), 20)
 
 
