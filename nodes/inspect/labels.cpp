@@ -14,7 +14,7 @@ constexpr double kMiddle = 0.02;  // of the width; what is so near the middle ca
 constexpr double kSize = 0.42;    // of the font
 const cv::Scalar kLeader(165, 165, 165);
 
-cv::Scalar drawn_in(const Colour& colour) {
+cv::Scalar bgr(const Colour& colour) {
   return {double(colour[2]), double(colour[1]), double(colour[0])};
 }
 
@@ -57,7 +57,7 @@ void write_side(cv::Mat& picture, std::vector<const Label*> labels, bool left) {
     int below = 0;
     const cv::Size size = cv::getTextSize(label.text, cv::FONT_HERSHEY_SIMPLEX, kSize, 1, &below);
     const cv::Point text(left ? edge.x - kBeside - size.width : edge.x + kBeside, edge.y + size.height / 2);
-    cv::putText(picture, label.text, text, cv::FONT_HERSHEY_SIMPLEX, kSize, drawn_in(label.colour), 1,
+    cv::putText(picture, label.text, text, cv::FONT_HERSHEY_SIMPLEX, kSize, bgr(label.colour), 1,
                 cv::LINE_AA);
   }
 }
@@ -68,9 +68,9 @@ void draw_mark(cv::Mat& picture, const Label& label) {
                      static_cast<int>(std::lround(label.at.y())));
   if (label.mark == Label::Mark::dot) {
     cv::circle(picture, at, kRadius + 1, cv::Scalar(255, 255, 255), cv::FILLED, cv::LINE_AA);
-    cv::circle(picture, at, kRadius, drawn_in(label.colour), cv::FILLED, cv::LINE_AA);
+    cv::circle(picture, at, kRadius, bgr(label.colour), cv::FILLED, cv::LINE_AA);
   } else if (label.mark == Label::Mark::ring) {
-    cv::circle(picture, at, kRadius, drawn_in(label.colour), 1, cv::LINE_AA);
+    cv::circle(picture, at, kRadius, bgr(label.colour), 1, cv::LINE_AA);
   }
 }
 

@@ -20,7 +20,7 @@ constexpr double kBare = 0.03;  // m of RegisteredBody::support: no points round
 constexpr double kLimb = 0.04;  // m from the model's skin: half a forearm's breadth
 constexpr int kCompany = 5;  // points, of which one lies within kLimb / 2 of the next: single ones are stray
 constexpr double kFarFromBody = 0.3;  // m; farther things are the booth's
-constexpr double kSmallShare = 0.005,
+constexpr double kSmall = 0.005,
                  kLarge = 0.25;     // of the body's points: less is stray; more is named wherever it is
 constexpr double kTall = 0.5;       // of her stature: as large as a person, if it is kLarge, too
 constexpr std::size_t kNamed = 10;  // things that are named at most
@@ -59,7 +59,7 @@ std::vector<body_model::Unexplained> things_beside(const Points& left_out,
   const auto her_box = geometry::bounding_box(body.skin);
   for (const std::vector<int>& thing : things_in(left_out)) {
     const double share = static_cast<double>(thing.size()) / static_cast<double>(body_points);
-    if (share < kSmallShare || things.size() == kNamed) break;
+    if (share < kSmall || things.size() == kNamed) break;
     Points points;
     for (const int i : thing) points.push_back(left_out[i]);
     Vector3d centre = Vector3d::Zero();

@@ -10,9 +10,9 @@ namespace tensegric_fit::inspect {
 namespace {
 
 constexpr char kLong[] =
-    "'chest': Presses with an estimated 9.8 kPa: wearers complain above 4.7 kPa. The skin folds into a shelf "
-    "2 cm below "
-    "the right bust point: 9 cm2 are turned by up to 63 degrees. Loosen 'chest'. And 4 more places.";
+    "'chest': Presses with an estimated 9.8 kPa: wearers complain above 4.7 kPa. The skin folds into a "
+    "shelf 2 cm below the right bust point: 9 cm2 are turned by up to 63 degrees. Loosen 'chest'. And 4 more "
+    "places.";
 
 class SentenceTest : public testing::Test {
  protected:
