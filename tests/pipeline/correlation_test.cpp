@@ -58,6 +58,26 @@ TEST_F(CorrelationTest, BeforeAnyBodyThereIsNothingToCompareWith) {
   EXPECT_TRUE(wait_for([] { return last_error() == "nothing_yet"; })) << last_error();
 }
 
+/// What the nodes of this chain say that they removed of a scan.
+std::string removed_of(const std::string& scan_id) {
+  Forget order;
+  order.request.scan_id = scan_id;
+  if (!ros::service::call("forget", order)) return "";
+  std::string removed;
+  for (const std::string& line : order.response.removed) removed += line + "\n";
+  return removed;
+}
+
+TEST_F(CorrelationTest, AnEarlyWornScanThatIsForgottenIsComparedWithNoBody) {
+  const std::string worn_scan_id = send_worn("a", -500);  // later than the body's, for which it waits
+  listen(2);                                              // until it has come
+  const std::string removed = removed_of(worn_scan_id);
+  EXPECT_NE(removed.find("/correlation: "), std::string::npos) << removed;
+  ASSERT_NE(client_->fit(booth_scan("a")), "");
+  listen(2);
+  EXPECT_TRUE(found_.empty());
+}
+
 TEST_F(CorrelationTest, ASecondScanIsComparedWithTheFitOfTheFirst) {
   const std::string scan_id = client_->fit(booth_scan("a"));
   ASSERT_NE(scan_id, "");
@@ -137,11 +157,7 @@ TEST_F(CorrelationTest, AWornScanIsOfOneBodyOnly) {
 TEST_F(CorrelationTest, AWornScanThatIsForgottenIsNowhere) {
   const std::string worn_scan_id = send_worn("a");
   ASSERT_TRUE(wait_for([] { return !found_.empty(); })) << last_error();
-  Forget order;
-  order.request.scan_id = worn_scan_id;
-  ASSERT_TRUE(ros::service::call("forget", order));
-  std::string removed;
-  for (const std::string& line : order.response.removed) removed += line + "\n";
+  const std::string removed = removed_of(worn_scan_id);
   EXPECT_NE(removed.find("/correlation: "), std::string::npos) << removed;
 
   correlation_

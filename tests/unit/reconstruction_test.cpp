@@ -368,9 +368,10 @@ TEST(Reconstruction, ThirtyPercentOfStrayPointsDoNotMatter) {
 }
 
 TEST(Reconstruction, SameScanSameMeshEvenTwoAtOnce) {
+  const PointCloud& scan = booth_scan();  // made by one thread
   reconstruction::Reconstruction second, third;
-  std::thread other([&] { second = test::reconstructed(booth_scan(), quick()); });
-  third = test::reconstructed(booth_scan(), quick());
+  std::thread other([&] { second = test::reconstructed(scan, quick()); });
+  third = test::reconstructed(scan, quick());
   other.join();
   for (const auto* result : {&second, &third}) {
     EXPECT_EQ(result->body.mesh.vertices, her().body.mesh.vertices);
