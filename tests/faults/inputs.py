@@ -4,7 +4,7 @@
 Usage: build/devel/env.sh python3 tests/faults/inputs.py --work DIR [--kills 40] [--soon 5] [--anew]
 
 Each case kills one of them at a random moment while it is at a scan, or at a scan in the garment. The newest scan must then have the result that it has without faults, to the bit, at most 5 s after
-the node is heard again; no result is another scan's. The last case kills scan_player twice while it reads one file. A line of JSON per case in DIR/inputs.jsonl; cases that are there are not done again. Exit: 0 all hold, 1 otherwise."""
+the node is heard again; no result is another scan's. The last cases kill scan_player twice while it reads one file, and between two scans of one file. A line of JSON per case in DIR/inputs.jsonl; cases that are there are not done again. Exit: 0 all hold, 1 otherwise."""
 import argparse
 import hashlib
 import json
@@ -40,6 +40,7 @@ class Booths:
         self.lock = threading.Lock()
         self.found = {"cameras": [], "files": [], "worn": []}  # (digest, seconds)
         self.heard, self.errors = {}, {}  # booth/node -> seconds; its last error
+        self.labelled = 0.0  # when a scan of a file was published last
         self.files = 0
         self.publishers = {}
         self.environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{self.port}", ROS_HOSTNAME="localhost")
@@ -74,17 +75,21 @@ class Booths:
         os.environ.update(self.environment)
         import rospy  # reads the environment
         from diagnostic_msgs.msg import DiagnosticArray
-        from tensegric_fit.msg import Correlation, DeformedMesh
+        from tensegric_fit.msg import Correlation, DeformedMesh, ScanLabel
         rospy.init_node("inputs", disable_signals=True)
         for booth in KILLED:
             rospy.Subscriber(f"/{booth}/body/deformed", DeformedMesh, lambda m, b=booth: m.status != "solving" and self.keep(b, m.vertices))
         rospy.Subscriber("/files/worn/correlation", Correlation, lambda m: self.keep("worn", m.distance))
+        rospy.Subscriber("/files/scan/label", ScanLabel, self.note)
         rospy.Subscriber("/diagnostics", DiagnosticArray, self.hear)
 
     def keep(self, what, numbers):
         digest = hashlib.sha256(struct.pack(f"<{len(numbers)}f", *numbers)).hexdigest()[:16]
         with self.lock:
             self.found[what].append((digest, time.monotonic()))
+
+    def note(self, _):
+        self.labelled = time.monotonic()
 
     def hear(self, array):
         for status in array.status:
@@ -117,6 +122,18 @@ class Booths:
         half = self.work / "half.ply"
         shutil.copy(self.work / str(body) / "scan.ply", half)
         half.rename(self.folder / f"{self.files}.ply")
+
+    def scan_bag(self, bodies):
+        """One file with a scan of each."""
+        import rosbag
+        self.files += 1
+        half = self.work / "half.bag"
+        with rosbag.Bag(str(half), "w") as bag:
+            for body in bodies:
+                with rosbag.Bag(str(self.work / str(body) / "scan.bag")) as one:
+                    for topic, message, stamp in one.read_messages(topics=["/scan/points"]):
+                        bag.write(topic, message, stamp)
+        half.rename(self.folder / f"{self.files}.bag")
 
     def scan_worn(self, body):
         import rospy
@@ -201,6 +218,26 @@ def kill_twice(booths, right):
     return {"node": node, "twice": True, "fine": lost}
 
 
+def kill_between(booths, right):
+    """Of a file with several scans, some of which are out, the rest is not played, and that is said; the next file is played."""
+    begin, node = time.monotonic(), "files/scan_player"
+    booths.scan_bag([0, 1])
+    wait_until(lambda: booths.labelled > begin, "the first scan", PATIENCE)
+    time.sleep(1)  # of the ten to the next; it has noted that one is out
+    process, begin = booths.processes()[node], time.monotonic()
+    os.kill(process, signal.SIGKILL)
+    wait_until(lambda: booths.processes().get(node, process) != process, node, PATIENCE)
+    back = time.monotonic()
+    wait_until(lambda: booths.heard[node] > back + 0.3 and booths.errors[node] == "broken_file", "the name of the loss", PATIENCE)
+    booths.scan_files(2)
+    booths.wait("files", begin, right["files"][2])
+    played = any(digest == right["files"][1] for digest, at in booths.found["files"] if at > begin)
+    return {"node": node, "between": True, "fine": not played}
+
+
+OTHERS = (kill_twice, kill_between)
+
+
 def bodies_in(work):
     for n in range(BODIES):
         if not (work / str(n)).exists():
@@ -224,9 +261,9 @@ def main():
     bodies_in(work)
     with Booths(work) as booths, open(path, "a", encoding="utf-8") as file:
         right = right_results(booths)
-        for case in range(len(rows), arguments.kills + 1):
+        for case in range(len(rows), arguments.kills + len(OTHERS)):
             try:
-                row = kill(booths, right, case, arguments.soon) if case < arguments.kills else kill_twice(booths, right)
+                row = kill(booths, right, case, arguments.soon) if case < arguments.kills else OTHERS[case - arguments.kills](booths, right)
             except TimeoutError as error:
                 row = {"fine": False, "error": str(error)}
             rows.append({"case": case, **row})
