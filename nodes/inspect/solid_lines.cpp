@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "geometry/rigid_motion.hpp"
+
 namespace tensegric_fit::inspect {
 namespace {
 
@@ -40,7 +42,7 @@ void add_tube(const Stroke& stroke, double radius, PaintedSurface& surface) {
                                                                 : i];
     const Eigen::Vector3d turned = (after - before).normalized();
     if (turned.squaredNorm() > 0.5) {  // not where the line turns back on itself
-      aside = Eigen::Quaterniond::FromTwoVectors(along, turned) * aside;
+      aside = geometry::shortest_turn(along, turned) * aside;
       along = turned;
     }
     const int row = static_cast<int>(surface.mesh.vertices.size());

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "geometry/parabola.hpp"
 #include "landmarks/finders.hpp"
 
 namespace tensegric_fit::landmarks {
@@ -59,17 +60,13 @@ std::optional<Vector3d> find_buttock(const Trunk& trunk, const Vector3d& start_a
     const Vector3d start = expected + kBeside * i / kProfiles * Vector3d::UnitY();
     Profile profile = profile_down(trunk, start + kSeatReach * Vector3d::UnitZ(), kProfile);
     for (const double reach : {kNarrowSeat, kSeatReach}) {
-      Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-      Vector3d sums = Vector3d::Zero();
+      geometry::Parabola parabola;
       for (const Vector3d& p : profile.points) {
         const Vector3d d = (p - start) / kSeatReach;
-        if (std::abs(p.z() - start.z()) > reach || d.x() > 1) continue;
-        const Vector3d terms(1, d.z(), d.z() * d.z());
-        squares += terms * terms.transpose();
-        sums += d.x() * terms;
+        if (std::abs(p.z() - start.z()) <= reach && d.x() <= 1) parabola.add(d.z(), d.x());
       }
-      if (squares(0, 0) < kNarrowSeat / Profile::kStep) continue;  // half of the profile's points
-      const Vector3d c = squares.ldlt().solve(sums);
+      if (parabola.count() < kNarrowSeat / Profile::kStep) continue;  // half of the profile's points
+      const Vector3d c = parabola.coefficients();
       if (c[2] < kLeastRound * kSeatReach / 2) continue;  // flat: the wider reach may show it
       const double up = std::clamp(-c[1] / (2 * c[2]), -0.5, 0.5);
       apexes.emplace_back(start + kSeatReach * Vector3d(c[0] + up * (c[1] + up * c[2]), 0, up));

@@ -1,9 +1,10 @@
 #include "virtual_body/sagittal.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/parabola.hpp"
 #include "geometry/points.hpp"
 #include "geometry/section.hpp"
 #include "geometry/status.hpp"
@@ -102,19 +103,13 @@ struct Apex {
 
 Apex apex_of(const Line& profile, const Vector3d& rearmost) {
   for (const double reach : {kNarrow, kWide}) {
-    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-    Vector3d sums = Vector3d::Zero();
-    int count = 0;
+    geometry::Parabola parabola;
     for (const Vector3d& p : profile) {
       const double d = (p.z() - rearmost.z()) / reach, x = p.x() - rearmost.x();
-      if (std::abs(d) >= 1 || x >= kDeep) continue;
-      const Vector3d terms(1, d, d * d);
-      squares += terms * terms.transpose();
-      sums += x * terms;
-      ++count;
+      if (std::abs(d) < 1 && x < kDeep) parabola.add(d, x);
     }
-    if (count < 3) continue;
-    const Vector3d c = squares.ldlt().solve(sums);
+    if (parabola.count() < 3) continue;
+    const Vector3d c = parabola.coefficients();
     if (c[2] / (reach * reach) <= kRound) continue;
     const double up = std::clamp(-c[1] / (2 * c[2]), -kMoved / reach, kMoved / reach);
     return {reach * up, rearmost.x() + c[0] + up * (c[1] + up * c[2])};

@@ -1,11 +1,12 @@
 #include "virtual_body/skin_measures.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "geometry/parabola.hpp"
 #include "virtual_body/doubts.hpp"
 
 namespace tensegric_fit::virtual_body {
@@ -65,8 +66,7 @@ std::optional<Waist> find_waist(const Skin& skin, double low, double high) {
   const auto least = std::min_element(girths.begin(), girths.end());
   const int at = static_cast<int>(least - girths.begin()), count = static_cast<int>(z.size());
   if (at < kEnd || at >= count - kEnd) return std::nullopt;
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  Vector3d sums = Vector3d::Zero();
+  geometry::Parabola parabola;
   double flat_low = z[at], flat_high = z[at];
   for (int i = 0; i < count; ++i) {
     if (girths[i] < *least + 0.001) {
@@ -74,12 +74,9 @@ std::optional<Waist> find_waist(const Skin& skin, double low, double high) {
       flat_high = std::max(flat_high, z[i]);
     }
     const double d = (z[i] - z[at]) / kWaistReach;
-    if (std::abs(d) >= 1) continue;
-    const Vector3d terms(1, d, d * d);
-    squares += terms * terms.transpose();
-    sums += girths[i] * terms;
+    if (std::abs(d) < 1) parabola.add(d, girths[i]);
   }
-  const Vector3d c = squares.ldlt().solve(sums);
+  const Vector3d c = parabola.coefficients();
   const double up = c[2] > 0 ? -c[1] / (2 * c[2]) * kWaistReach : 0;
   const double below = *std::max_element(girths.begin(), least),
                above = *std::max_element(least + 1, girths.end());

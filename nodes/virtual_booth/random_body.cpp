@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "body_model/registered_body.hpp"
+#include "geometry/rigid_motion.hpp"
 #include "geometry/side.hpp"
 #include "geometry/status.hpp"
 #include "virtual_body/random.hpp"
@@ -184,7 +185,7 @@ ScannerOptions random_scanner(std::uint64_t seed, const virtual_body::VirtualBod
   const geometry::BodyMeasures& truth = body.truth;
   const Vector3d up = truth.body_from_scan.linear().row(2);
   if (up.head<2>().norm() > 1e-9)  // a frame that leans: nobody stands stiff on the edges of her soles
-    scanner.booth_from_scan = Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitZ()) *
+    scanner.booth_from_scan = geometry::shortest_turn(up, Vector3d::UnitZ()) *
                               Eigen::Translation3d(-truth.body_from_scan.inverse().translation());
   const double stature = truth.height("stature");
   const auto in_scan = [&truth](const Vector3d& p) -> Vector3d { return truth.body_from_scan.inverse() * p; };
