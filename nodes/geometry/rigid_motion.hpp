@@ -21,8 +21,8 @@ inline Eigen::Isometry3d motion_about(const Eigen::Vector3d& centre, const Small
   return motion_about(centre, motion.head<3>(), motion.tail<3>());
 }
 
-/// That turns `from` onto `to`, of any lengths but 0, by the smaller angle. In a source of its own: what
-/// Eigen takes for opposite directions is five seconds of compiling.
+/// Turns `from` onto `to`, of any lengths but 0, by the smaller angle. In a source of its own: the SVD that
+/// Eigen takes for opposite directions is 3 to 5 s of compiling wherever it is called.
 Eigen::Quaterniond shortest_turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 /// How far small motions about `centre` move a point along `normal`: the row of a registration from points to

@@ -41,6 +41,15 @@ class CorrelationTest : public testing::Test {
     return node::tag_of(scan).scan_id;
   }
   static std::string last_error() { return client_->diagnostics.at(kStage).at("last_error"); }
+  /// What the nodes of this chain say that they removed of a scan.
+  static std::string removed_of(const std::string& scan_id) {
+    Forget order;
+    order.request.scan_id = scan_id;
+    if (!ros::service::call("forget", order)) return "";
+    std::string removed;
+    for (const std::string& line : order.response.removed) removed += line + "\n";
+    return removed;
+  }
 
   static std::unique_ptr<ChainClient> client_;
   static ros::Publisher worn_;
@@ -56,16 +65,6 @@ std::vector<Correlation::ConstPtr> CorrelationTest::found_;
 TEST_F(CorrelationTest, BeforeAnyBodyThereIsNothingToCompareWith) {
   send_worn("a");
   EXPECT_TRUE(wait_for([] { return last_error() == "nothing_yet"; })) << last_error();
-}
-
-/// What the nodes of this chain say that they removed of a scan.
-std::string removed_of(const std::string& scan_id) {
-  Forget order;
-  order.request.scan_id = scan_id;
-  if (!ros::service::call("forget", order)) return "";
-  std::string removed;
-  for (const std::string& line : order.response.removed) removed += line + "\n";
-  return removed;
 }
 
 TEST_F(CorrelationTest, AnEarlyWornScanThatIsForgottenIsComparedWithNoBody) {
