@@ -1,5 +1,7 @@
 #!/usr/bin/python3
-"""fit_precision.py --mesh READINGS TRUTHS [READINGS TRUTHS] --scan READINGS TRUTHS [READINGS TRUTHS] [--earlier PRECISION] --out precision.yaml
+"""fit_precision.py --mesh READINGS TRUTHS [READINGS TRUTHS] --scan READINGS TRUTHS [READINGS TRUTHS] [--booth READINGS TRUTHS]
+    [--earlier PRECISION] --out precision.yaml
+fit_precision.py --booth READINGS TRUTHS --earlier PRECISION --out precision.yaml
 
 How far off each figure's readings on mesh and body model are, fitted to training bodies: READINGS as `readings` writes them (a line of
 JSON per body), TRUTHS a folder with NAME_truth.json. READINGS with the model cut to fewer components stand for bodies outside its span: how
@@ -7,6 +9,11 @@ fast its errors grow with its misfit is fitted to them, too, or taken over from 
 definitions (limbs, sides, gluteal folds) is true where it is read on the true surface. A second pair is of the same women with covered breasts (`again.py
 covered`): what their nipples or a pointed breast would be moved by (`shift`) is fitted to both, and of the second no other figures are taken. Needs python3-numpy,
 python3-scipy, python3-yaml.
+
+Read on the true surface, a limb's girth still has the error of the tape's level and direction, which come from the registered model. Of women
+nobody knows it. --booth has virtual bodies (`virtual_booth`), whose truths have limbs by our definition: from them limbs on meshes get their
+errors, and their half-widths. How far off the model's own reading is stays as it is on women. With --booth, and without --mesh and --scan,
+only these lines are made again; all others of PRECISION stay as they are.
 
 A reading's error has a Student-t distribution (4 degrees of freedom, so that a few gross errors do not rule) round a bias (of heights and
 girths; of points 0), with the scale sqrt(base^2 + (slope * support)^2 + (factor * shift)^2); the base grows with a power of the registration's residual (base: at 2 mm), on the mesh, too, as it is
@@ -21,6 +28,7 @@ import collections
 import datetime
 import json
 import os
+import re
 import sys
 
 import numpy as np
@@ -37,6 +45,7 @@ LEAST = 1e-4                                      # m: no reading is taken to be
 STEEPEST = 4                                      # power of the misfit: beyond it a few gross errors rule
 UNIT = 2e-3                                       # m of misfit: as kUnit in landmarks/figures.cpp
 KEPT = 'powers of the misfit'                     # what is taken over from an earlier file
+FROM_BOOTH = 'limbs on meshes from '              # how the header's part on virtual bodies begins
 FEWEST = 20                                       # readings that a spread is fitted to
 FEWEST_HELD = 40                                  # errors that a half-width is the quantile of: two of them lie outside
 
@@ -80,7 +89,7 @@ def truth_of(truth, frame, kind, name):
 
 
 def samples(readings, truths, surfaces):
-    """figure -> list of Row."""
+    """figure -> list of Row. `surfaces`: what own figures are on the true surface; None: the truths have them by our definition."""
     out = {}
     for line in open(readings):
         r = json.loads(line)
@@ -96,7 +105,7 @@ def samples(readings, truths, surfaces):
             kind, name = KINDS[f['kind']], f['name']
             if '%s %s' % (kind, name) in vague - {'girth neck', 'point neck_back'}:
                 continue
-            if is_own(name):
+            if is_own(name) and surfaces is not None:
                 v = surfaces.get((r['name'], f['kind'], name))
                 found = None if v is None else (frame[:3, :3] @ v + frame[:3, 3] if kind == 'point' else v, None)
             else:
@@ -181,13 +190,16 @@ def settle(row, fit):
     return model + share * (mesh - model), m * np.sqrt(share), apart, False
 
 
-def fitted(figure, rows, growth):
-    """Spreads of both readings, and what their distance counts. `growth`: of an earlier fit, or None."""
+def fitted(figure, rows, growth, model=None):
+    """Spreads of both readings, and what their distance counts. `growth`: of an earlier fit, or None.
+    `model`: what `scale` gave for the model's reading, or None."""
     keys = ('mesh', 'model')
     fit = dict(limit=limit(figure), growth={k: growth_of(rows, k) if growth is None else growth[k]['growth'] for k in keys})
     for key in keys:
         use = [r for r in rows if reading_error(r, key) is not None and not r.cut]
-        if len(use) >= FEWEST and not any(np.any(getattr(r, key)) for r in use):
+        if key == 'model' and model is not None:
+            fit[key] = model
+        elif len(use) >= FEWEST and not any(np.any(getattr(r, key)) for r in use):
             fit[key], fit['growth'][key] = np.array([LEAST, 0., 0., 0.]), 0.
         elif len(use) >= FEWEST:
             fit[key] = scale([reading_error(r, key) for r in use], np.array([r.misfit / UNIT for r in use]) ** fit['growth'][key], np.array([r.support for r in use]),
@@ -204,12 +216,12 @@ def fitted(figure, rows, growth):
     return fit
 
 
-def left_out(figure, rows, growth, parts=5):
+def left_out(figure, rows, growth, model=None, parts=5):
     """Of bodies left out of the fit: errors, spreads and deviations of the ground (m), whether they rest on the model, whether it was cut, their part."""
     names, out = sorted({r.body for r in rows}), []
     for k in range(parts):
         part = set(names[k::parts])
-        fit = fitted(figure, [r for r in rows if r.body not in part], growth)
+        fit = fitted(figure, [r for r in rows if r.body not in part], growth, model)
         for r in rows:
             if r.body in part:
                 e, s, apart, resting = settle(r, fit)
@@ -227,21 +239,85 @@ def half_widths(error, deviation, ground, resting, cut):
     return found
 
 
+def line_of(key, rows, growth, model=None):
+    """The figure's line of the file, printed with more. `growth`: its readings in an earlier file, or None; `model` as in `fitted`."""
+    fit = fitted(key, rows, growth, model)
+    *errors, part = left_out(key, rows, growth, model)
+    error, deviation, ground, resting, cut = errors
+    half_width, width = half_widths(*errors), np.zeros(len(error))
+    for k in set(part):
+        spreads = half_widths(*(v[part != k] for v in errors))
+        width[part == k] = np.hypot(np.take(spreads, resting.astype(int)) * deviation, NORMAL * ground)[part == k]
+    held = error <= width
+    far = '%3.0f%% of %d' % (100 * np.mean(held[cut]), sum(cut)) if any(cut) else '-'
+    error, held, width = error[~cut], held[~cut], width[~cut]
+    m, b = fit.get('mesh'), fit.get('model')
+    shift = lambda k: ', shift: %.3g' % fit[k][3] if k in fit and fit[k][3] else ''
+    outside = lambda k: ', outside: %.3g' % growth[k]['outside'] if growth and 'outside' in growth[k] else ''
+    c = lambda k: '{bias: %.5f, base: %.3g, growth: %.3g, support: %.3g%s%s}' % (
+        *((fit[k][2], fit[k][0], fit['growth'][k], fit[k][1]) if k in fit else (0., .1, 0., 0.)), shift(k), outside(k))
+    print('%-20s %4d %9.2f %9.2f %8.1f%% %10s  %s  %s  %.2f   median half width %.2f mm' % (
+        key, len(error), 1e3 * np.median(error), 1e3 * np.quantile(error, .95), 100 * held.mean(), far,
+        *('-' if v is None else '%+.2f %.2f %.2f %.2f' % (1e3 * v[2], 1e3 * v[0], fit['growth'][k], v[1]) for k, v in (('mesh', m), ('model', b))),
+        fit['disagreement'], 1e3 * np.median(width)))
+    return '  %s: {mesh: %s, model: %s, disagreement: %.3g, half_width: %.3g, half_width_of_model: %.3g, error: %.2g, covered: %.3f, n: %d}\n' % (
+        key, c('mesh'), c('model'), fit['disagreement'], *half_width, np.median(error), held.mean(), len(error))
+
+
+def booth_line(key, rows, growth, model):
+    """The line of an own figure: its mesh reading's errors are those of virtual bodies; `growth` and `model` of its model reading are women's."""
+    return line_of(key, rows, dict(growth, mesh=dict(growth['mesh'], growth=growth_of(rows, 'mesh'))), model)
+
+
+def booth_part(booth):
+    """What the header says of virtual bodies."""
+    names = {r.body for rows in booth.values() for r in rows}
+    return '%s%d virtual bodies (%s to %s), of %s' % (FROM_BOOTH, len(names), min(names), max(names), datetime.date.today())
+
+
+def print_head(source):
+    print('%-20s %4s %9s %9s %9s  cut; mesh, model: bias mm, base mm, growth, slope; disagreement' % (source, 'n', 'median mm', '95 % mm', 'covered'))
+
+
+def with_booth(path, booth):
+    """The text of an earlier file with the lines of own figures on meshes made again."""
+    with open(path) as file:
+        text = file.read()
+    known = yaml.safe_load(text)['mesh']
+    print_head('mesh')
+    for key, rows in sorted(booth.items()):
+        s = known[key]['model']
+        line = booth_line(key, rows, known[key], np.array([s['base'], s['support'], s['bias'], s.get('shift', 0.)]))
+        text = re.sub('^  %s: .*\n' % key, lambda m, line=line: line, text, count=1, flags=re.M)  # meshes come first
+    head = [p for p in re.search('^bodies: (.*)$', text, flags=re.M).group(1).split('; ') if not p.startswith(FROM_BOOTH)]
+    at = next((k for k, p in enumerate(head) if p.startswith(KEPT)), len(head))
+    return re.sub('^bodies: .*$', lambda m: 'bodies: ' + '; '.join(head[:at] + [booth_part(booth)] + head[at:]), text, count=1, flags=re.M)
+
+
 def main():
     a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    a.add_argument('--mesh', nargs='+', required=True)
-    a.add_argument('--scan', nargs='+', required=True)
+    a.add_argument('--mesh', nargs='+')
+    a.add_argument('--scan', nargs='+')
+    a.add_argument('--booth', nargs=2, metavar=('READINGS', 'TRUTHS'), help='virtual bodies whose truths have the own figures by our definition')
     a.add_argument('--earlier')
     a.add_argument('--out', required=True)
     o = a.parse_args()
+    booth = {key: rows for key, rows in samples(*o.booth, None).items() if key.split(' ')[1] in OWN} if o.booth else {}
+    if not o.mesh and not o.scan and o.booth and o.earlier:
+        text = with_booth(o.earlier, booth)
+        with open(o.out, 'w') as out:
+            out.write(text)
+        return
+    if not o.mesh or not o.scan:
+        a.error('--mesh and --scan are needed, or --booth and --earlier')
     earlier = yaml.safe_load(open(o.earlier)) if o.earlier else None
-    kept = earlier['bodies'].split('; ')[-1] if earlier else ''
+    kept = [p for p in earlier['bodies'].split('; ') if not p.startswith(FROM_BOOTH)][-1] if earlier else ''
     if earlier and not kept.startswith(KEPT):
         kept = '%s, and %s, of %s' % (KEPT, kept, earlier['made'])
     text, names, covered, surfaces = '', set(), set(), read_on_surfaces(o.mesh[0])
     for source in ('mesh', 'scan'):
         text += '%s:\n' % source
-        print('%-20s %4s %9s %9s %9s  cut; mesh, model: bias mm, base mm, growth, slope; disagreement' % (source, 'n', 'median mm', '95 % mm', 'covered'))
+        print_head(source)
         files = getattr(o, source)
         women = samples(*files[:2], surfaces)
         for key, rows in samples(*files[2:], surfaces).items() if files[2:] else ():
@@ -251,28 +327,17 @@ def main():
         for key, rows in sorted(women.items()):
             names |= {r.body for r in rows if not r.cut}
             growth = earlier and earlier[source][key]
-            fit = fitted(key, rows, growth)
-            *errors, part = left_out(key, rows, growth)
-            error, deviation, ground, resting, cut = errors
-            half_width, width = half_widths(*errors), np.zeros(len(error))
-            for k in set(part):
-                spreads = half_widths(*(v[part != k] for v in errors))
-                width[part == k] = np.hypot(np.take(spreads, resting.astype(int)) * deviation, NORMAL * ground)[part == k]
-            held = error <= width
-            far = '%3.0f%% of %d' % (100 * np.mean(held[cut]), sum(cut)) if any(cut) else '-'
-            error, held, width = error[~cut], held[~cut], width[~cut]
-            m, b = fit.get('mesh'), fit.get('model')
-            c = lambda k: '{bias: %.5f, base: %.3g, growth: %.3g, support: %.3g%s%s}' % (
-                *((fit[k][2], fit[k][0], fit['growth'][k], fit[k][1], ', shift: %.3g' % fit[k][3] if fit[k][3] else '') if k in fit else (0., .1, 0., 0., '')), ', outside: %.3g' % growth[k]['outside'] if growth else '')
-            text += '  %s: {mesh: %s, model: %s, disagreement: %.3g, half_width: %.3g, half_width_of_model: %.3g, error: %.2g, covered: %.3f, n: %d}\n' % (
-                key, c('mesh'), c('model'), fit['disagreement'], *half_width, np.median(error), held.mean(), len(error))
-            print('%-20s %4d %9.2f %9.2f %8.1f%% %10s  %s  %s  %.2f   median half width %.2f mm' % (
-                key, len(error), 1e3 * np.median(error), 1e3 * np.quantile(error, .95), 100 * held.mean(), far,
-                *('-' if v is None else '%+.2f %.2f %.2f %.2f' % (1e3 * v[2], 1e3 * v[0], fit['growth'][k], v[1]) for k, v in (('mesh', m), ('model', b))), fit['disagreement'], 1e3 * np.median(width)))
+            if source == 'mesh' and key in booth:
+                fit = fitted(key, rows, growth)
+                powers = {k: dict(growth=fit['growth'][k], **({'outside': growth[k]['outside']} if growth else {})) for k in ('mesh', 'model')}
+                text += booth_line(key, booth[key], powers, fit['model'])
+            else:
+                text += line_of(key, rows, growth)
     with open(o.out, 'w') as out:
         out.write('# How far off each figure may be: tests/body_model/fit_precision.py wrote this; error (m, median) and covered are of bodies left out.\n')
-        out.write('made: %s\nbodies: %d training women (%s to %s)%s%s\n' % (
-            datetime.date.today(), len(names), min(names), max(names), ', %d of them with covered breasts, too' % len(covered) if covered else '', '; ' + kept if earlier else ''))
+        out.write('made: %s\nbodies: %d training women (%s to %s)%s%s%s\n' % (
+            datetime.date.today(), len(names), min(names), max(names), ', %d of them with covered breasts, too' % len(covered) if covered else '',
+            '; ' + booth_part(booth) if booth else '', '; ' + kept if earlier else ''))
         if earlier:
             out.write('span: {mesh: [%g, %g], scan: [%g, %g]}\n' % (*earlier['span']['mesh'], *earlier['span']['scan']))
         out.write(text)
