@@ -129,8 +129,10 @@ class AssemblerNode {
   void wait_for_transforms(const assembler::Capture& capture) const {
     const AssemblerHandler::Setup& setup = handler_.setup();
     const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(setup.capture.timeout);
+    std::string why;  // not for the log each time: the handler says it once
     for (const auto& cloud : capture.clouds)
-      while (cloud && !transforms_.canTransform(setup.frame_id, cloud->frame_id, time_of(cloud->stamp)) &&
+      while (cloud &&
+             !transforms_.canTransform(setup.frame_id, cloud->frame_id, time_of(cloud->stamp), &why) &&
              ros::SteadyTime::now() < end && ros::ok())
         ros::WallDuration(0.01).sleep();
   }

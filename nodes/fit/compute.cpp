@@ -1,5 +1,7 @@
 #include "fit/compute.hpp"
 
+#include <fmt/format.h>
+
 #include <future>
 
 #include "body_model/registration.hpp"
@@ -31,8 +33,8 @@ class Computation {
     const tensegric::Garment garment = load_garment();
     out_.source.garment = garment.name;
     check_fineness(garment);
-    if (const std::string tissue = tissue_file(); !tissue.empty()) take_tissue(tissue, out_.settings);
     if (!line_.is_shape()) load_templates(garment);
+    if (const std::string tissue = tissue_file(); !tissue.empty()) take_tissue(tissue, out_.settings);
     load_body();
     if (line_.posture.twist != 0 || line_.posture.side_lean != 0)
       out_.settings.solver.bones = geometry::BoneFrames(out_.body.measures, line_.posture);
@@ -79,10 +81,25 @@ class Computation {
 
   // The defaults are calibrated for the shipped templates as they are; finer ones have tissue of their own.
   std::string tissue_file() const {
-    const bool finer =
-        out_.settings.control_mesh.control_triangles > control_mesh::Options().control_triangles &&
-        !line_.is_shape();
-    return line_.tissue.empty() && finer ? geometry::shipped_folder("tissue") + "/fine.yaml" : line_.tissue;
+    const int asked = out_.settings.control_mesh.control_triangles;
+    if (!line_.tissue.empty() || line_.is_shape() || asked <= control_mesh::Options().control_triangles)
+      return line_.tissue;
+    const control_mesh::Template* as_it_is = nullptr;
+    const control_mesh::Template* finer = nullptr;
+    for (const control_mesh::Template& one : templates_)
+      (is_subdivided(one, asked) ? finer : as_it_is) = &one;
+    if (finer == nullptr) return "";
+    if (as_it_is != nullptr)
+      throw geometry::Refusal(
+          geometry::refusal::kBadOption,
+          fmt::format("{} control triangles make '{}' finer, but '{}' has as many as it is, and the two need "
+                      "tissue of their own: more triangles, or --tissue",
+                      asked, finer->name, as_it_is->name));
+    return geometry::shipped_folder("tissue") + "/fine.yaml";
+  }
+
+  static bool is_subdivided(const control_mesh::Template& pattern, int asked) {
+    return grid_of(pattern).triangles.size() < static_cast<std::size_t>(asked);
   }
 
   tensegric::Garment load_garment() const {

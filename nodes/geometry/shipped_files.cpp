@@ -44,7 +44,7 @@ std::string yaml_file(const std::string& folder, const std::string& word, const 
   const fs::path file = named ? fs::path(folder) / (word + ".yaml") : given;
   std::error_code unreadable;
   if (word.empty() || !fs::is_regular_file(file, unreadable))
-    throw Refusal(code, named ? "there is no '" + word + "' in " + folder + ", only: " + names_in(folder)
+    throw Refusal(code, named ? "there is no '" + word + "' in '" + folder + "', only: " + names_in(folder)
                               : "there is no file '" + word + "'");
   return file.string();
 }

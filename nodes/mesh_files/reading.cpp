@@ -26,6 +26,8 @@ constexpr const char* kAxes[] = {"x", "y", "z", "-x", "-y", "-z"};
 
 constexpr double kShortest = 1.2, kTallest = 2.2;  // m, statures
 constexpr double kSmallest = 0.4, kLargest = 4.0;  // m, parts of a person; a booth with its floor
+constexpr double kLeast = 0.1,
+                 kMost = 8.0;      // m, whatever the unit is said to be: a hand; more than any booth
 constexpr double kDeepest = 0.36;  // share of a stature: a whole person is less deep, a trunk deeper
 constexpr double kUpright = 0.5, kAsLong = 0.8;  // shares of the longest extent
 constexpr double kClearly = 1.25;                // how much faster the head's end widens
@@ -71,7 +73,7 @@ std::string unit_of(const Spread& spread) {
     if (metres >= kSmallest && metres <= kLargest) fit.push_back(&unit);
   }
   if (stature != nullptr && (fit.size() == 1 || extent[0] <= kDeepest * longest)) return stature->name;
-  if (longest < 8 && fit.size() <= 1) return "m";  // the reconstruction says what is wrong with it
+  if (longest < kMost && fit.size() <= 1) return "m";  // the reconstruction says what is wrong with it
   if (fit.size() == 1) return fit.front()->name;
   if (fit.empty())
     throw Refusal(refusal::kWrongUnit,
@@ -80,6 +82,13 @@ std::string unit_of(const Spread& spread) {
       refusal::kWrongUnit,
       fmt::format("the scan is {:.4g} across: {:.2f} m if it is in {}, {:.2f} m if in {}; nothing says which",
                   longest, longest * fit[0]->metres, fit[0]->name, longest * fit[1]->metres, fit[1]->name));
+}
+
+/// Else the reconstruction would say what it lacks: points, or another unit than the one that was given.
+void check_given(const std::string& unit, double metres) {
+  if (metres == 0 || (metres >= kLeast && metres <= kMost)) return;
+  throw Refusal(refusal::kWrongUnit,
+                fmt::format("in the unit that is given, {}, the scan is {:.4g} m across", unit, metres));
 }
 
 /// How much wider she is a fifth of the height below this end than near it: from face to shoulders about
@@ -164,6 +173,8 @@ Reading infer_reading(const Points& points, const Kind& kind, const Asked& asked
   Reading reading;
   const Spread spread = spread_of(points);
   reading.unit = asked.unit.empty() ? unit_of(spread) : asked.unit;
+  if (!asked.unit.empty() && !kind.any_size)
+    check_given(asked.unit, spread.extent.maxCoeff() * reading.metres());
   reading.up = asked.up.empty() ? up_of(points, spread, kind, reading.metres()) : asked.up;
   return reading;
 }

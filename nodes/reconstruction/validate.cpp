@@ -19,6 +19,7 @@ using geometry::Refusal;
 
 constexpr double kBoothReach = 4.0;     // m from the middle: farther points are stray
 constexpr double kLargestExtent = 8.0;  // m, no booth is larger
+constexpr double kLeastExtent = 0.1;    // m: smaller parts of a body are no scan
 constexpr double kTypicalExtent = 1.7;  // m, of a body
 
 /// Low, middle and high coordinates without the stray points, as rows.
@@ -35,6 +36,10 @@ std::array<Eigen::Vector3d, 3> spread(const std::vector<Eigen::Vector3d>& points
 }
 
 void check_unit(double extent) {
+  if (extent < kLeastExtent)
+    throw Refusal(refusal::kWrongUnit, fmt::format("the scan is {:.4g} across; points must be in metres, a "
+                                                   "body is larger",
+                                                   extent));
   if (extent <= kLargestExtent) return;
   struct Unit {
     const char* name;

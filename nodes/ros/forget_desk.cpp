@@ -9,6 +9,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "geometry/status.hpp"
 #include "ros/await.hpp"
@@ -47,6 +48,17 @@ std::optional<Graph> graph_now() {
 bool is_about_no_body(const std::string& topic, const std::string& forget) {
   return topic == "/diagnostics" || topic == "/rosout" || topic == "/tf" || topic == "/tf_static" ||
          topic == "/clock" || topic.rfind(forget, 0) == 0;
+}
+
+/// Namespaces of this master, beside the one of `order`, where somebody gives orders to forget.
+Names other_booths(const Graph& graph, const std::string& order) {
+  constexpr std::string_view kOrder = "/forget/order";
+  Names booths;
+  for (const auto& [topic, nodes] : graph.publishers)
+    if (topic != order && topic.size() >= kOrder.size() &&
+        topic.compare(topic.size() - kOrder.size(), kOrder.size(), kOrder) == 0)
+      booths.insert(topic == kOrder ? "/" : topic.substr(0, topic.size() - kOrder.size()));
+  return booths;
 }
 
 /// Topics that nodes publish or hear which let go of scans, and those that scans and labels come on.
@@ -221,9 +233,12 @@ bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response)
   if (!now)
     response.not_reached.emplace_back("nodes that came meanwhile: the ROS master does not answer any more");
   response.complete = response.not_reached.empty();
-  response.message = fmt::format("scan {}: {}{}", request.scan_id,
-                                 response.removed.empty() ? "nothing of it was found" : "forgotten",
-                                 response.complete ? "" : ", but not everywhere");
+  const Names booths = other_booths(*before, node_.resolveName("forget/order"));
+  response.message = fmt::format(
+      "scan {}: {}{}{}", request.scan_id, response.removed.empty() ? "nothing of it was found" : "forgotten",
+      booths.empty() ? "" : " in " + node_.getNamespace(), response.complete ? "" : ", but not everywhere");
+  for (const std::string& booth : booths)
+    response.not_reached.push_back(booth + ": another booth, which was not asked");
   for (const std::string& topic : body_topics(*before, asked, node_)) {
     Names others;  // who hears it, and who publishes, and may latch, it
     for (std::optional<Graph>* at : {&before, &now})

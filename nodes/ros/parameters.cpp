@@ -99,9 +99,10 @@ std::string Parameters::text(const std::string& name, const std::string& fallbac
 
 std::string Parameters::frame(const std::string& name, const std::string& fallback) {
   const std::string set = text(name, "");
+  if (!set.empty() && set.front() == '/')
+    refuse(fmt::format("parameter '{}{}' is '{}': tf takes no slash in front", prefix_, name, set));
   if (!set.empty()) return set;
-  const std::size_t end =
-      prefix_.rfind('/', prefix_.size() - 2);  // before the node's name; tf takes no slash in front
+  const std::size_t end = prefix_.rfind('/', prefix_.size() - 2);  // before the node's name
   return prefix_.substr(1, end) + fallback;
 }
 

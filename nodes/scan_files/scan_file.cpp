@@ -114,7 +114,7 @@ ScanFile read_scan_file(const std::string& path, int samples) {
 
 mesh_files::Reading reading_of(const std::vector<ScanFile>& files, const mesh_files::Asked& asked) {
   mesh_files::check_asked(asked);
-  mesh_files::Kind kind{true, ""};
+  mesh_files::Kind kind{true, "", asked.unit.empty()};
   mesh_files::Asked wanted = asked;
   std::vector<Eigen::Vector3d> points;
   for (const ScanFile& file : files) {
@@ -162,9 +162,10 @@ TriangleMesh read_body_mesh(const std::string& path, const mesh_files::Asked& as
   mesh_files::Asked wanted = asked;
   if (any_shape && wanted.unit.empty()) wanted.unit = "m";
   if (any_shape && wanted.up.empty()) wanted.up = "z";
+  mesh_files::Kind kind = kind_of(is_ply ? ".ply" : ending);
+  kind.any_size = any_shape;
   constexpr int kEnough = 20'000;
-  reading = mesh_files::infer_reading(mesh_files::surface_samples(mesh, kEnough).points,
-                                      kind_of(is_ply ? ".ply" : ending), wanted);
+  reading = mesh_files::infer_reading(mesh_files::surface_samples(mesh, kEnough).points, kind, wanted);
   if (!reading.is_identity())
     for (Eigen::Vector3d& p : mesh.vertices) {
       p = reading(p);

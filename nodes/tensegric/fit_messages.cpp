@@ -153,8 +153,13 @@ GarmentRequest request_in(const SetGarment::Request& request, const std::string&
   if (request.lines.size() != request.ratios.size())
     throw geometry::Refusal(geometry::refusal::kBadGarment,
                             "`lines` and `ratios` must have one entry for each other");
-  for (std::size_t i = 0; i < request.lines.size(); ++i)
+  std::set<std::string> lines;
+  for (std::size_t i = 0; i < request.lines.size(); ++i) {
+    if (!lines.insert(request.lines[i]).second)
+      throw geometry::Refusal(geometry::refusal::kBadGarment,
+                              "`lines` has '" + request.lines[i] + "' more than once");
     tensegric::set_ratio(asked.garment, request.lines[i], request.ratios[i]);
+  }
   return asked;
 }
 

@@ -29,6 +29,13 @@ void check(const char* key, double value, const geometry::Range& range, const st
     refuse(where, fmt::format("'{}' is {:g}, outside [{:g}, {:g}]", key, value, range.low, range.high));
 }
 
+/// \param where the line
+void check_ratio(double ratio, const std::string& where) {
+  const bool is_percent = ratio > kRatio.high && kRatio.holds(ratio / 100);
+  if (is_percent) refuse(where, fmt::format("'ratio' is {:g}; {:g} % is {:g}", ratio, ratio, ratio / 100));
+  check("ratio", ratio, kRatio, where);
+}
+
 void check_table(std::vector<std::pair<double, double>>& table, const std::string& where) {
   if (table.empty()) refuse(where, "'table' has no rows");
   if (table.front().first > 1) table.insert(table.begin(), {1, 0});
@@ -138,7 +145,7 @@ std::array<bool, 2> held_in(const std::vector<std::string>& words, const std::st
 
 void check_line(GarmentLine& line, const std::string& where) {
   if (line.name.empty()) refuse(where, "'name' is empty");
-  check("ratio", line.ratio, kRatio, where);
+  check_ratio(line.ratio, where);
   check("stiffness", line.law.stiffness, kTension, where);
   if (line.law.kind == TensionLaw::Kind::table) check_table(line.law.table, where);
   // In messages 0 stands for no limit, and for no stiffness.
@@ -205,7 +212,7 @@ Garment take_garment(const std::string& words, const std::string& folder) {
 }
 
 void set_ratio(Garment& garment, const std::string& line, double ratio) {
-  check("ratio", ratio, kRatio, "garment " + garment.name);
+  check_ratio(ratio, "garment " + garment.name + (line.empty() ? "" : ", line '" + line + "'"));
   bool found = line.empty();
   for (GarmentLine& l : garment.lines) {
     if (!line.empty() && l.name != line) continue;

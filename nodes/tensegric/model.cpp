@@ -262,6 +262,15 @@ Positions Model::rest_positions() const {
   return rest;
 }
 
+std::vector<int> Model::piece_of_members() const {
+  const std::vector<int> of_triangle = geometry::components_of({control.outer, control.triangles});
+  std::vector<int> of_node(control.outer.size(), 0), pieces;
+  for (std::size_t t = 0; t < of_triangle.size(); ++t)
+    for (int k = 0; k < 3; ++k) of_node[control.triangles[t][k]] = of_triangle[t];
+  for (const Member& m : members) pieces.push_back(of_node[static_cast<std::size_t>(m.a) % of_node.size()]);
+  return pieces;
+}
+
 double Model::mean_tension() const {
   double sum = 0;
   for (const Member& m : members)
@@ -284,19 +293,28 @@ Model build_model(const geometry::ControlMesh& control, const ModelOptions& opti
   check_held(model, rest);
   const Eigen::VectorXd density = force_densities(model, MemberPlacer(model, rest).place_all());
 
-  double mean = 0, highest = 0;
+  // Pieces are prestressed each by itself: what is worn on one must not depend on whether another is laid.
+  struct Sums {
+    double tension = 0, stiffness = 0, highest = 0;  // of tensile parts
+  };
+  const std::vector<int> pieces = model.piece_of_members();
+  std::vector<Sums> sums(1 + *std::max_element(pieces.begin(), pieces.end()));
   for (std::size_t i = 0; i < model.members.size(); ++i) {
-    if (model.members[i].strut) continue;
-    const double tension = density[i] * model.members[i].rest;
-    mean += tension / model.tensile_parts();
-    highest = std::max(highest, tension / model.members[i].stiffness);
+    const Member& m = model.members[i];
+    if (m.strut) continue;
+    const double tension = density[i] * m.rest;
+    Sums& piece = sums[pieces[i]];
+    piece.tension += tension;
+    piece.stiffness += m.stiffness;
+    piece.highest = std::max(piece.highest, tension / m.stiffness);
   }
-  if (!(mean > 0)) throw Refusal(refusal::kBadMesh, "the control mesh has no prestress at all");
-  const double scale = std::min(options.prestress / mean, kHighestPull / highest);
   for (std::size_t i = 0; i < model.members.size(); ++i) {
+    const Sums& piece = sums[pieces[i]];
+    if (!(piece.tension > 0)) throw Refusal(refusal::kBadMesh, "the control mesh has no prestress at all");
+    const double scale =
+        std::min(options.prestress * piece.stiffness / piece.tension, kHighestPull / piece.highest);
     Member& m = model.members[i];
-    const double force = scale * density[i] * m.rest;
-    m.natural = m.rest * (1 - force / m.stiffness);
+    m.natural = m.rest * (1 - scale * density[i] * m.rest / m.stiffness);
   }
   return model;
 }

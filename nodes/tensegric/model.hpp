@@ -51,7 +51,7 @@ struct ModelOptions {
       0.39;                 ///< force / area per shear of a unit's skin side against its bone side; likewise
   double modulus = 1110;    ///< Pa, of tissue for which a kind's share is 1: what forces are in newtons
   double stiffening = 337;  ///< of struts and tensile parts: k (1 + stiffening e^2) at strain e
-  double prestress = 0.1;   ///< mean tension of the tensile parts at rest / their mean k, at most
+  double prestress = 0.1;   ///< mean tension of a piece's tensile parts at rest / their mean k, at most
   std::vector<StiffPart> stiff_parts;
 };
 inline constexpr geometry::Range kLayers{1, 8};
@@ -104,7 +104,8 @@ struct Model {
   bool is_fixed(int node) const;
   std::vector<int> free_index() const;  ///< of each node its number among the free ones, or -1
   Positions rest_positions() const;
-  double mean_tension() const;  ///< of the tensile parts at rest, pseudo force
+  std::vector<int> piece_of_members() const;  ///< of the control mesh, connected by its triangles
+  double mean_tension() const;                ///< of the tensile parts at rest, pseudo force
 };
 
 /// Members and prestress of the control mesh, its inner nodes fixed where they are to be bound, such that the

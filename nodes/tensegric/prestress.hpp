@@ -12,7 +12,8 @@ namespace tensegric_fit::tensegric {
 /// where there is no balance else), pushes or nothing at every strut, and no net force at any free node. The
 /// nearest such densities to those of the ideal prism, an affine image of which stands on each triangle: base
 /// and top 1/sqrt(3), lateral 1, strut -1, summed where units share a part: `ideal` has their sizes, one a
-/// member. Only their ratios mean anything. \throw Refusal bad_mesh: no such densities exist
+/// member. Each piece of the control mesh is balanced by itself; only ratios within it mean anything.
+/// \throw Refusal bad_mesh: no such densities exist
 Eigen::VectorXd force_densities(const Model& model, const std::vector<double>& ideal);
 
 }  // namespace tensegric_fit::tensegric

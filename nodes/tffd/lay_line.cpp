@@ -149,13 +149,19 @@ std::vector<CarriedPoint> on_the_tape(const std::vector<CarriedPoint>& points,
   return touched;
 }
 
-// As few points as describe the course of a fibre that was averaged over `reach`.
+// As few points as describe the course of a fibre that was averaged over `reach`: even over it, the same from
+// either end. A short last step would bend sharply, and a band over her middle would not be symmetric.
 std::vector<CarriedPoint> thinned(const std::vector<CarriedPoint>& points, double reach) {
   const auto step =
       std::max<std::size_t>(1, static_cast<std::size_t>(reach / kPointsPerReach / kLineSpacing));
+  const std::size_t last = points.size() - 1;
+  std::size_t parts = std::max<std::size_t>(1, (last + step / 2) / step);
+  if (last % 2 == 1 && parts % 2 == 0) ++parts;  // no point is the middle one
   std::vector<CarriedPoint> kept;
-  for (std::size_t i = 0; i + 1 < points.size(); i += step) kept.push_back(points[i]);
-  kept.push_back(points.back());
+  for (std::size_t k = 0; k <= parts; ++k) {
+    const std::size_t from_end = (std::min(k, parts - k) * last + parts / 2) / parts;
+    kept.push_back(points[2 * k <= parts ? from_end : last - from_end]);
+  }
   return kept;
 }
 

@@ -6,6 +6,7 @@
 #include <ros/this_node.h>
 #include <signal.h>
 #include <tensegric_fit/CaptureAction.h>
+#include <tensegric_fit/Forget.h>
 #include <tensegric_fit/ScanLabel.h>
 #include <xmlrpcpp/XmlRpcClient.h>
 
@@ -294,6 +295,17 @@ class WatchedFolderTest : public testing::Test {
   std::map<std::string, std::string> facts_;
   ros::Subscriber scan_, label_, said_;
 };
+
+// The folder of exports is one for all booths: what was deleted there looked like all that there was.
+TEST_F(LeftBoothTest, ForgetSaysWhichOtherBoothsWereNotAsked) {
+  Forget order;
+  order.request.scan_id = "1.000000000-00000000";
+  ASSERT_TRUE(ros::service::waitForService("/left/forget", ros::Duration(30)));
+  ASSERT_TRUE(ros::service::call("/left/forget", order));
+  EXPECT_NE(order.response.message.find(" in /left"), std::string::npos) << order.response.message;
+  const auto& lines = order.response.not_reached;
+  EXPECT_NE(std::find(lines.begin(), lines.end(), "/right: another booth, which was not asked"), lines.end());
+}
 
 TEST_F(WatchedFolderTest, NewCompleteFilesArePlayedOnceEachAndABrokenOneIsRefusedByName) {
   const std::string text = ply(40);

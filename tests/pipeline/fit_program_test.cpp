@@ -161,6 +161,18 @@ TEST_F(FitProgram, FinerControlMeshesHaveTissueInLayers) {
   }
 }
 
+// The hips' template has 160 triangles as it is.
+TEST_F(FitProgram, OnlyATemplateThatIsMadeFinerHasTissueInLayers) {
+  ASSERT_EQ(fit("--mesh " + kScans + "/a/body.ply --garment H1 --ratio 0.95 --control-triangles 140"), 0)
+      << read_file(file("log"));
+  const json r = report();
+  EXPECT_EQ(r["control"]["triangles"], 160);
+  EXPECT_EQ(r["control"]["struts"], 3 * 160);  // one layer
+  EXPECT_NE(fit("--mesh " + kScans + "/a/body.ply --garment B1+H1 --ratio 0.95 --control-triangles 140"), 0);
+  EXPECT_NE(read_file(file("log")).find("140 control triangles make 'bust' finer"), std::string::npos)
+      << read_file(file("log"));
+}
+
 TEST_F(FitProgram, AGarmentIsWornInAnyPosture) {
   ASSERT_EQ(fit("--mesh " + kScans + "/a/body.ply --garment B1 --ratio 0.95 --twist 15 --lean -10"), 0)
       << read_file(file("log"));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "geometry/checked_yaml.hpp"
 #include "geometry/shipped_files.hpp"
@@ -48,8 +49,10 @@ Expectation read_expectation(const std::string& metric, const YAML::Node& map, c
 void add_expectations(const YAML::Node& metrics, const std::string& where, std::vector<Expectation>& all) {
   if (!metrics) return;
   if (!metrics.IsMap()) throw Refusal(kBadCase, where + ": 'metrics' must be a map");
+  std::set<std::string> here;
   for (const auto& entry : metrics) {
     const std::string name = entry.first.Scalar();
+    if (!here.insert(name).second) throw Refusal(kBadCase, where + ": '" + name + "' is given twice");
     const Expectation expectation = read_expectation(name, entry.second, where + ": " + name);
     const auto same = [&](const Expectation& e) { return e.metric == name; };
     const auto known = std::find_if(all.begin(), all.end(), same);
@@ -151,8 +154,10 @@ Case load_case(const std::string& file) {
   if (bool(root["booth"]) == bool(root["bag"]))
     throw Refusal(kBadCase, file + ": needs either 'booth' or 'bag'");
   if (root["booth"]) read.booth = read_recipe(root["booth"], file + ": booth");
-  if (root["bag"])
+  if (root["bag"]) {
     read.bag = fs::path(file).parent_path() / geometry::required<std::string>(root, "bag", file, kBadCase);
+    if (!fs::is_regular_file(read.bag)) throw Refusal(kBadCase, file + ": there is no bag " + read.bag);
+  }
   read.pipeline = YAML::Clone(root["pipeline"] ? root["pipeline"] : YAML::Node(YAML::NodeType::Map));
   geometry::check_keys(read.pipeline,
                        {"assembler", "reconstruction", "landmarks", "control_mesh", "tensegric", "tffd"},

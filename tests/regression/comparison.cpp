@@ -54,6 +54,11 @@ Verdict judge(const Case& asked, const std::string& runner, const Metrics& metri
     row.holds = regression::holds(row);
     verdict.rows.push_back(std::move(row));
   }
+  const auto refusal = metrics.find("refusal");
+  const bool is_asked_for = std::any_of(asked.expectations.begin(), asked.expectations.end(),
+                                        [](const Expectation& e) { return e.metric == "refusal"; });
+  if (!is_asked_for && refusal != metrics.end() && to_text(refusal->second) != "none")
+    verdict.faults.push_back("it was refused: " + to_text(refusal->second));
   return verdict;
 }
 

@@ -168,7 +168,13 @@ bool Outcome::holds() const {
 
 Outcome run_case(const Case& asked, const HarnessOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  Outcome outcome = CaseRun(asked, options).run();
+  Outcome outcome;
+  try {
+    outcome = CaseRun(asked, options).run();
+  } catch (const std::exception& error) {  // its input cannot be made or copied, say
+    outcome = {asked, {}, {judge(asked, options.bag ? "bag" : "replay", {})}};
+    outcome.verdicts.back().faults.emplace_back(error.what());
+  }
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;
 }

@@ -25,7 +25,7 @@ struct Outcome {
   bool holds() const;
 };
 
-/// A runner that ends with an exception is a fault of its verdict, not of the harness.
+/// What ends with an exception is a fault of a verdict, not of the harness.
 Outcome run_case(const Case& asked, const HarnessOptions& options);
 
 }  // namespace tensegric_fit::regression

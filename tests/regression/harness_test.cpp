@@ -97,6 +97,10 @@ TEST_F(HarnessTest, WhatACaseFileMayNotSayIsNamed) {
   EXPECT_EQ(refusal_of(with("", ", reason: asked")), ": girth/hip: key 'reason' is missing");
   EXPECT_EQ(refusal_of(with("expected: 1, golden: 1", "expected: 1")),
             ": girth/hip: needs either 'expected' or 'golden'");
+  EXPECT_EQ(refusal_of(with("girth/bust: {expected", "girth/hip: {expected")),
+            ": 'girth/bust' is given twice");
+  EXPECT_EQ(refusal_of(with("bag: nope.bag", "booth: {seed: 3, points: 20000}")),
+            ": there is no bag " + (folder_ / "nope.bag").string());
   EXPECT_EQ(refusal_of(with("pipeline: {tfdd: {}}\nscene", "scene")), ": pipeline: unknown key 'tfdd'");
 }
 
@@ -112,6 +116,22 @@ TEST_F(HarnessTest, NumbersHoldWithinTheirToleranceWordsWhereTheyAreTheSame) {
   EXPECT_EQ(verdict.failures(), 1);
   EXPECT_FALSE(judge(read(kGood), "bag", metrics(0.8989)).rows[0].holds);
   EXPECT_EQ(judge(read(kGood), "bag", {}).failures(), 3);  // no message is a failure
+  Metrics refused = metrics(0.9009);
+  refused["refusal"] = std::string("unknown_line");
+  EXPECT_FALSE(judge(read(kGood), "bag", refused).faults.empty()) << "the case expects no refusal";
+  refused["refusal"] = std::string("none");
+  EXPECT_TRUE(judge(read(kGood), "bag", refused).faults.empty());
+}
+
+TEST_F(HarnessTest, WhatCannotBeginIsAFaultOfItsCase) {
+  Case asked = read(kGood);
+  asked.bag = folder_ / "nope.bag";
+  HarnessOptions options;
+  options.replay = false;
+  options.folder = folder_ / "out";
+  const Outcome outcome = run_case(asked, options);
+  EXPECT_FALSE(outcome.holds());
+  EXPECT_FALSE(outcome.verdicts.at(0).faults.empty());
 }
 
 TEST_F(HarnessTest, OnlyGoldenValuesAreReplacedAndTheReasonIsKept) {

@@ -102,6 +102,9 @@ TEST(Reading, WhatFitsTwoReadingsIsRefusedAndSaysBoth) {
   EXPECT_NE(message.find("inch"), std::string::npos);
   EXPECT_EQ(message.find("--"), std::string::npos) << "not each program that says it has options";
   EXPECT_EQ(refused(trunk, kMesh, {"cm", ""}), "accepted");
+  EXPECT_EQ(refused(trunk, kMesh, {"m", ""}, &message), "wrong_unit");
+  EXPECT_NE(message.find("100 m across"), std::string::npos) << message;
+  EXPECT_EQ(refused({{0, 0, 0}, {0, 0, 1.7}}, kMesh, {"mm", ""}), "wrong_unit");  // 1.7 mm
 
   Points post;  // neither end is a head
   add_wall(post, {0, 0, 0}, {0, 0, 1.7}, 0.15, 0.15);

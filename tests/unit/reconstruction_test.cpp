@@ -397,6 +397,8 @@ TEST(Reconstruction, RefusesByName) {
             "wrong_unit");
   EXPECT_EQ(refusal_of(map(booth_scan(), [](const auto& p) { return Eigen::Vector3d(39.37 * p); })),
             "wrong_unit");
+  EXPECT_EQ(refusal_of(map(booth_scan(), [](const auto& p) { return Eigen::Vector3d(0.001 * p); })),
+            "wrong_unit");
   EXPECT_EQ(refusal_of(map(booth_scan(), [](const auto&) { return Eigen::Vector3d(1, 2, 3); })),
             "not_a_body");
   PointCloud far = figure::scan_body(6000, 0, 1);

@@ -40,6 +40,8 @@ TEST(ReconstructionHandler, NamesWhatAHeaderLacks) {
   EXPECT_EQ(lacks_of(header, {"floor", frame}), "");
   EXPECT_EQ(lacks_of(header, {"floor", "body"}).rfind("unknown_frame: ", 0), 0u);
   EXPECT_EQ(lacks_of(header, {"booth_2/booth"}), "") << "another booth's";
+  header.frame_id = "/booth";
+  EXPECT_EQ(lacks_of(header, {"booth", "floor"}).rfind("unknown_frame: ", 0), 0u) << "tf has no such frame";
 }
 
 TEST(ReconstructionHandler, NamesSomebodyElseInTheScan) {

@@ -380,6 +380,16 @@ TEST_F(TensegricHandlerTest, ALatchedGarmentThatIsDeliveredAgainDoesNotComeBack)
   }
 }
 
+TEST_F(TensegricHandlerTest, AGarmentThatIsChangedUnderItsStampIsWorn) {
+  TensegricHandler stage = handler("garment: B2");
+  for (const double ratio : {0.97, 0.93, 0.9}) {  // what was latched, its ratio changed and nothing else
+    Garment garment = chest_at(ratio);
+    garment.header.stamp = ros::Time(10, 0);
+    stage.put_on(garment, "/shop");
+    EXPECT_EQ(stage.worn().garment.lines.at(0).ratio, ratio);
+  }
+}
+
 TEST_F(TensegricHandlerTest, LatchedGarmentsOfSeveralPublishersStayOffAfterForget) {
   const auto of = [](double ratio, int seconds) {
     Garment garment = chest_at(ratio);
@@ -434,7 +444,11 @@ TEST_F(TensegricHandlerTest, RefusedGarmentsLeaveTheOldOneOn) {
   request.name = "B1";
   request.lines = {"chest"};
   request.ratios = {1e300};
-  EXPECT_EQ(said_of([&] { stage.put_on(request); }), "garment B1: 'ratio' is 1e+300, outside [0.05, 10]");
+  EXPECT_EQ(said_of([&] { stage.put_on(request); }),
+            "garment B1, line 'chest': 'ratio' is 1e+300, outside [0.05, 10]");
+  request.lines = {"chest", "chest"};
+  request.ratios = {0.9, 0.8};
+  EXPECT_EQ(said_of([&] { stage.put_on(request); }), "`lines` has 'chest' more than once");
   EXPECT_EQ(stage.worn().garment.lines.at(0).ratio, 0.95);
 }
 

@@ -163,6 +163,13 @@ TEST(Garment, ARatioIsThatOfOneLineOrOfAll) {
   for (std::size_t i = 1; i < g.lines.size(); ++i) EXPECT_EQ(g.lines[i].ratio, 0.93);
   EXPECT_EQ(refusal_of([&] { set_ratio(g, "hem", 0.9); }), "unknown_line");
   EXPECT_EQ(refusal_of([&] { set_ratio(g, "", 1e3); }), "bad_garment");
+  try {
+    set_ratio(g, g.lines[0].name, 90);
+    FAIL() << "a percentage";
+  } catch (const geometry::Refusal& refusal) {
+    EXPECT_EQ(std::string(refusal.what()),
+              "garment " + g.name + ", line '" + g.lines[0].name + "': 'ratio' is 90; 90 % is 0.9");
+  }
 }
 
 TEST(Garment, ALineOfOneSideMayRunAlongTheMiddleButNotOverTheOtherSideAlone) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <random>
 
@@ -126,6 +127,29 @@ TEST(Model, ATriangleThatIsFixedStands) {
   lone.regions.push_back({"lone", {0}});
   for (const auto& parts : {std::vector{lone, bust_mesh()}, std::vector{bust_mesh(), lone}})
     EXPECT_EQ(build_model(geometry::joined(parts), papers_model()).free_nodes(), 90);
+}
+
+// Else a garment of the bust pulls otherwise where the hips have a control mesh, too.
+TEST(Model, APieceIsPrestressedAsIfItStoodAlone) {
+  const geometry::ControlMesh bust = bust_mesh();
+  geometry::ControlMesh other = bust;  // larger, and thinner
+  for (auto* nodes : {&other.outer, &other.inner})
+    for (Eigen::Vector3d& p : *nodes) p = Eigen::Vector3d(1.6 * p.x(), 1.3 * p.y(), 0.7 * p.z() - 1);
+  for (std::size_t i = 0; i < other.outer.size(); ++i)
+    other.inner[i] = other.outer[i] + 0.5 * (other.inner[i] - other.outer[i]);
+  other.names.assign(other.outer.size(), "");
+  other.lines.clear();
+  other.regions[0].name = "other";
+  const Model alone = build_model(bust, {}), both = build_model(geometry::joined({bust, other}), {});
+  const int here = static_cast<int>(bust.outer.size()), there = static_cast<int>(both.control.outer.size());
+  std::map<std::pair<int, int>, double> shortened;
+  for (const Member& m : both.members) shortened[{m.a, m.b}] = m.natural / m.rest;
+  const auto moved = [&](int node) { return node < here ? node : node - here + there; };
+  for (const Member& m : alone.members) {
+    const auto same = shortened.find({moved(m.a), moved(m.b)});
+    ASSERT_NE(same, shortened.end());
+    EXPECT_NEAR(same->second, m.natural / m.rest, 1e-9);  // rounding of what is summed in another order
+  }
 }
 
 // Only the ratios of the ideal densities count: in other units the densities are the same ones.

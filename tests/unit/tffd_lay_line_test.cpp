@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "geometry/section.hpp"
 #include "geometry/status.hpp"
 #include "tffd_shapes.hpp"
@@ -90,6 +92,33 @@ TEST_F(Slab, SmoothingShortensWhereTheBandBends) {
   const double smooth = length_at_rest(lay_line({over_the_bump(), 0, 0.02}, body, binding));
   EXPECT_LT(smooth, thread - 1e-3);
   EXPECT_GT(smooth, 0.18);  // not below the straight way
+}
+
+// Else a band over the middle of a symmetric body is not symmetric, and a short last step bends sharply.
+TEST_F(Slab, AnAveragedFibreIsEvenAndTheSameFromEitherEnd) {
+  for (std::size_t count = 40; count <= 61; ++count) {
+    std::vector<Vector3d> way = over_the_bump();
+    way.resize(count);
+    LineOnBody line{way, 0.03, 0.02};
+    const auto there = lay_line(line, body, binding);
+    std::reverse(line.points.begin(), line.points.end());
+    const auto back = lay_line(line, body, binding);
+    ASSERT_EQ(there.size(), back.size());
+    for (std::size_t f = 0; f < there.size(); ++f) {
+      const auto &points = there[f].points, &reversed = back[back.size() - 1 - f].points;
+      ASSERT_EQ(points.size(), reversed.size()) << count;
+      double shortest = 1, longest = 0;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        EXPECT_LT((points[i].rest - reversed[points.size() - 1 - i].rest).norm(), 1e-9) << count;
+        if (i == 0) continue;
+        const double step = (points[i].rest - points[i - 1].rest).norm();
+        shortest = std::min(shortest, step);
+        longest = std::max(longest, step);
+      }
+      EXPECT_LT(longest, 1.7 * shortest)
+          << count;  // two or three points of those laid every 3 mm, or three or four
+    }
+  }
 }
 
 TEST_F(Slab, AnAffineMapOfTheNodesCarriesTheFibresAlong) {
