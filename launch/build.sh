@@ -4,6 +4,6 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 "$root/launch/install_dependencies.sh"
-export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}  # sees in a second that all is built; a folder that make has built stays with make
+export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}  # a folder that make has built stays with make
 cmake -S "$root" -B "$root/build" -DCATKIN_ENABLE_TESTING=ON "$@"
 cmake --build "$root/build" --parallel "$(nproc)" --target "${TARGET:-all}"

@@ -17,7 +17,7 @@ export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:detect_stack_use_after
 export LSAN_OPTIONS=suppressions=$root/tests/sanitize.leaks.txt:print_suppressions=0
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export TSAN_OPTIONS=suppressions=$root/tests/sanitize.threads.txt:halt_on_error=1
-export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}  # as launch/build.sh
+if command -v ninja >/dev/null; then export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}; fi  # as launch/build.sh, which installs it
 cmake -S "$root" -B "$folder" -DCATKIN_ENABLE_TESTING=ON -DCMAKE_BUILD_TYPE=None -DTENSEGRIC_FIT_SANITIZE="$sanitizers" >/dev/null
 read -ra targets <<<"${TARGETS:-all}"
 cmake --build "$folder" --parallel "$(nproc)" --target "${targets[@]}"

@@ -129,10 +129,13 @@ class AssemblerNode {
   void wait_for_transforms(const assembler::Capture& capture) const {
     const AssemblerHandler::Setup& setup = handler_.setup();
     const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(setup.capture.timeout);
-    std::string why;  // not for the log each time: the handler says it once
+    const auto can_come =
+        [](const std::string& frame) {  // tf logs a warning each time it is asked for another
+          return !frame.empty() && frame.front() != '/';
+        };
     for (const auto& cloud : capture.clouds)
-      while (cloud &&
-             !transforms_.canTransform(setup.frame_id, cloud->frame_id, time_of(cloud->stamp), &why) &&
+      while (cloud && can_come(cloud->frame_id) &&
+             !transforms_.canTransform(setup.frame_id, cloud->frame_id, time_of(cloud->stamp)) &&
              ros::SteadyTime::now() < end && ros::ok())
         ros::WallDuration(0.01).sleep();
   }

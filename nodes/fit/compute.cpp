@@ -92,9 +92,10 @@ class Computation {
     if (as_it_is != nullptr)
       throw geometry::Refusal(
           geometry::refusal::kBadOption,
-          fmt::format("{} control triangles make '{}' finer, but '{}' has as many as it is, and the two need "
-                      "tissue of their own: more triangles, or --tissue",
-                      asked, finer->name, as_it_is->name));
+          fmt::format("{} control triangles make '{}' finer, but '{}' has {} as it is, and the two need "
+                      "tissue of their own: ask for more than {}, or give --tissue",
+                      asked, finer->name, as_it_is->name, grid_of(*as_it_is).triangles.size(),
+                      grid_of(*as_it_is).triangles.size()));
     return geometry::shipped_folder("tissue") + "/fine.yaml";
   }
 

@@ -26,8 +26,10 @@ constexpr const char* kAxes[] = {"x", "y", "z", "-x", "-y", "-z"};
 
 constexpr double kShortest = 1.2, kTallest = 2.2;  // m, statures
 constexpr double kSmallest = 0.4, kLargest = 4.0;  // m, parts of a person; a booth with its floor
-constexpr double kLeast = 0.1,
-                 kMost = 8.0;      // m, whatever the unit is said to be: a hand; more than any booth
+constexpr double kLeast = 0.1, kMost = 8.0;        // m, in a given unit: a hand is larger, a booth smaller
+// Share of points at either end; where the size in a given unit is checked twice that, as when
+// reconstructing.
+constexpr double kStray = 0.005;
 constexpr double kDeepest = 0.36;  // share of a stature: a whole person is less deep, a trunk deeper
 constexpr double kUpright = 0.5, kAsLong = 0.8;  // shares of the longest extent
 constexpr double kClearly = 1.25;                // how much faster the head's end widens
@@ -40,12 +42,12 @@ Vector3d direction(const std::string& up) {
   return (up.front() == '-' ? -1.0 : 1.0) * Vector3d::Unit(axis_of(up));
 }
 
-/// The axes' extents without stray points, and the lowest.
+/// The axes' extents without a share of stray points at either end, and the lowest.
 struct Spread {
   Vector3d low, extent;
 };
 
-Spread spread_of(const Points& points) {
+Spread spread_of(const Points& points, double share) {
   Spread spread;
   std::vector<double> values;
   for (int axis = 0; axis < 3; ++axis) {
@@ -54,7 +56,7 @@ Spread spread_of(const Points& points) {
       if (p.allFinite()) values.push_back(p[axis]);
     if (values.empty()) throw Refusal(refusal::kNonFinite, "the scan has no finite point");
     std::sort(values.begin(), values.end());
-    const std::size_t stray = values.size() / 200;
+    const auto stray = static_cast<std::size_t>(share * static_cast<double>(values.size()));
     spread.low[axis] = values[stray];
     spread.extent[axis] = values[values.size() - 1 - stray] - values[stray];
   }
@@ -171,10 +173,10 @@ void check_asked(const Asked& asked) {
 Reading infer_reading(const Points& points, const Kind& kind, const Asked& asked) {
   check_asked(asked);
   Reading reading;
-  const Spread spread = spread_of(points);
+  const Spread spread = spread_of(points, kStray);
   reading.unit = asked.unit.empty() ? unit_of(spread) : asked.unit;
   if (!asked.unit.empty() && !kind.any_size)
-    check_given(asked.unit, spread.extent.maxCoeff() * reading.metres());
+    check_given(asked.unit, spread_of(points, 2 * kStray).extent.maxCoeff() * reading.metres());
   reading.up = asked.up.empty() ? up_of(points, spread, kind, reading.metres()) : asked.up;
   return reading;
 }

@@ -28,8 +28,8 @@ struct Reading {
 };
 
 /// Whether the points lie evenly on a person alone, as a mesh's samples do; which way is up in files of that
-/// kind where the shape does not say ("" where any may be); and whether a unit that is asked for may make any
-/// size of them, not only that of a person or a part of one.
+/// kind where the shape does not say ("" where any may be). any_size: their size in a given unit is not
+/// checked.
 struct Kind {
   bool surface = false;
   std::string usual_up = "z";
@@ -40,8 +40,8 @@ struct Kind {
 /// it is 0.4 to 4 m (parts of a person, a booth's floor); metres below 0.4. Up: the longest extent where z
 /// has not half of it; of a surface any extent of at least 0.8 of it, and the end that widens fastest, from
 /// head to shoulders, is the upper one. \param points not empty, any unit \throw Refusal wrong_unit,
-/// wrong_axes: two readings fit, and which, or the unit that is asked for fits none; bad_option: unknown
-/// names
+/// wrong_axes: two readings fit, and which; wrong_unit also where a given unit makes the scan larger than 8 m
+/// or smaller than 10 cm; bad_option: unknown names
 Reading infer_reading(const std::vector<Eigen::Vector3d>& points, const Kind& kind, const Asked& asked);
 
 /// Unit names and axes that may be asked for. \throw Refusal bad_option

@@ -56,7 +56,7 @@ namespace {
 
 // Frames of the same booth: those of one namespace.
 std::vector<std::string> beside(const std::string& frame, const std::vector<std::string>& known) {
-  const auto prefix = [](const std::string& name) {  // drivers of old put a slash in front
+  const auto prefix = [](const std::string& name) {  // older drivers put a slash in front
     const std::size_t from = name.rfind('/', 0) == 0 ? 1 : 0;
     return name.substr(from, name.rfind('/') + 1 - from);
   };

@@ -233,7 +233,8 @@ bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response)
   if (!now)
     response.not_reached.emplace_back("nodes that came meanwhile: the ROS master does not answer any more");
   response.complete = response.not_reached.empty();
-  const Names booths = other_booths(*before, node_.resolveName("forget/order"));
+  Names booths = other_booths(*before, node_.resolveName("forget/order"));
+  if (now) booths.merge(other_booths(*now, node_.resolveName("forget/order")));
   response.message = fmt::format(
       "scan {}: {}{}{}", request.scan_id, response.removed.empty() ? "nothing of it was found" : "forgotten",
       booths.empty() ? "" : " in " + node_.getNamespace(), response.complete ? "" : ", but not everywhere");

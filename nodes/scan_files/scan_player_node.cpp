@@ -56,7 +56,8 @@ Setup setup_from(Parameters parameters) {
   setup.played_files = parameters.texts("played_files");
   setup.interrupted_files = parameters.texts("interrupted_files");
   parameters.check_all_known();
-  if (setup.file.find("/~/") != std::string::npos)  // the log hides paths, they may name a customer
+  if (setup.file.rfind("~/", 0) == 0 ||
+      setup.file.find("/~/") != std::string::npos)  // the log hides paths, they may name a customer
     throw geometry::Refusal(geometry::refusal::kBadOption,
                             "parameter 'file': no shell has read its ~; write $HOME in its place");
   if (!fs::exists(setup.file))

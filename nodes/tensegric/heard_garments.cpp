@@ -12,8 +12,10 @@ namespace {
 
 constexpr std::size_t kMost = 64;  // publishers; anonymous ones have another name each time
 
-/// FNV-1a of 64 bits.
-std::uint64_t checksum_of(const Garment& garment) {
+/// Not std::hash: what was heard outlives the process, and the build. rospy numbers a latched message anew
+/// each time that it delivers it.
+std::uint64_t checksum_of(Garment garment) {
+  garment.header.seq = 0;
   std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(garment));
   ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   ros::serialization::serialize(stream, garment);

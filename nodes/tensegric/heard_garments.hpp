@@ -17,8 +17,8 @@ class HeardGarments {
   explicit HeardGarments(const std::string& text = "");
   std::string text() const;
 
-  /// False where it is this publisher's last message again, to the byte: who changes a garment need not
-  /// change its stamp. Messages without a stamp or publisher are always new.
+  /// False where it is this publisher's last message again, the same but for its sequence number: who changes
+  /// a garment need not change its stamp. Messages without a stamp or publisher are always new.
   bool is_new(const std::string& publisher, const Garment& garment);
 
  private:

@@ -149,8 +149,9 @@ std::vector<CarriedPoint> on_the_tape(const std::vector<CarriedPoint>& points,
   return touched;
 }
 
-// As few points as describe the course of a fibre that was averaged over `reach`: even over it, the same from
-// either end. A short last step would bend sharply, and a band over her middle would not be symmetric.
+// As few points as describe the course of a fibre that was averaged over `reach`: as evenly as whole points
+// allow, the same from either end. A short last step would bend sharply, and a band over her middle would not
+// be symmetric.
 std::vector<CarriedPoint> thinned(const std::vector<CarriedPoint>& points, double reach) {
   const auto step =
       std::max<std::size_t>(1, static_cast<std::size_t>(reach / kPointsPerReach / kLineSpacing));

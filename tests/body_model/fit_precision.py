@@ -311,6 +311,8 @@ def main():
     if not o.mesh or not o.scan:
         a.error('--mesh and --scan are needed, or --booth and --earlier')
     earlier = yaml.safe_load(open(o.earlier)) if o.earlier else None
+    if earlier and FROM_BOOTH in earlier['bodies'] and not o.booth:
+        a.error('%s has limbs from virtual bodies: --booth, or they are taken to be read without an error again' % o.earlier)
     kept = [p for p in earlier['bodies'].split('; ') if not p.startswith(FROM_BOOTH)][-1] if earlier else ''
     if earlier and not kept.startswith(KEPT):
         kept = '%s, and %s, of %s' % (KEPT, kept, earlier['made'])

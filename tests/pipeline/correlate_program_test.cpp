@@ -127,7 +127,7 @@ TEST_F(CorrelateProgram, RefusesByName) {
   auto body = tensegric_fit::geometry::read_ply_mesh(kScans + "/a/body.ply");
   for (Eigen::Vector3d& vertex : body.vertices) vertex *= 1e3;
   tensegric_fit::geometry::write_ply_mesh(file("millimetres.ply"), body);
-  expect_refused(good + " --mesh " + file("millimetres.ply") + " --unit inch", "not_a_body");
+  expect_refused(good + " --mesh " + file("millimetres.ply") + " --unit inch", "wrong_unit");
 }
 
 TEST_F(CorrelateProgram, UsageErrorsAreTwo) {

@@ -229,7 +229,7 @@ TEST_F(FitProgram, RefusesBadScansByName) {
 TEST_F(FitProgram, AMeshInAnotherUnitThanIsSaidIsRefused) {
   const auto body = tensegric_fit::geometry::read_ply_mesh(kScans + "/a/body.ply");
   const std::string millimetres = write("a.obj", tensegric_fit::mesh_files::obj_text(body, "body"));
-  expect_refused("--mesh " + millimetres + " --unit inch", "not_a_body");
+  expect_refused("--mesh " + millimetres + " --unit inch", "wrong_unit");
 }
 
 TEST_F(FitProgram, RefusesBadGarmentsByName) {

@@ -156,7 +156,9 @@ Case load_case(const std::string& file) {
   if (root["booth"]) read.booth = read_recipe(root["booth"], file + ": booth");
   if (root["bag"]) {
     read.bag = fs::path(file).parent_path() / geometry::required<std::string>(root, "bag", file, kBadCase);
-    if (!fs::is_regular_file(read.bag)) throw Refusal(kBadCase, file + ": there is no bag " + read.bag);
+    std::error_code unreadable;
+    if (!fs::is_regular_file(read.bag, unreadable))
+      throw Refusal(kBadCase, file + ": there is no bag " + read.bag);
   }
   read.pipeline = YAML::Clone(root["pipeline"] ? root["pipeline"] : YAML::Node(YAML::NodeType::Map));
   geometry::check_keys(read.pipeline,

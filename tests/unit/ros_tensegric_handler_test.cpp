@@ -369,7 +369,9 @@ TEST_F(TensegricHandlerTest, ALatchedGarmentThatIsDeliveredAgainDoesNotComeBack)
   TensegricHandler again =
       handler("garment: B2, worn: '" + stage.kept() + "', heard: '" + stage.heard() + "'");
   for (TensegricHandler* node : {&stage, &again}) {
-    node->put_on(at(0.9, 10), "/shop");  // after a respawn, say
+    Garment delivered = at(0.9, 10);  // after a respawn, say
+    delivered.header.seq = 2;         // as rospy numbers it
+    node->put_on(delivered, "/shop");
     EXPECT_EQ(node->worn().garment.lines.at(0).ratio, 0.8);
     node->put_on(at(0.7, 5), "/shop");  // its clock was set back
     EXPECT_EQ(node->worn().garment.lines.at(0).ratio, 0.7);

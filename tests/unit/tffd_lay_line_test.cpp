@@ -115,8 +115,8 @@ TEST_F(Slab, AnAveragedFibreIsEvenAndTheSameFromEitherEnd) {
         shortest = std::min(shortest, step);
         longest = std::max(longest, step);
       }
-      EXPECT_LT(longest, 1.7 * shortest)
-          << count;  // two or three points of those laid every 3 mm, or three or four
+      // Steps are 2 or 3, or 3 or 4, of the points that are laid every 3 mm.
+      EXPECT_LT(longest, 1.7 * shortest) << count;
     }
   }
 }
