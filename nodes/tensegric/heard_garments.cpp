@@ -1,28 +1,14 @@
 #include "tensegric/heard_garments.hpp"
 
 #include <fmt/format.h>
-#include <ros/serialization.h>
 
 #include <algorithm>
 #include <sstream>
-#include <vector>
 
 namespace tensegric_fit::node {
 namespace {
 
 constexpr std::size_t kMost = 64;  // publishers; anonymous ones have another name each time
-
-/// Not std::hash: what was heard outlives the process, and the build. rospy numbers a latched message anew
-/// each time that it delivers it.
-std::uint64_t checksum_of(Garment garment) {
-  garment.header.seq = 0;
-  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(garment));
-  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::serialize(stream, garment);
-  std::uint64_t value = 14695981039346656037u;
-  for (const std::uint8_t byte : bytes) value = (value ^ byte) * 1099511628211u;
-  return value;
-}
 
 }  // namespace
 
@@ -40,9 +26,8 @@ std::string HeardGarments::text() const {
   return text;
 }
 
-bool HeardGarments::is_new(const std::string& publisher, const Garment& garment) {
-  if (publisher.empty() || garment.header.stamp.isZero()) return true;
-  const Message message{garment.header.stamp.toNSec(), checksum_of(garment)};
+bool HeardGarments::is_new(const std::string& publisher, const Message& message) {
+  if (publisher.empty() || message.stamp == 0) return true;
   const auto [found, is_first] = last_.emplace(publisher, message);
   if (!is_first && found->second.stamp == message.stamp && found->second.checksum == message.checksum)
     return false;

@@ -2,8 +2,6 @@
 /// forgot.
 #pragma once
 
-#include <tensegric_fit/Garment.h>
-
 #include <cstdint>
 #include <map>
 #include <string>
@@ -17,15 +15,17 @@ class HeardGarments {
   explicit HeardGarments(const std::string& text = "");
   std::string text() const;
 
-  /// False where it is this publisher's last message again, the same but for its sequence number: who changes
-  /// a garment need not change its stamp. Messages without a stamp or publisher are always new.
-  bool is_new(const std::string& publisher, const Garment& garment);
-
- private:
+  /// A garment message by its stamp, in ns, and its checksum_of().
   struct Message {
-    std::uint64_t stamp;  // ns
+    std::uint64_t stamp;
     std::uint64_t checksum;
   };
+
+  /// False where it is this publisher's last message again: who changes a garment need not change its stamp.
+  /// Messages without a stamp or publisher are always new.
+  bool is_new(const std::string& publisher, const Message& message);
+
+ private:
   std::map<std::string, Message> last_;
 };
 

@@ -22,13 +22,24 @@ int digit_in(char digit) {
   return static_cast<int>(value);
 }
 
-}  // namespace
-
-std::string kept_text(const std::string& first, const GarmentRequest& worn) {
-  const Garment message = to_message({}, worn);
+std::vector<std::uint8_t> bytes_of(const Garment& message) {
   std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
   ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   ros::serialization::serialize(stream, message);
+  return bytes;
+}
+
+}  // namespace
+
+std::uint64_t checksum_of(Garment message) {
+  message.header.seq = 0;
+  std::uint64_t value = 14695981039346656037u;  // FNV-1a of 64 bits
+  for (const std::uint8_t byte : bytes_of(message)) value = (value ^ byte) * 1099511628211u;
+  return value;
+}
+
+std::string kept_text(const std::string& first, const GarmentRequest& worn) {
+  const std::vector<std::uint8_t> bytes = bytes_of(to_message({}, worn));
   return first + kEnd + fmt::format("{:02x}", fmt::join(bytes, "")) + (worn.of ? kOf + *worn.of : "");
 }
 

@@ -144,7 +144,7 @@ GarmentRequest TensegricHandler::of_body(GarmentRequest request) const {
 
 std::optional<TensegricHandler::Input> TensegricHandler::put_on(const Garment& garment,
                                                                 const std::string& publisher) {
-  if (!heard_.is_new(publisher, garment)) return std::nullopt;
+  if (!heard_.is_new(publisher, {garment.header.stamp.toNSec(), checksum_of(garment)})) return std::nullopt;
   return wear(of_body(request_in(garment)));
 }
 
