@@ -7,6 +7,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "geometry/checksum.hpp"
+
 namespace tensegric_fit::geometry {
 namespace {
 
@@ -36,11 +38,10 @@ std::vector<double> as_doubles(const std::string& type, const std::string& bytes
 
 /// Of all bytes of the file, which is read to its end.
 std::string checksum_of(std::istream& file) {
-  std::uint64_t value = 14695981039346656037u;
+  std::uint64_t value = kEmptyChecksum;
   std::vector<char> bytes(1 << 16);
   while (file.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || file.gcount() > 0)
-    for (std::streamsize i = 0; i < file.gcount(); ++i)
-      value = (value ^ static_cast<unsigned char>(bytes[i])) * 1099511628211u;
+    value = checksum(value, bytes.data(), static_cast<std::size_t>(file.gcount()));
   std::ostringstream text;
   text << std::hex << std::setw(16) << std::setfill('0') << value;
   return text.str();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/scan_extent.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::mesh_files {
@@ -26,7 +27,6 @@ constexpr const char* kAxes[] = {"x", "y", "z", "-x", "-y", "-z"};
 
 constexpr double kShortest = 1.2, kTallest = 2.2;  // m, statures
 constexpr double kSmallest = 0.4, kLargest = 4.0;  // m, parts of a person; a booth with its floor
-constexpr double kLeast = 0.1, kMost = 8.0;        // m, in a given unit: a hand is larger, a booth smaller
 // Share of points at either end; where the size in a given unit is checked twice that, as when
 // reconstructing.
 constexpr double kStray = 0.005;
@@ -75,7 +75,8 @@ std::string unit_of(const Spread& spread) {
     if (metres >= kSmallest && metres <= kLargest) fit.push_back(&unit);
   }
   if (stature != nullptr && (fit.size() == 1 || extent[0] <= kDeepest * longest)) return stature->name;
-  if (longest < kMost && fit.size() <= 1) return "m";  // the reconstruction says what is wrong with it
+  if (longest < geometry::kScanExtent.high && fit.size() <= 1)
+    return "m";  // the reconstruction says what is wrong with it
   if (fit.size() == 1) return fit.front()->name;
   if (fit.empty())
     throw Refusal(refusal::kWrongUnit,
@@ -88,7 +89,7 @@ std::string unit_of(const Spread& spread) {
 
 /// Else the reconstruction would say what it lacks: points, or another unit than the one that was given.
 void check_given(const std::string& unit, double metres) {
-  if (metres == 0 || (metres >= kLeast && metres <= kMost)) return;
+  if (metres == 0 || geometry::kScanExtent.holds(metres)) return;
   throw Refusal(refusal::kWrongUnit,
                 fmt::format("in the unit that is given, {}, the scan is {:.4g} m across", unit, metres));
 }

@@ -9,6 +9,7 @@
 
 #include "body_model/registration.hpp"
 #include "geometry/percentile.hpp"
+#include "geometry/scan_extent.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::reconstruction {
@@ -18,8 +19,6 @@ namespace refusal = geometry::refusal;
 using geometry::Refusal;
 
 constexpr double kBoothReach = 4.0;     // m from the middle: farther points are stray
-constexpr double kLargestExtent = 8.0;  // m, no booth is larger
-constexpr double kLeastExtent = 0.1;    // m: smaller parts of a body are no scan
 constexpr double kTypicalExtent = 1.7;  // m, of a body
 
 /// Low, middle and high coordinates without the stray points, as rows.
@@ -36,11 +35,11 @@ std::array<Eigen::Vector3d, 3> spread(const std::vector<Eigen::Vector3d>& points
 }
 
 void check_unit(double extent) {
-  if (extent < kLeastExtent)
+  if (extent < geometry::kScanExtent.low)
     throw Refusal(refusal::kWrongUnit, fmt::format("the scan is {:.4g} across; points must be in metres, a "
                                                    "body is larger",
                                                    extent));
-  if (extent <= kLargestExtent) return;
+  if (extent <= geometry::kScanExtent.high) return;
   struct Unit {
     const char* name;
     double per_metre;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/checksum.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::node {
@@ -33,9 +34,8 @@ std::vector<std::uint8_t> bytes_of(const Garment& message) {
 
 std::uint64_t checksum_of(Garment message) {
   message.header.seq = 0;
-  std::uint64_t value = 14695981039346656037u;  // FNV-1a of 64 bits
-  for (const std::uint8_t byte : bytes_of(message)) value = (value ^ byte) * 1099511628211u;
-  return value;
+  const std::vector<std::uint8_t> bytes = bytes_of(message);
+  return geometry::checksum(geometry::kEmptyChecksum, bytes.data(), bytes.size());
 }
 
 std::string kept_text(const std::string& first, const GarmentRequest& worn) {

@@ -12,8 +12,7 @@ namespace tensegric_fit::node {
 /// `first` is the garment that the node was started with: under another one the text counts no more.
 std::string kept_text(const std::string& first, const GarmentRequest& worn);
 
-/// Of all but the sequence number: rospy numbers a latched message anew each time that it delivers it. The
-/// same in each process and build.
+/// Of all but the sequence number: rospy numbers a latched message anew each time that it delivers it.
 std::uint64_t checksum_of(Garment message);
 
 /// Nothing where the text belongs to another `first` garment, or is not from kept_text().

@@ -262,11 +262,17 @@ Positions Model::rest_positions() const {
   return rest;
 }
 
-std::vector<int> Model::piece_of_members() const {
+std::vector<int> Model::piece_of_nodes() const {
   const std::vector<int> of_triangle = geometry::components_of({control.outer, control.triangles});
-  std::vector<int> of_node(control.outer.size(), 0), pieces;
+  std::vector<int> pieces(control.outer.size(), 0);
   for (std::size_t t = 0; t < of_triangle.size(); ++t)
-    for (int k = 0; k < 3; ++k) of_node[control.triangles[t][k]] = of_triangle[t];
+    for (int k = 0; k < 3; ++k) pieces[control.triangles[t][k]] = of_triangle[t];
+  return pieces;
+}
+
+std::vector<int> Model::piece_of_members() const {
+  const std::vector<int> of_node = piece_of_nodes();
+  std::vector<int> pieces;
   for (const Member& m : members) pieces.push_back(of_node[static_cast<std::size_t>(m.a) % of_node.size()]);
   return pieces;
 }

@@ -104,8 +104,10 @@ struct Model {
   bool is_fixed(int node) const;
   std::vector<int> free_index() const;  ///< of each node its number among the free ones, or -1
   Positions rest_positions() const;
-  std::vector<int> piece_of_members() const;  ///< of the control mesh, connected by its triangles
-  double mean_tension() const;                ///< of the tensile parts at rest, pseudo force
+  /// Pieces of the control mesh, connected by its triangles: of each of its nodes, and of each member.
+  std::vector<int> piece_of_nodes() const;
+  std::vector<int> piece_of_members() const;
+  double mean_tension() const;  ///< of the tensile parts at rest, pseudo force
 };
 
 /// Members and prestress of the control mesh, its inner nodes fixed where they are to be bound, such that the

@@ -64,10 +64,7 @@ std::vector<char> touched_nodes(const Problem& problem) {
   const bool all = !problem.options.gravity.isZero(0) || !problem.options.bones.still();
   std::vector<char> touched(control.outer.size(), all);
   if (all) return touched;
-  const std::vector<int> piece_of_triangle = geometry::components_of({control.outer, control.triangles});
-  std::vector<int> piece(control.outer.size(), 0);
-  for (std::size_t t = 0; t < control.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) piece[control.triangles[t][k]] = piece_of_triangle[t];
+  const std::vector<int> piece = problem.model.piece_of_nodes();
   std::vector<char> piece_touched(control.outer.size(), 0);
   for (const Band& band : problem.bands)
     for (const Thread& thread : band.threads)
