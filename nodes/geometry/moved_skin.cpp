@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <numeric>
 #include <string>
 
 #include "geometry/carried_points.hpp"
@@ -69,28 +69,24 @@ std::optional<double> girth_change(const MovedSkin& skin, const std::vector<Vect
   return length_of(after, true) - length_of(before, true);
 }
 
-/// How far each landmark that was found rises along the body's z, m.
-std::map<std::string, double> rises(const BodyMeasures& measures, const MovedSkin& skin) {
-  const std::vector<Vector3d> after = landmarks_after(measures, skin);
-  std::map<std::string, double> rises;
+/// How far a height rises along the body's z with its landmarks, m: their mean; with the fold under the bust,
+/// whose height is its lower side's, the lower one. `after`: where measures.landmarks lie then.
+std::optional<double> rise(const std::string& height, const BodyMeasures& measures,
+                           const std::vector<Vector3d>& after) {
+  const std::vector<std::string>& names = landmarks_of_height(height);
+  std::vector<double> z_before, z_after;
   for (std::size_t i = 0; i < after.size(); ++i) {
     const Landmark& landmark = measures.landmarks[i];
-    rises[landmark.name] = (measures.body_from_scan.linear() * (after[i] - landmark.position)).z();
+    if (std::find(names.begin(), names.end(), landmark.name) == names.end()) continue;
+    z_before.push_back((measures.body_from_scan * landmark.position).z());
+    z_after.push_back((measures.body_from_scan * after[i]).z());
   }
-  return rises;
-}
-
-/// Their mean.
-std::optional<double> mean_of(const std::map<std::string, double>& rises,
-                              const std::vector<std::string>& names) {
-  double sum = 0;
-  int found = 0;
-  for (const std::string& name : names)
-    if (const auto rise = rises.find(name); rise != rises.end()) {
-      sum += rise->second;
-      ++found;
-    }
-  return found == 0 ? std::nullopt : std::optional<double>(sum / found);
+  if (z_before.empty()) return std::nullopt;
+  const auto of_both = [&](const std::vector<double>& z) {
+    return height == "underbust" ? *std::min_element(z.begin(), z.end())
+                                 : std::accumulate(z.begin(), z.end(), 0.0) / static_cast<double>(z.size());
+  };
+  return of_both(z_after) - of_both(z_before);
 }
 
 double top(const std::vector<Vector3d>& vertices, const Eigen::Isometry3d& body_from_scan) {
@@ -168,11 +164,11 @@ std::optional<ChangedMeasure> bust_points_apart(const BodyMeasures& measures, co
 }
 
 std::vector<ChangedMeasure> heights_after(const BodyMeasures& measures, const MovedSkin& skin) {
-  const std::map<std::string, double> risen = rises(measures, skin);
+  const std::vector<Vector3d> after = landmarks_after(measures, skin);
   std::vector<ChangedMeasure> changed;
   for (const Measure& height : measures.heights) {
     changed.push_back({height, std::nullopt});
-    std::optional<double> change = mean_of(risen, landmarks_of_height(height.name));
+    std::optional<double> change = rise(height.name, measures, after);
     if (height.name == "stature")
       change = top(skin.after, measures.body_from_scan) - top(skin.before.vertices, measures.body_from_scan);
     if (change) changed.back().after = height.metres + *change;

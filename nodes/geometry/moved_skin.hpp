@@ -49,7 +49,8 @@ std::vector<ChangedMeasure> girths_after(const BodyMeasures& measures, const Mov
 /// Distance of the bust points, `before` named bust_points; nothing where one was not found.
 std::optional<ChangedMeasure> bust_points_apart(const BodyMeasures& measures, const MovedSkin& skin);
 
-/// Each height by the displacement of the landmarks that define it; stature by the highest vertex.
+/// Each height by the displacement of the landmarks that define it, underbust by the lower fold's; stature by
+/// the highest vertex.
 std::vector<ChangedMeasure> heights_after(const BodyMeasures& measures, const MovedSkin& skin);
 
 }  // namespace tensegric_fit::geometry

@@ -134,6 +134,20 @@ TEST_F(MovedSkinTest, HeightsGoWhereTheirLandmarksGo) {
   EXPECT_NEAR(heights.at(1).after.value(), 1.42, 1e-12);  // and with it the highest vertex
 }
 
+TEST_F(MovedSkinTest, TheFoldsHeightIsThatOfItsLowerSide) {
+  measures_.landmarks = {{"underbust_L", {kTrunk, 0, 1.22}, 0.9, ""},
+                         {"underbust_R", {-kTrunk, 0, 1.2}, 0.9, ""}};
+  measures_.heights = {{"underbust", 1.2, 0.9, ""}};
+  const auto height_when_rises = [&](double left, double right) {
+    const auto after =
+        moved([&](const Vector3d& p) { return Vector3d(p + Vector3d(0, 0, p.x() > 0 ? left : right)); });
+    return heights_after(measures_, {mesh_, after}).at(0).after.value();
+  };
+  EXPECT_NEAR(height_when_rises(0.01, 0), 1.2, 1e-12);
+  EXPECT_NEAR(height_when_rises(0, 0.01), 1.21, 1e-12);
+  EXPECT_NEAR(height_when_rises(0, 0.03), 1.22, 1e-12);  // the other side is the lower one then
+}
+
 TEST_F(MovedSkinTest, APointBetweenVerticesGoesAsFarAsItsPlaceOnTheSkin) {
   const Eigen::Matrix3d shear = (Eigen::Matrix3d() << 0, 0, 0, 0, 0, 0, 0.1, 0.2, 0.05).finished();
   const auto after = moved([&](const Vector3d& p) { return Vector3d(p + shear * p); });
