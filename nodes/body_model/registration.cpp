@@ -198,11 +198,9 @@ RegisteredBody register_mesh(const Registrar& registrar, const geometry::Triangl
     for (const int v : t) body.ground = std::min(body.ground, body.vertical.dot(mesh.vertices[v]));
   // Reconstruction ends soles on the ground; whether it saw a floor is not known here.
   if (body.scanned) body.ground_deviation = registrar.standing().ground;
-  const double deviation =
-      deviation_of_ground(body, body.ground, body.ground_deviation, registrar.standing());
-  if (deviation > body.ground_deviation)  // either may be right: halfway
-    body.ground = (body.ground + ground_by_soles(body, registrar.standing()).height) / 2;
-  body.ground_deviation = deviation;
+  const Ground ground = settled_ground(body, body.ground, body.ground_deviation, registrar.standing());
+  body.ground = ground.height;
+  body.ground_deviation = ground.deviation;
   return body;
 }
 

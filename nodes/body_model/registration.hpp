@@ -29,9 +29,9 @@ class Registrar {
   Standing standing_;
 };
 
-/// The model on a mesh; its lowest vertex is the ground. `filled`: empty, or one flag per vertex; where any
-/// is set the mesh was made of a scan without a floor, as far as is known, and flagged skin shows nothing. Up
-/// as for a scan. \throw Refusal not_a_body
+/// The model on a mesh; its lowest vertex is the ground, unless feet lack their soles (settled_ground) or are
+/// not there. `filled`: empty, or one flag per vertex; where any is set the mesh was made of a scan without a
+/// floor, as far as is known, and flagged skin shows nothing. Up as for a scan. \throw Refusal not_a_body
 RegisteredBody register_mesh(const Registrar& registrar, const geometry::TriangleMesh& mesh,
                              const std::vector<char>& filled = {});
 

@@ -45,8 +45,20 @@ std::vector<Vector3d> soles_of(const RegisteredBody& body, const std::array<bool
   return soles;
 }
 
-double ground_by(const RegisteredBody& body, const std::vector<Vector3d>& soles, const Standing& standing) {
-  return body.vertical.dot(mean_of(soles)) - standing.soles * std::exp(body.parameters.log_scale);
+// How far from nothing (2 deviations and less) to certain (3 and more) it is that something deviates.
+double doubt_at(double deviations) {
+  return std::clamp((deviations - kUpright) / (kLeaning - kUpright), 0.0, 1.0);
+}
+
+// Of both feet, or of the one that is there; where one is clearly higher than the other she stands on the
+// other.
+double height_of_soles(const RegisteredBody& body, const std::array<bool, 2>& sides,
+                       const Standing& standing) {
+  if (!(sides[0] && sides[1])) return body.vertical.dot(mean_of(soles_of(body, sides)));
+  const double left = body.vertical.dot(mean_of(soles_of(body, {true, false}))),
+               right = body.vertical.dot(mean_of(soles_of(body, {false, true})));
+  const double raised = doubt_at(std::abs(left - right) / (2 * standing.ground));
+  return (left + right - raised * std::abs(left - right)) / 2;
 }
 
 Vector3d normal_of(const std::vector<Vector3d>& points, const Vector3d& up) {
@@ -100,22 +112,35 @@ Vector3d upright(const RegisteredBody& body, const Standing& standing) {
   const Vector3d tilt = up - up.dot(body.vertical) * body.vertical, left = shown.cross(forward);
   const double deviations =
       std::hypot(tilt.dot(left) / standing.sideways, tilt.dot(forward) / standing.along);
-  const double leaning = std::clamp((deviations - kUpright) / (kLeaning - kUpright), 0.0, 1.0);
+  double leaning = doubt_at(deviations);
+  if (has_soles) {
+    // A booth that is not level tilts legs and soles alike. Where they disagree, as with a bent knee or a
+    // foot that is raised, neither says what is upright. Their difference deviates by twice what their mean
+    // does.
+    const Vector3d differ = 2 * (stance.up.dot(stance.legs) * stance.up - stance.legs);
+    leaning *=
+        1 -
+        doubt_at(std::hypot(differ.dot(left) / standing.sideways, differ.dot(forward) / standing.along) / 2);
+  }
   return (body.vertical + leaning * (up - body.vertical)).normalized();
 }
 
 Ground ground_by_soles(const RegisteredBody& body, const Standing& standing) {
   const auto [left, right] = sides_there(body, "thigh");
-  return {ground_by(body, lacks_feet(body) ? soles_of(body) : soles_of(body, sides_there(body, "foot")),
-                    standing),
+  const std::array<bool, 2> both{true, true}, feet = lacks_feet(body) ? both : sides_there(body, "foot");
+  return {height_of_soles(body, feet, standing) - standing.soles * std::exp(body.parameters.log_scale),
           left || right ? standing.without_feet : standing.without_thighs};
 }
 
-double deviation_of_ground(const RegisteredBody& body, double by_lowest, double deviation,
-                           const Standing& standing) {
-  const double apart = std::abs(by_lowest - ground_by_soles(body, standing).height);
+Ground settled_ground(const RegisteredBody& body, double by_lowest, double deviation,
+                      const Standing& standing) {
+  const double soles = ground_by_soles(body, standing).height, apart = std::abs(by_lowest - soles);
   // each of the two deviates by sqrt(2) of what their mean does, their difference by twice that
-  return apart > kApart * 2 * standing.ground ? std::max(deviation, apart / 2) : deviation;
+  const double deviations = apart / (2 * standing.ground);
+  const double doubt = std::clamp((deviations - 1) / (kApart - 1), 0.0, 1.0),
+               way = std::clamp(deviations - (kApart - 1), 0.0,
+                                1.0);  // at the end either may be right: halfway
+  return {by_lowest + way / 2 * (soles - by_lowest), std::hypot(deviation, doubt * apart / 2)};
 }
 
 double lowest_of_soles(const RegisteredBody& body) {
@@ -132,7 +157,8 @@ Ground ground_under(const RegisteredBody& body, const std::vector<Vector3d>& poi
   if (heights.size() <= kStray || lacks_feet(body)) return by_soles;
   std::nth_element(heights.begin(), heights.begin() + kStray, heights.end());
   const double by_lowest = heights[kStray] - standing.seen;
-  return {(by_soles.height + by_lowest) / 2, deviation_of_ground(body, by_lowest, standing.ground, standing)};
+  return {(by_soles.height + by_lowest) / 2,
+          settled_ground(body, by_lowest, standing.ground, standing).deviation};
 }
 
 }  // namespace tensegric_fit::body_model

@@ -45,11 +45,12 @@ Ground ground_by_soles(const RegisteredBody& body, const Standing& standing);
 /// Of the model's soles, along body.vertical, m.
 double lowest_of_soles(const RegisteredBody& body);
 
-/// Of the mean of two places of the ground, that by the lowest place that was seen (`by_lowest`, m) and that
-/// by the soles, where they are clearly apart, as where the lowest part of the feet was not seen: half their
-/// distance. Else `deviation`.
-double deviation_of_ground(const RegisteredBody& body, double by_lowest, double deviation,
-                           const Standing& standing);
+/// By the lowest place of a mesh (`by_lowest`, m, with its `deviation`) where the soles of the model agree
+/// with it; the farther they are apart, the more its deviation counts their distance, up to half of it, and
+/// from 2 deviations of that distance on the ground goes towards the soles, from 3 on half of the way: the
+/// lowest part of the feet may be missing. No cut of the feet makes heights jump.
+Ground settled_ground(const RegisteredBody& body, double by_lowest, double deviation,
+                      const Standing& standing);
 
 /// From the model's soles and from the lowest points of a scan alike, as each is off on its own.
 Ground ground_under(const RegisteredBody& body, const std::vector<Eigen::Vector3d>& points,

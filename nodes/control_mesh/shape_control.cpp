@@ -57,7 +57,8 @@ bool has_negative_volume(const geometry::TriangleMesh& piece) {
 void check_outside(const geometry::TriangleMesh& mesh) {
   geometry::check_mesh(mesh);
   if (mesh.triangles.empty()) throw Refusal(geometry::refusal::kBadMesh, "the shape has no triangles");
-  if (geometry::is_closed(mesh) && geometry::cone_volume(mesh.vertices, mesh.triangles) <= 0)
+  if (geometry::is_closed(mesh) &&
+      geometry::cone_volume(mesh.vertices, mesh.triangles, mesh.vertices.front()) <= 0)
     throw Refusal(geometry::refusal::kBadMesh,
                   "the shape is inside out: its triangles must run counter-clockwise from outside");
   const std::vector<geometry::TriangleMesh> pieces = closed_pieces(mesh);

@@ -64,7 +64,7 @@ std::vector<Eigen::Vector3d> first_harmonics(std::vector<Eigen::Vector3d> loop, 
   const double whole = length_of(loop, false);
   if (!(whole > 0)) return std::vector<Eigen::Vector3d>(count, loop.front());
   loop = even_steps(loop, whole / count, whole);
-  count = static_cast<int>(loop.size());  // rounding may add one
+  loop.resize(count, loop.front());  // rounding may add the first one again, or leave out the last
   const Eigen::Vector3d middle = mean_of(loop);
   std::vector<Eigen::Vector3d> smooth(count, middle);
   for (int h = 1; h <= harmonics; ++h) {

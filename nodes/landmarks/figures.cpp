@@ -23,6 +23,8 @@ constexpr double kUnit =
     0.002;  // m of misfit that Spread::base is for (definition; also in fit_precision.py)
 constexpr double kNormal = 1.96;  // quantile of the normal distribution at 97.5 % (definition)
 constexpr double kGross = 4;  // spreads between two readings of one thing: with Gaussian errors 1 in 16,000
+constexpr double kNearlyGross =
+    0.75;  // of that distance: from here on the mesh counts less, so that no figure jumps
 
 Spread spread_in(const YAML::Node& node, const std::string& where) {
   geometry::check_keys(node, {"bias", "base", "growth", "support", "outside", "shift"}, where, kCode);
@@ -129,12 +131,17 @@ Settled settle(const Figure& figure, const Precision& precision, bool scanned) {
   const Eigen::Vector3d on_mesh = unbiased(*figure.on_mesh, p.mesh);
   if (!figure.on_model) return {on_mesh, half_width(p.half_width, mesh, 0), false};
   const Eigen::Vector3d on_model = unbiased(*figure.on_model, p.model), apart = on_mesh - on_model;
-  // A web, a fold of the belly, an arm that was cut off elsewhere: the mesh then shows something else.
-  if (!figure.seen &&
-      apart.norm() > std::max(kGross * std::hypot(mesh, model), kGrossLimits * limit_of(figure)))
-    return {on_model, half_width(p.half_width_of_model, model, kGross * model), true};
-  const double share = model * model / (mesh * mesh + model * model);
-  return {on_model + share * apart, half_width(p.half_width, mesh * std::sqrt(share), apart.norm()), false};
+  // A web, a fold of the belly, an arm that was cut off elsewhere: the mesh then shows something else. How
+  // far off says no more of how well the model is right.
+  const double gross = std::max(kGross * std::hypot(mesh, model), kGrossLimits * limit_of(figure)),
+               distance = std::min(apart.norm(), gross);
+  const double doubt =
+      figure.seen ? 0 : std::clamp((apart.norm() / gross - kNearlyGross) / (1 - kNearlyGross), 0.0, 1.0);
+  const double share = (1 - doubt) * model * model / (mesh * mesh + model * model);
+  return {on_model + share * apart,
+          half_width(p.half_width + doubt * (p.half_width_of_model - p.half_width),
+                     std::hypot(share * mesh, (1 - share) * model), figure.seen ? apart.norm() : distance),
+          doubt == 1};
 }
 
 const std::vector<Eigen::Vector3d>& tape_of(const Figure& figure, const Settled& settled) {

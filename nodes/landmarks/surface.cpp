@@ -43,7 +43,11 @@ std::vector<SectionLoop> cut(const Surface& surface, const Vector3d& origin, con
     if (((height[t[1]] >= 0) != above || (height[t[2]] >= 0) != above) && selected(t))
       through.push_back(static_cast<int>(i));
   }
-  return without_slivers(geometry::plane_section(geometry::submesh(surface.mesh, through), origin, normal));
+  std::vector<SectionLoop> loops =
+      without_slivers(geometry::plane_section(geometry::submesh(surface.mesh, through), origin, normal));
+  for (SectionLoop& loop : loops)
+    for (int& triangle : loop.triangles) triangle = through[triangle];
+  return loops;
 }
 
 Trunk::Trunk(Surface surface) : surface_(std::move(surface)) {

@@ -31,7 +31,7 @@ struct Surface {
 
 using Selected = std::function<bool(const Eigen::Vector3i& triangle)>;
 
-/// What a plane cuts of the selected triangles.
+/// What a plane cuts of the selected triangles; loops name triangles of the surface.
 std::vector<geometry::SectionLoop> cut(const Surface& surface, const Eigen::Vector3d& origin,
                                        const Eigen::Vector3d& normal, const Selected& selected);
 

@@ -15,9 +15,21 @@ constexpr double kArmBeside =
     0.08;  // m from the trunk's middle to an arm's; what is nearer lies within it (tolerance)
 constexpr double kUnderShoulder = 0.04,
                  kOverShoulder = 0.11;  // m, flesh over the acromion (definition: README.md, shoulder)
-constexpr int kHalvings = 12;           // of the search for the highest plane: 0.1 mm
+constexpr double kLeastArm =
+    0.25;  // mean share of an arm in an outline; hair and overhanging breasts have none of it
+constexpr int kHalvings = 12;                            // of the search for the highest plane: 0.1 mm
 constexpr int kHarmonics = 8, kLoopPoints = 180;         // of a neck: waves of 40 mm
 constexpr double kNeckStep = 0.005, kNeckReach = 0.040;  // m (definition: README.md, neck)
+
+/// How much of an outline an arm carries, 0 to 1.
+double arm_share(const Surface& surface, const SectionLoop& loop) {
+  double sum = 0;
+  for (const int triangle : loop.triangles) {
+    const Eigen::Vector3i& t = surface.mesh.triangles[triangle];
+    sum += (surface.arm[t[0]] + surface.arm[t[1]] + surface.arm[t[2]]) / 3;
+  }
+  return sum / static_cast<double>(loop.triangles.size());
+}
 
 /// Middle of the gap between arm and trunk in a plane; nothing where they are one.
 std::optional<Vector3d> gap(const Surface& surface, Side side, double height, double rise) {
@@ -41,7 +53,9 @@ std::optional<Vector3d> gap(const Surface& surface, Side side, double height, do
     if (!geometry::is_outline(loop, normal) || &loop == trunk ||
         kSign[side] * (mean_of(loop.points).y() - middle) < kArmBeside)
       continue;
-    if (arm == nullptr || loop.points.size() > arm->points.size()) arm = &loop;
+    if (arm_share(surface, loop) >= kLeastArm &&
+        (arm == nullptr || geometry::length_of(loop.points, true) > geometry::length_of(arm->points, true)))
+      arm = &loop;
   }
   if (arm == nullptr) return std::nullopt;
   Vector3d between = Vector3d::Zero();

@@ -38,6 +38,8 @@ std::vector<std::pair<int, int>> coupled_nodes(const Problem& problem,
   for (const UnitVolume& unit : problem.units) couple_all(unit.nodes);
   for (const UnitPressure& unit : problem.pressures) couple_all(unit.nodes);
   for (const UnitShear& unit : problem.shears) couple_all(unit.nodes);
+  for (const SkinTriangle& one : problem.skin)
+    for (int i = 0; i < 3; ++i) couple(one.nodes[i], one.nodes[(i + 1) % 3]);
   for (const LengthCurvature& curvature : curvatures)
     for (const auto& pair : curvature.coupled_nodes()) pairs.push_back(pair);
   return pairs;
@@ -100,6 +102,7 @@ KktResidual Kkt::defect(const Balance& at, const Load& load) const {
   add_fold_gradient(problem_.units, at.x, problem_.free_index, result.gradient);
   add_pressure_gradient(problem_.pressures, at.x, problem_.free_index, result.gradient);
   add_shear_gradient(problem_.shears, at.x, problem_.free_index, result.gradient);
+  add_skin_gradient(problem_.skin, at.x, problem_.free_index, result.gradient);
   for (std::size_t i = 0; i < problem_.model.control.outer.size(); ++i)
     if (problem_.free_index[i] >= 0) result.gradient.segment<3>(3 * problem_.free_index[i]) -= load.gravity;
   result.residual = relative_residual(problem_, result.gradient);
@@ -108,7 +111,8 @@ KktResidual Kkt::defect(const Balance& at, const Load& load) const {
 
 double Kkt::energy(const Balance& at, const Load& load) const {
   double energy = member_energy(problem_.model, at.x) + fold_energy(problem_.units, at.x) +
-                  pressure_energy(problem_.pressures, at.x) + shear_energy(problem_.shears, at.x);
+                  pressure_energy(problem_.pressures, at.x) + shear_energy(problem_.shears, at.x) +
+                  skin_energy(problem_.skin, at.x);
   for (std::size_t i = 0; i < problem_.model.control.outer.size(); ++i)
     if (problem_.free_index[i] >= 0) energy -= load.gravity.dot(at.x[i] - problem_.rest[i]);
   for (int b = 0; b < bands_; ++b) {
@@ -128,6 +132,7 @@ void Kkt::assemble(const Balance& at, const std::vector<StraightPush>& lines, do
   add_fold_hessian(problem_.units, at.x, lines, problem_.free_index, hessian_, whole);
   add_pressure_hessian(problem_.pressures, at.x, problem_.free_index, hessian_, whole);
   add_shear_hessian(problem_.shears, at.x, problem_.free_index, hessian_, whole);
+  add_skin_hessian(problem_.skin, at.x, problem_.free_index, hessian_, whole);
   for (int b = 0; b < bands_; ++b) curvatures_[b].add(at.x, std::max(0.0, at.tensions[b]), hessian_);
   for (int r = 0; r < regions_; ++r)
     add_volume_hessian(problem_.volumes[r], at.x, problem_.free_index,

@@ -92,14 +92,13 @@ class MemberPlacer {
     shortest_ = kShortestMember * (box[1] - box[0]).norm();
     std::size_t index = 0;
     for (const std::array<int, 6>& unit : model.units()) {
-      const double tissue = model.times[index++ % model.times.size()] * tissue_of(rest, unit),
-                   area = area_of(rest, unit, 0);
+      const double tissue = model.times[index++ % model.times.size()] * tissue_of(rest, unit);
       for (int k = 0; k < 3; ++k) {
         const int next = (k + 1) % 3;
         for (Share* share :
              {&faces_[std::minmax(unit[k], unit[next])], &edges_[std::minmax(unit[k], unit[next])],
               &edges_[std::minmax(unit[k + 3], unit[next + 3])], &laterals_[{unit[k], unit[k + 3]}]})
-          *share += {1, tissue / 3, area / 3};
+          *share += {1, tissue / 3};
       }
     }
   }
@@ -111,14 +110,13 @@ class MemberPlacer {
     for (const std::array<int, 6>& unit : model_.units())
       for (int k = 0; k < 3; ++k) {
         const Share& face = faces_[std::minmax(unit[k], unit[(k + 1) % 3])];
-        place(unit[k], unit[(k + 1) % 3 + 3], true, options.strut_stiffness, face.tissue, 0, 1);
+        place(unit[k], unit[(k + 1) % 3 + 3], true, options.strut_stiffness, face.tissue, 1);
       }
     for (int level = 0; level <= options.layers; ++level)
       for (auto edge = edges_.lower_bound({model_.first_node(level), 0});
            edge != edges_.end() && edge->first.first < model_.first_node(level) + count; ++edge) {
         const auto& [ends, share] = *edge;
-        place(ends.first, ends.second, false, 1, share.tissue, level == 0 ? options.skin * share.area : 0,
-              share.units / std::sqrt(3.0));
+        place(ends.first, ends.second, false, 1, share.tissue, share.units / std::sqrt(3.0));
       }
     for (int level = 0; level < options.layers; ++level)
       for (int i = 0; i < count; ++i) {
@@ -126,7 +124,7 @@ class MemberPlacer {
         const Share& share = laterals_[{model_.first_node(level) + i, below}];
         if (share.units == 0)
           throw Refusal(refusal::kBadMesh, "a node of the control mesh belongs to no triangle");
-        place(model_.first_node(level) + i, below, false, options.lateral_stiffness, share.tissue, 0,
+        place(model_.first_node(level) + i, below, false, options.lateral_stiffness, share.tissue,
               share.units);
       }
     double mean = 0;
@@ -140,23 +138,22 @@ class MemberPlacer {
  private:
   struct Share {
     int units = 0;
-    double tissue = 0, area = 0;  // m^3, m^2 of the upper triangles
+    double tissue = 0;  // m^3
     Share& operator+=(const Share& other) {
       units += other.units;
       tissue += other.tissue;
-      area += other.area;
       return *this;
     }
   };
   using Shares = std::map<std::pair<int, int>, Share>;
 
-  // `kind`: share of the tissue's stiffness; `tissue` that it stands for, `skin` besides, m^3.
-  void place(int a, int b, bool strut, double kind, double tissue, double skin, double density) {
+  // `kind`: share of the stiffness of the tissue (m^3) that it stands for.
+  void place(int a, int b, bool strut, double kind, double tissue, double density) {
     const double length = (rest_[a] - rest_[b]).norm();
     if (!(length > shortest_ && std::isfinite(length)))
       throw Refusal(refusal::kBadMesh,
                     "two nodes of the tensegric model that a part joins lie on one point, or nearly");
-    const double stiffness = model_.options.uniform ? kind : (kind * tissue + skin) / length;
+    const double stiffness = model_.options.uniform ? kind : kind * tissue / length;
     model_.members.push_back({a, b, strut, stiffness, length, length, model_.options.stiffening});
     densities_.push_back(density);
   }

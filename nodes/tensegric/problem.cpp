@@ -99,8 +99,19 @@ Problem lay_garment(const Model& model, const Garment& garment, const SolverOpti
   check_regions(model.control, garment);
   check_options(model.control, options);
   check_body_volumes(model, options, body_volumes);
-  Problem problem{model, options, {}, 0,  model.rest_positions(), lay_bands(model, garment, laid),
-                  {},    {},      {}, {}, model.mean_tension(),   {}};
+  Problem problem{model,
+                  options,
+                  {},
+                  0,
+                  model.rest_positions(),
+                  lay_bands(model, garment, laid),
+                  {},
+                  {},
+                  {},
+                  {},
+                  {},
+                  model.mean_tension(),
+                  {}};
   number_free_nodes(problem);
   const Positions at_end = posed(problem, 1);
   for (Band& band : problem.bands) {
@@ -111,6 +122,7 @@ Problem lay_garment(const Model& model, const Garment& garment, const SolverOpti
   problem.units = unit_volumes(model, problem.free_index);
   problem.pressures = unit_pressures(model, problem.free_index);
   problem.shears = unit_shears(model, problem.free_index);
+  problem.skin = skin_triangles(model, problem.free_index);
   for (std::size_t r = 0; r < model.control.regions.size(); ++r) {
     const bool body = options.volume == KeptVolume::body;
     problem.volumes.push_back(region_volume_of(model, model.control.regions[r], problem.free_index,

@@ -7,6 +7,7 @@
 #include "tensegric/band.hpp"
 #include "tensegric/fold_barrier.hpp"
 #include "tensegric/region_volume.hpp"
+#include "tensegric/skin_membrane.hpp"
 #include "tensegric/solver.hpp"
 #include "tensegric/unit_pressure.hpp"
 #include "tensegric/unit_shear.hpp"
@@ -24,6 +25,7 @@ struct Problem {
   std::vector<UnitVolume> units;
   std::vector<UnitPressure> pressures;
   std::vector<UnitShear> shears;
+  std::vector<SkinTriangle> skin;
   double force_scale;  ///< mean tension of the tensile parts at rest
   SkinFolds folds;     ///< empty: nothing is known of the skin
 };

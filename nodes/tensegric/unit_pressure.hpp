@@ -8,15 +8,11 @@
 
 #include "tensegric/model.hpp"
 #include "tensegric/node_matrix.hpp"
+#include "tensegric/unit_prism.hpp"
 
 namespace tensegric_fit::tensegric {
 
-/// Volume over that of an upright unit, below which a unit resists neither a change of its volume nor shear:
-/// its directions are rounding.
-inline constexpr double kFlatUnit = 1e-3;
-
-/// The prism between a triangle and the one below it, each side face taken as the mean of its
-/// two foldings. With V its volume it adds the energy 1/2 stiffness V0 (V / V0 - 1)^2.
+/// With V its volume it adds the energy 1/2 stiffness V0 (V / V0 - 1)^2.
 struct UnitPressure {
   std::array<int, 6> nodes;  ///< the upper triangle's, then those below them
   Eigen::Vector3d origin;    ///< its centre at rest: volumes are summed from here
@@ -27,9 +23,6 @@ struct UnitPressure {
 /// One a unit that can move, none where the model has no stiffness of volume, and none of units that are
 /// flat or turned inside out at rest.
 std::vector<UnitPressure> unit_pressures(const Model& model, const std::vector<int>& free_index);
-
-/// Volume of a unit between a triangle and the one below it (corners in that order), m^3.
-double unit_volume(const std::array<Eigen::Vector3d, 6>& corners);
 
 double pressure_energy(const std::vector<UnitPressure>& units, const Positions& x);
 

@@ -2,34 +2,79 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <cmath>
 
-#include "tensegric/unit_pressure.hpp"
+#include "tensegric/unit_prism.hpp"
 
 namespace tensegric_fit::tensegric {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Shares = std::array<double, 6>;
+using Gradients = Eigen::Matrix<double, 6, 3>;
 
-// Two edges of the middle triangle and the mean way from lower to upper corners, as sums of the corners.
-constexpr double kThird = 1.0 / 3;
-constexpr std::array<Shares, 3> kSides = {{{-0.5, 0.5, 0, -0.5, 0.5, 0},
-                                           {-0.5, 0, 0.5, -0.5, 0, 0.5},
-                                           {kThird, kThird, kThird, -kThird, -kThird, -kThird}}};
+// Gauss points, exact for the unit's volume and its derivatives: three in the triangle (barycentric 2/3, 1/6,
+// 1/6) at two depths.
+constexpr double kNear = 2.0 / 3, kFar = 1.0 / 6;
+const double kDepth = std::sqrt(1.0 / 3) / 2;  // of the unit's depth, from its middle
 
-Vector3d sum_of(const Shares& shares, const UnitShear& unit, const Positions& x) {
-  Vector3d sum = Vector3d::Zero();
-  for (int i = 0; i < 6; ++i) sum += shares[i] * x[unit.nodes[i]];
-  return sum;
+// Derivatives of the corners' shape functions by the two sides of the triangle and by depth, upwards.
+Gradients local_gradients(const Vector3d& barycentric, double up) {
+  Gradients local;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector2d in_plane =
+        i == 0 ? Eigen::Vector2d(-1, -1) : Eigen::Vector2d(Eigen::Vector2d::Unit(i - 1));
+    local.row(i) << (0.5 + up) * in_plane.transpose(), barycentric[i];
+    local.row(i + 3) << (0.5 - up) * in_plane.transpose(), -barycentric[i];
+  }
+  return local;
 }
 
-// F way as a sum of the corners: the sides at rest, solved for it.
-Shares shares_of(const Matrix3d& sides, const Vector3d& way) {
-  const Vector3d c = sides.inverse() * way;
-  Shares shares;
-  for (int i = 0; i < 6; ++i) shares[i] = c[0] * kSides[0][i] + c[1] * kSides[1][i] + c[2] * kSides[2][i];
-  return shares;
+Corners corners_of(const UnitShear& unit, const Positions& x) {
+  return corners_from(unit.nodes, x, unit.origin);
+}
+
+// q, its first derivative, and how much stiffer the tissue is.
+struct Shear {
+  double q;
+  double by_volume;  // of the terms in J
+  Corners by_node;
+  double times;
+};
+
+Shear shear_of(const UnitShear& unit, const Corners& corners) {
+  const double strain = unit_volume(corners) / unit.rest - 1;
+  Shear shear{-3 - 2 * strain + strain * strain, 2 * (strain - 1) / unit.rest, volume_gradient(corners), 1};
+  for (int i = 0; i < 6; ++i) {
+    Vector3d sum = Vector3d::Zero();
+    for (int j = 0; j < 6; ++j) sum += unit.form(i, j) * corners[j];
+    shear.q += corners[i].dot(sum);
+    shear.by_node[i] = shear.by_volume * shear.by_node[i] + 2 * sum;
+  }
+  shear.times = 1 + unit.stiffening / 3 * shear.q;
+  return shear;
+}
+
+// The form, and false where the unit is flat or inside out at one of the points.
+bool take_form(const Corners& corners, double least_volume, UnitShear& unit) {
+  unit.form.setZero();
+  Eigen::Matrix<double, 3, 6> places;
+  for (int i = 0; i < 6; ++i) places.col(i) = corners[i];
+  double sum = 0;
+  for (const double up : {-kDepth, kDepth})
+    for (int k = 0; k < 3; ++k) {
+      Vector3d barycentric = Vector3d::Constant(kFar);
+      barycentric[k] = kNear;
+      const Gradients local = local_gradients(barycentric, up);
+      const Matrix3d jacobian = places * local;
+      const double volume = jacobian.determinant() / 12;  // half of a triangle's, at six points
+      if (!(volume > least_volume / 6)) return false;
+      const Gradients gradients = local * jacobian.inverse();
+      unit.form += volume * gradients * gradients.transpose();
+      sum += volume;
+    }
+  unit.form /= sum;
+  return true;
 }
 
 }  // namespace
@@ -41,22 +86,12 @@ std::vector<UnitShear> unit_shears(const Model& model, const std::vector<int>& f
   std::size_t index = 0;
   for (const std::array<int, 6>& nodes : model.units()) {
     const double times = model.times[index++ % model.times.size()];
-    UnitShear unit{nodes, {}, {}, 0};
-    bool moves = false;
-    std::array<Vector3d, 6> corners;
-    for (int i = 0; i < 6; ++i) {
-      corners[i] = rest[nodes[i]];
-      moves = moves || free_index[nodes[i]] >= 0;
-    }
-    Matrix3d sides;
-    for (int k = 0; k < 3; ++k) sides.col(k) = sum_of(kSides[k], unit, rest);
-    const Vector3d across = sides.col(0).cross(sides.col(1));
-    const double area = across.norm() / 2, depth = sides.col(2).norm(), volume = sides.determinant() / 2;
-    if (!moves || !(volume > kFlatUnit * area * depth)) continue;
-    const Vector3d n = across.normalized(), t = sides.col(0).normalized();
-    unit.normal = shares_of(sides, n);
-    unit.tangent = {shares_of(sides, t), shares_of(sides, n.cross(t))};
-    unit.stiffness = times * model.options.shear_stiffness * model.tissue * volume;
+    if (!moves(nodes, free_index)) continue;
+    UnitShear unit{nodes, {}, centre_of(nodes, rest), 0, 0, model.options.stiffening};
+    const Corners corners = corners_of(unit, rest);
+    unit.rest = unit_volume(corners);
+    if (!take_form(corners, kFlatUnit * upright_volume(corners), unit)) continue;
+    unit.stiffness = times * model.options.shear_stiffness * model.tissue * unit.rest;
     units.push_back(unit);
   }
   return units;
@@ -65,11 +100,8 @@ std::vector<UnitShear> unit_shears(const Model& model, const std::vector<int>& f
 double shear_energy(const std::vector<UnitShear>& units, const Positions& x) {
   double energy = 0;
   for (const UnitShear& unit : units) {
-    const Vector3d normal = sum_of(unit.normal, unit, x);
-    for (const Shares& tangent : unit.tangent) {
-      const double shear = normal.dot(sum_of(tangent, unit, x));
-      energy += unit.stiffness * shear * shear / 2;
-    }
+    const double q = shear_of(unit, corners_of(unit, x)).q;
+    energy += unit.stiffness * q * (1 + unit.stiffening / 6 * q) / 2;
   }
   return energy;
 }
@@ -77,14 +109,10 @@ double shear_energy(const std::vector<UnitShear>& units, const Positions& x) {
 void add_shear_gradient(const std::vector<UnitShear>& units, const Positions& x,
                         const std::vector<int>& free_index, Eigen::VectorXd& gradient) {
   for (const UnitShear& unit : units) {
-    const Vector3d normal = sum_of(unit.normal, unit, x);
-    for (const Shares& tangent : unit.tangent) {
-      const Vector3d along = sum_of(tangent, unit, x);
-      const double force = unit.stiffness * normal.dot(along);
-      for (int i = 0; i < 6; ++i) {
-        const int row = free_index[unit.nodes[i]];
-        if (row >= 0) gradient.segment<3>(3 * row) += force * (unit.normal[i] * along + tangent[i] * normal);
-      }
+    const Shear shear = shear_of(unit, corners_of(unit, x));
+    for (int i = 0; i < 6; ++i) {
+      const int row = free_index[unit.nodes[i]];
+      if (row >= 0) gradient.segment<3>(3 * row) += unit.stiffness * shear.times / 2 * shear.by_node[i];
     }
   }
 }
@@ -92,23 +120,17 @@ void add_shear_gradient(const std::vector<UnitShear>& units, const Positions& x,
 void add_shear_hessian(const std::vector<UnitShear>& units, const Positions& x,
                        const std::vector<int>& free_index, NodeMatrix& hessian, double whole) {
   for (const UnitShear& unit : units) {
-    const Vector3d normal = sum_of(unit.normal, unit, x);
-    std::array<std::array<Vector3d, 6>, 2> first;
-    std::array<double, 2> force;
-    for (int k = 0; k < 2; ++k) {
-      const Vector3d along = sum_of(unit.tangent[k], unit, x);
-      force[k] = whole * unit.stiffness * normal.dot(along);
-      for (int i = 0; i < 6; ++i) first[k][i] = unit.normal[i] * along + unit.tangent[k][i] * normal;
-    }
+    const Corners corners = corners_of(unit, x), by_node = volume_gradient(corners);
+    const Shear shear = shear_of(unit, corners);
+    const VolumeHessian second = volume_hessian(corners);
+    const double of_volume = 2 / (unit.rest * unit.rest);
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j <= i; ++j) {
-        Matrix3d block = Matrix3d::Zero();
-        for (int k = 0; k < 2; ++k) {
-          block += unit.stiffness * first[k][i] * first[k][j].transpose();
-          block.diagonal().array() +=
-              force[k] * (unit.normal[i] * unit.tangent[k][j] + unit.tangent[k][i] * unit.normal[j]);
-        }
-        hessian.add(free_index[unit.nodes[i]], free_index[unit.nodes[j]], block);
+        Matrix3d block =
+            of_volume * by_node[i] * by_node[j].transpose() + whole * shear.by_volume * second[i][j];
+        block.diagonal().array() += 2 * unit.form(i, j);
+        block = shear.times * block + unit.stiffening / 3 * shear.by_node[i] * shear.by_node[j].transpose();
+        hessian.add(free_index[unit.nodes[i]], free_index[unit.nodes[j]], unit.stiffness / 2 * block);
       }
   }
 }

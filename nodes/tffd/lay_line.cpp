@@ -81,11 +81,14 @@ void spread(std::vector<SurfacePoint>& fibre, const Fan& fan, int f, int count, 
   fibre.insert(fibre.end(), shortest.begin() + 1, shortest.end());
 }
 
-// Mean of the points up to `reach` metres to either side along the fibre; less near its ends, which stay.
+// Mean of the points up to `reach` metres to either side along the fibre, which count the less the farther
+// they are; nearer ones only near its ends, which stay.
 std::vector<CarriedPoint> averaged(const std::vector<CarriedPoint>& points, double reach) {
   std::vector<double> at{0};
   for (std::size_t i = 1; i < points.size(); ++i)
     at.push_back(at.back() + (points[i].rest - points[i - 1].rest).norm());
+  // The weight of a point falls evenly to nothing at `half`: its integral from the middle.
+  const auto weight_to = [](double way, double half) { return way - way * std::abs(way) / (2 * half); };
   // Point j stands for the way from ends[j] to ends[j + 1], from half way before it to half way after it.
   std::vector<double> ends{0};
   for (std::size_t i = 1; i < points.size(); ++i) ends.push_back((at[i - 1] + at[i]) / 2);
@@ -99,10 +102,11 @@ std::vector<CarriedPoint> averaged(const std::vector<CarriedPoint>& points, doub
     const auto first = std::upper_bound(ends.begin() + 1, ends.end(), at[i] - half) - ends.begin() - 1;
     for (std::size_t j = std::min(static_cast<std::size_t>(first), i);
          j < points.size() && (j <= i || ends[j] < at[i] + half); ++j) {
-      // How much of that lies within reach.
-      const double share = std::min(ends[j + 1], at[i] + half) - std::max(ends[j], at[i] - half);
-      if (!(share > 0) && j != i) continue;
-      const double weight = half > 0 ? std::max(share, 0.0) : (j == i ? 1 : 0);
+      const double begin = std::max(ends[j], at[i] - half), end = std::min(ends[j + 1], at[i] + half);
+      if (!(end > begin) && j != i) continue;
+      const double weight = half > 0 && end > begin
+                                ? weight_to(end - at[i], half) - weight_to(begin - at[i], half)
+                                : (j == i ? 1 : 0);
       sum += weight;
       rest += weight * points[j].rest;
       for (const auto& [node, part] : points[j].weights) weights[node] += weight * part;

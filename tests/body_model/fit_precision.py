@@ -40,6 +40,7 @@ FREEDOM = 4
 COVERAGE = .95
 GROSS_LIMITS = 3
 GROSS = 4                                         # as in landmarks/figures.cpp
+NEARLY_GROSS = .75                                # as there
 NORMAL = 1.96                                     # as there: deviations that hold COVERAGE of normal errors
 LEAST = 1e-4                                      # m: no reading is taken to be better
 STEEPEST = 4                                      # power of the misfit: beyond it a few gross errors rule
@@ -184,10 +185,10 @@ def settle(row, fit):
     if model is None or b is None:
         return mesh, m, 0., False
     apart = np.linalg.norm(mesh - model)
-    if not row.seen and apart > max(GROSS * np.hypot(m, b), GROSS_LIMITS * fit['limit']):
-        return model, b, GROSS * b, True
-    share = b * b / (m * m + b * b)
-    return model + share * (mesh - model), m * np.sqrt(share), apart, False
+    gross = max(GROSS * np.hypot(m, b), GROSS_LIMITS * fit['limit'])
+    doubt = 0. if row.seen else np.clip((apart / gross - NEARLY_GROSS) / (1 - NEARLY_GROSS), 0., 1.)
+    share = (1 - doubt) * b * b / (m * m + b * b)
+    return model + share * (mesh - model), np.hypot(share * m, (1 - share) * b), apart if row.seen else min(apart, gross), doubt == 1
 
 
 def fitted(figure, rows, growth, model=None):

@@ -76,8 +76,8 @@ TEST(Standing, AFootThatIsNotThereDoesNotSayWhereTheGroundIs) {
   RegisteredBody body = tilted(0);
   const double ground = ground_by_soles(body, standing).height;
   for (std::size_t v = 0; v < body.posed.size(); ++v)
-    if (body.model->parts[body.model->part[v]] == "foot_L") body.posed[v].z() += 0.05;
-  EXPECT_NEAR(ground_by_soles(body, standing).height, ground + 0.025, 0.002);
+    if (body.model->parts[body.model->part[v]] == "foot_L") body.posed[v].z() -= 0.05;
+  EXPECT_NEAR(ground_by_soles(body, standing).height, ground - 0.05, 0.002);  // the lower one bears her
   take_away(body, {"foot_L"});
   EXPECT_NEAR(ground_by_soles(body, standing).height, ground, 0.002);
 }
@@ -86,8 +86,41 @@ TEST(Standing, WhereTheLowestOfTheFeetWasNotSeenTheGroundIsUnsure) {
   const Standing& standing = shipped_registrar().standing();
   const RegisteredBody body = tilted(0);
   const double ground = ground_by_soles(body, standing).height;
-  EXPECT_EQ(deviation_of_ground(body, ground + 0.005, 0, standing), 0);
-  EXPECT_NEAR(deviation_of_ground(body, ground + 0.03, 0, standing), 0.015, 1e-9);
+  const Ground near = settled_ground(body, ground + 0.003, 0, standing);
+  EXPECT_EQ(near.height, ground + 0.003);
+  EXPECT_EQ(near.deviation, 0);
+  const Ground far = settled_ground(body, ground + 0.03, 0, standing);
+  EXPECT_NEAR(far.height, ground + 0.015, 1e-9);
+  EXPECT_NEAR(far.deviation, 0.015, 1e-9);
+}
+
+// However much of the soles is cut off: 0.1 mm more moves the ground by little more, and its deviation.
+TEST(Standing, NoCutOfTheFeetMakesTheGroundJump) {
+  const Standing& standing = shipped_registrar().standing();
+  const RegisteredBody body = tilted(0);
+  const double soles = ground_by_soles(body, standing).height;
+  Ground before = settled_ground(body, soles, 0, standing);
+  for (double cut = 1e-4; cut < 0.03; cut += 1e-4) {
+    const Ground ground = settled_ground(body, soles + cut, 0, standing);
+    EXPECT_LT(std::abs(ground.height - before.height), 5e-4) << cut;
+    EXPECT_GE(ground.deviation, before.deviation) << cut;
+    EXPECT_LT(ground.deviation, before.deviation + 3e-4) << cut;
+    before = ground;
+  }
+}
+
+// A raised foot, as with a bent knee, is no tilt of the booth: she stands on the other one.
+TEST(Standing, ABentKneeTurnsNothing) {
+  const Standing& standing = shipped_registrar().standing();
+  const RegisteredBody upright_body = tilted(0);
+  const double ground = ground_by_soles(upright_body, standing).height;
+  for (const double raised : {0.02, 0.035, 0.1}) {
+    RegisteredBody body = upright_body;
+    for (std::size_t v = 0; v < body.posed.size(); ++v)
+      if (body.model->parts[body.model->part[v]] == "foot_R") body.posed[v].z() += raised;
+    EXPECT_LT(off(upright(body, standing), Vector3d::UnitZ()) * 180 / M_PI, 0.01) << raised;
+    EXPECT_NEAR(ground_by_soles(body, standing).height, ground, 0.002) << raised;
+  }
 }
 
 TEST(Standing, StraightensATiltedScan) {

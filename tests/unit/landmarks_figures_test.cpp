@@ -91,9 +91,14 @@ TEST(Settle, OutsideTheModelsSpanReadingsAreLessSureByDegrees) {
 
 TEST(Settle, AReadingGrosslyOffIsLeftOut) {
   // Four spreads are 23 mm; three of ISO 20685's limits, of a large girth, 27.
-  const Settled near = settle(girth(0.9 + 0.0269, 0.9), precision(), false),
+  const Settled near = settle(girth(0.9 + 0.0201, 0.9), precision(), false),
+                nearly = settle(girth(0.9 + 0.0269, 0.9), precision(), false),
                 far = settle(girth(0.9 + 0.0271, 0.9), precision(), false);
   EXPECT_GT(near.value.x(), 0.91);
+  EXPECT_NEAR(nearly.value.x(), far.value.x(), 0.001);  // neither the value jumps there, nor its interval
+  EXPECT_NEAR(nearly.half_width / far.half_width, 1, 0.02);
+  EXPECT_GE(far.half_width, near.half_width);
+  EXPECT_FALSE(nearly.rests_on_model);
   EXPECT_EQ(far.value.x(), 0.9);
   EXPECT_FALSE(near.rests_on_model);
   EXPECT_TRUE(far.rests_on_model);

@@ -170,14 +170,27 @@ TEST(NippleFinder, NoiseIsNoNipple) {
 
 constexpr double kTrunkRadius = 0.12, kArmRadius = 0.04;  // m
 
+double trunk_at(const Vector3d& p) {
+  return std::max(std::hypot(p.x(), p.y()) - kTrunkRadius, std::abs(p.z() - 1.15) - 0.25);
+}
+
+Surface with_arm_named(Surface surface, const Vector3d& shoulder, const Vector3d& hand) {
+  for (std::size_t v = 0; v < surface.arm.size(); ++v) {
+    const Vector3d& p = surface.mesh.vertices[v];
+    surface.arm[v] = capsule(p, shoulder, hand, kArmRadius, kArmRadius) < trunk_at(p) ? 1 : 0;
+  }
+  return surface;
+}
+
 /// A round trunk with an arm on its left from the shoulder to the hand.
 Surface with_arm(const Vector3d& shoulder, const Vector3d& hand) {
-  return skin(test::surface_of(
-      [&](const Vector3d& p) {
-        const double trunk = std::max(std::hypot(p.x(), p.y()) - kTrunkRadius, std::abs(p.z() - 1.15) - 0.25);
-        return std::min(trunk, capsule(p, shoulder, hand, kArmRadius, kArmRadius));
-      },
-      {-0.13, -0.13, 0.79}, {0.13, std::max(hand.y() + 0.05, 0.2), 1.43}, 0.0041));
+  return with_arm_named(skin(test::surface_of(
+                            [&](const Vector3d& p) {
+                              return std::min(trunk_at(p),
+                                              capsule(p, shoulder, hand, kArmRadius, kArmRadius));
+                            },
+                            {-0.13, -0.13, 0.79}, {0.13, std::max(hand.y() + 0.05, 0.2), 1.43}, 0.0041)),
+                        shoulder, hand);
 }
 
 TEST(AxillaFinder, WhereALeaningArmComesClearOfTheTrunk) {
@@ -205,16 +218,24 @@ TEST(AxillaFinder, AHollowInsideTheTrunkIsNoArm) {
   const Vector3d shoulder(0, 0.10, 1.35), hand(0, 0.40, 0.88);
   // Where a scan does not see into the armpit, its wedge may go on inside the mesh, up to the shoulder.
   const Vector3d end = find_axilla(with_arm(shoulder, hand), kLeft, 1.0, 1.4, 0).value();
-  const Surface hollow = skin(test::surface_of(
-      [&](const Vector3d& p) {
-        const double trunk = std::max(std::hypot(p.x(), p.y()) - kTrunkRadius, std::abs(p.z() - 1.15) - 0.25);
-        const double body = std::min(trunk, capsule(p, shoulder, hand, kArmRadius, kArmRadius));
-        return std::max(body, -capsule(p, end, end + Vector3d(0, -0.02, 0.06), 0.012, 0.012));
-      },
-      {-0.13, -0.13, 0.79}, {0.13, 0.45, 1.43}, 0.0041));
+  const Surface hollow = with_arm_named(
+      skin(test::surface_of(
+          [&](const Vector3d& p) {
+            const double body = std::min(trunk_at(p), capsule(p, shoulder, hand, kArmRadius, kArmRadius));
+            return std::max(body, -capsule(p, end, end + Vector3d(0, -0.02, 0.06), 0.012, 0.012));
+          },
+          {-0.13, -0.13, 0.79}, {0.13, 0.45, 1.43}, 0.0041)),
+      shoulder, hand);
   const auto axilla = find_axilla(hollow, kLeft, 1.0, 1.4, 0);
   ASSERT_TRUE(axilla);
   EXPECT_NEAR(axilla->z(), end.z(), 0.020);  // the hollow's mouth; its top is 70 mm up
+}
+
+// Hair over a shoulder, a bag: an outline beside the trunk that is none of the arm's.
+TEST(AxillaFinder, WhatHangsBesideTheTrunkIsNoArm) {
+  Surface surface = with_arm({0, 0.10, 1.35}, {0, 0.40, 0.88});
+  std::fill(surface.arm.begin(), surface.arm.end(), 0);
+  EXPECT_FALSE(find_axilla(surface, kLeft, 1.0, 1.4, 0));
 }
 
 TEST(AxillaFinder, WithoutAnArmThereIsNone) {

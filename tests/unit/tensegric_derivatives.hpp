@@ -22,7 +22,7 @@ void expect_derivatives(const Model& model, const std::vector<Unit>& units, cons
   const std::vector<int> free_index = model.free_index();
   std::vector<std::pair<int, int>> pairs;
   for (const Unit& unit : units)
-    for (int i = 0; i < 6; ++i)
+    for (int i = 0; i < static_cast<int>(unit.nodes.size()); ++i)
       for (int j = 0; j < i; ++j)
         if (free_index[unit.nodes[i]] >= 0 && free_index[unit.nodes[j]] >= 0)
           pairs.emplace_back(free_index[unit.nodes[i]], free_index[unit.nodes[j]]);

@@ -28,6 +28,7 @@ Model sheet(double height) {
   Model model;
   model.control = control;
   model.options.shear_stiffness = kShearStiffness;
+  model.options.stiffening = 0;
   model.times.assign(control.triangles.size(), 1);
   return model;
 }
@@ -62,13 +63,46 @@ TEST(UnitShear, IsElasticWhateverTheHeight) {
     }
 }
 
-TEST(UnitShear, ResistsNeitherTurnsNorWhatKeepsTheAngle) {
+// Of small strains e it is G e : e V, in all directions alike; turning costs nothing.
+TEST(UnitShear, IsIsotropicAndTurnsFreely) {
   const Model model = sheet(0.02);
   const std::vector<UnitShear> units = unit_shears(model, all_free(model));
-  Matrix3d stretched = Vector3d(1.2, 0.9, 0.7).asDiagonal();
-  stretched(0, 1) = 0.2;  // along the skin
-  const Matrix3d turned = Eigen::AngleAxisd(2.0, Vector3d(-1, 1, 3).normalized()) * stretched;
-  EXPECT_LE(shear_energy(units, moved(model.rest_positions(), turned)), 1e-25);
+  const double volume = 0.3 * 0.18 * 0.02;
+  const Matrix3d turn = Eigen::AngleAxisd(2.0, Vector3d(-1, 1, 3).normalized()).toRotationMatrix();
+  EXPECT_LE(std::abs(shear_energy(units, moved(model.rest_positions(), turn))), 1e-13 * volume);
+  for (const Vector3d& axis : {Vector3d(0, 0, 1), Vector3d(1, 0, 0), Vector3d(1, 2, -1)}) {
+    constexpr double kStrain = 1e-4;
+    const Vector3d way = axis.normalized();
+    const Matrix3d stretch = Matrix3d::Identity() + kStrain * way * way.transpose();
+    EXPECT_NEAR(shear_energy(units, moved(model.rest_positions(), turn * stretch)) / volume,
+                kShearStiffness * kStrain * kStrain, 2 * kShearStiffness * std::pow(kStrain, 3));
+  }
+}
+
+// Pulled by a strain e at a constant volume it is 1 + stiffening e^2 times as stiff.
+TEST(UnitShear, StiffensAsMembersDo) {
+  Model model = sheet(0.02);
+  const auto energy = [&](double strain) {
+    const double across = 1 / std::sqrt(1 + strain);
+    return shear_energy(unit_shears(model, all_free(model)),
+                        moved(model.rest_positions(), Vector3d(1 + strain, across, across).asDiagonal()));
+  };
+  constexpr double kStrain = 0.01, kStiffening = 300;
+  const double without = energy(kStrain);
+  model.options.stiffening = kStiffening;
+  // The energy's share of e^4 is half of the stiffness's of e^2.
+  EXPECT_NEAR(energy(kStrain) / without - 1, kStiffening * kStrain * kStrain / 2,
+              0.03 * kStiffening * kStrain * kStrain);
+}
+
+// However a unit is deformed, also inside out: else a step of the solver could run away.
+TEST(UnitShear, IsNeverNegative) {
+  const Model model = sheet(0.02);
+  const std::vector<UnitShear> units = unit_shears(model, all_free(model));
+  const Positions rest = model.rest_positions();
+  for (const double across : {-2.0, -0.3, 0.0, 0.2, 0.7, 1.5, 4.0, 30.0})
+    for (const double along : {0.1, 0.6, 1.0, 1.7, 9.0})
+      EXPECT_GE(shear_energy(units, moved(rest, Vector3d(along, along, across).asDiagonal())), -1e-15);
 }
 
 TEST(UnitShear, DerivativesAreThoseOfItsEnergy) {
@@ -94,7 +128,7 @@ TEST(UnitShear, IsTheSameInLayers) {
     energies[layers == 3] =
         shear_energy(unit_shears(model, all_free(model)), moved(model.rest_positions(), shear));
   }
-  EXPECT_NEAR(energies[1] / energies[0], 1, 1e-12);
+  EXPECT_NEAR(energies[1] / energies[0], 1, 1e-10);
 }
 
 TEST(UnitShear, NearlyFlatUnitsHaveNone) {

@@ -1,0 +1,93 @@
+#include "tensegric/unit_prism.hpp"
+
+#include <Eigen/Geometry>
+
+#include "tensegric/node_matrix.hpp"
+
+namespace tensegric_fit::tensegric {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// The unit's surface, oriented outward: with weight 1 its two triangles, with 1/2 both foldings of each side.
+struct Face {
+  int a, b, c;
+  double weight;
+};
+constexpr std::array<Face, 14> kFaces = {{{0, 1, 2, 1},
+                                          {5, 4, 3, 1},
+                                          {0, 3, 4, 0.5},
+                                          {0, 4, 1, 0.5},
+                                          {0, 3, 1, 0.5},
+                                          {3, 4, 1, 0.5},
+                                          {1, 4, 5, 0.5},
+                                          {1, 5, 2, 0.5},
+                                          {1, 4, 2, 0.5},
+                                          {4, 5, 2, 0.5},
+                                          {2, 5, 3, 0.5},
+                                          {2, 3, 0, 0.5},
+                                          {2, 5, 0, 0.5},
+                                          {5, 3, 0, 0.5}}};
+
+}  // namespace
+
+Vector3d centre_of(const std::array<int, 6>& nodes, const Positions& x) {
+  Vector3d sum = Vector3d::Zero();
+  for (const int node : nodes) sum += x[node];
+  return sum / 6;
+}
+
+Corners corners_from(const std::array<int, 6>& nodes, const Positions& x, const Vector3d& origin) {
+  Corners corners;
+  for (int i = 0; i < 6; ++i) corners[i] = x[nodes[i]] - origin;
+  return corners;
+}
+
+bool moves(const std::array<int, 6>& nodes, const std::vector<int>& free_index) {
+  for (const int node : nodes)
+    if (free_index[node] >= 0) return true;
+  return false;
+}
+
+double unit_volume(const Corners& corners) {
+  double volume = 0;
+  for (const Face& f : kFaces) volume += f.weight / 6 * corners[f.a].dot(corners[f.b].cross(corners[f.c]));
+  return volume;
+}
+
+Corners volume_gradient(const Corners& p) {
+  Corners g;
+  g.fill(Vector3d::Zero());
+  for (const Face& f : kFaces) {
+    g[f.a] += f.weight / 6 * p[f.b].cross(p[f.c]);
+    g[f.b] += f.weight / 6 * p[f.c].cross(p[f.a]);
+    g[f.c] += f.weight / 6 * p[f.a].cross(p[f.b]);
+  }
+  return g;
+}
+
+VolumeHessian volume_hessian(const Corners& p) {
+  VolumeHessian second;
+  for (auto& row : second) row.fill(Matrix3d::Zero());
+  // By a, then b, of a . (b x c): -cross_matrix(c).
+  const auto add = [&second](int a, int b, const Vector3d& by) {
+    if (a > b)
+      second[a][b] -= cross_matrix(by);
+    else
+      second[b][a] += cross_matrix(by);
+  };
+  for (const Face& f : kFaces) {
+    add(f.a, f.b, f.weight / 6 * p[f.c]);
+    add(f.b, f.c, f.weight / 6 * p[f.a]);
+    add(f.c, f.a, f.weight / 6 * p[f.b]);
+  }
+  return second;
+}
+
+double upright_volume(const Corners& p) {
+  const double area = geometry::area_vector(p[0], p[1], p[2]).norm() / 2;
+  return area * ((p[0] - p[3]).norm() + (p[1] - p[4]).norm() + (p[2] - p[5]).norm()) / 3;
+}
+
+}  // namespace tensegric_fit::tensegric
