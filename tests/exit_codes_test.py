@@ -30,6 +30,12 @@ class ExitCodes(unittest.TestCase):
                 with self.subTest(program, words=words):
                     self.assertEqual(code_of(*program, *words), 2)
 
+    def test_no_number(self):
+        for words in (("fit_batch", __file__, "--out", "nowhere", "--memory", "nan"), ("fit_batch", __file__, "--out", "nowhere", "--time", "nan"),
+                      ("fit_batch", __file__, "--out", "nowhere", "--time", "inf"), ("fit", "--mesh", "a.ply", "--garment", "B1", "--twist", "nan")):
+            with self.subTest(words=words):
+                self.assertEqual(code_of(*words), 2)
+
     def test_an_unset_variable_of_a_script(self):
         for words in (("history", "/tmp", "--customer", ""), ("history", "/tmp", "--out", "page.html"), ("fit", "--mesh", ""),
                       ("fit_batch", __file__, "--out", ""), ("fit_batch", "merge", "/tmp", "--out", "")):

@@ -2,6 +2,7 @@
 """In which frame rviz is started: the body's, which lies in the booth's namespace. Needs no master and no display."""
 import os
 import pathlib
+import shlex
 import unittest
 
 from roslaunch.config import ROSLaunchConfig
@@ -10,15 +11,19 @@ from roslaunch.xmlloader import XmlLoader
 LAUNCH = pathlib.Path(__file__).resolve().parent.parent / "launch"
 
 
-def words_of_rviz(file, namespace, *arguments):
+def words_of(program, file, namespace, *arguments):
     os.environ.pop("ROS_NAMESPACE", None)
     if namespace is not None:
         os.environ["ROS_NAMESPACE"] = namespace
     config = ROSLaunchConfig()
     XmlLoader().load(str(LAUNCH / file), config, argv=list(arguments), verbose=False)
-    started = [node.args.split() for node in config.nodes if node.type == "rviz"]
+    started = [shlex.split(node.args) for node in config.nodes if node.type == program]  # as roslaunch does
     assert len(started) == 1, started
     return started[0]
+
+
+def words_of_rviz(*arguments):
+    return words_of("rviz", *arguments)
 
 
 class InspectFrame(unittest.TestCase):
@@ -31,6 +36,11 @@ class InspectFrame(unittest.TestCase):
 
     def test_a_configuration_of_ones_own_keeps_its_frame(self):
         self.assertEqual(words_of_rviz("inspect.launch", "booth_1", "config:=/home/shop/mine.rviz"), ["-d", "/home/shop/mine.rviz"])
+
+    def test_paths_may_have_spaces(self):
+        self.assertEqual(words_of_rviz("inspect.launch", None, "config:=/home/a shop/mine.rviz"), ["-d", "/home/a shop/mine.rviz"])
+        played = words_of("play", "booth.launch", None, "assemble:=true", "file:=/home/a shop/Anna's.bag")
+        self.assertEqual(played[-1], "/home/a shop/Anna's.bag")
 
     def test_the_files_have_the_frame_of_no_namespace(self):
         for file in ("inspect.rviz", "plain.rviz"):

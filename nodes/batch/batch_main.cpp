@@ -61,10 +61,10 @@ int batch_main(int argc, char** argv) {
       ->check(CLI::Range(1, 1024));
   app.add_option("--time", options.limits.seconds, "Seconds that a scan may take")
       ->capture_default_str()
-      ->check(CLI::Range(0.1, 86400.0));
+      ->check(tensegric_fit::fit::number_in(0.1, 86400));
   app.add_option("--memory", gigabytes, "GB of address space that a worker may take")
       ->capture_default_str()
-      ->check(CLI::Range(0.1, 1024.0));
+      ->check(tensegric_fit::fit::number_in(0.1, 1024));
   app.add_flag("--retry", options.retry, "Also again what crashed, or took too much time or memory");
   app.add_flag("--quiet", options.quiet, "No progress");
   const auto code =

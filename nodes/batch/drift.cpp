@@ -86,7 +86,8 @@ Comparison compare(const Table& table, const std::string& file) {
       }
       const std::optional<double> old = number_in(cell.mapped());
       if (now == nullptr || !old) {
-        result.others[figure.first].texts += text == nullptr || *text != cell.mapped() ? 1 : 0;
+        result.others[figure.first].texts +=
+            text == nullptr || files::no_formula(*text) != cell.mapped() ? 1 : 0;
         continue;
       }
       const double change = *now - *old;

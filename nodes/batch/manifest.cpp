@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "files/csv.hpp"
@@ -24,7 +25,7 @@ using UnorderedJson = nlohmann::json;
 
 enum class Kind { path, paths, word, words, flag };
 
-/// A path is relative to the manifest; a garment is one where it is no shipped garment's name.
+/// A path is relative to the manifest; so is a garment with a slash or .yaml, others are shipped ones.
 const std::map<std::string, Kind>& columns() {
   static const std::map<std::string, Kind> all{
       {"scan", Kind::paths},          {"mesh", Kind::path},
@@ -138,8 +139,23 @@ class Reader {
         check_name(name);
         add(job, name, words_of(name, value));
       }
+      check_keys_once(text);
       take(std::move(job));
     }
+  }
+
+  /// Of a row that was read: an object of words, numbers and lists of them. The last of two counts for the
+  /// parser.
+  void check_keys_once(const std::string& text) const {
+    std::set<std::string> names;
+    std::string twice;
+    const auto note = [&](int, UnorderedJson::parse_event_t event, const UnorderedJson& parsed) {
+      if (event == UnorderedJson::parse_event_t::key && !names.insert(parsed.get<std::string>()).second)
+        twice = parsed.get<std::string>();
+      return true;
+    };
+    if (UnorderedJson::parse(text, note).is_object() && !twice.empty())
+      throw fault_here("'" + twice + "' is there twice");
   }
 
   std::vector<std::string> words_of(const std::string& name, const UnorderedJson& value) const {
@@ -158,13 +174,13 @@ class Reader {
 
   void add(Job& job, const std::string& name, std::vector<std::string> words) const {
     if (words.empty()) return;
+    const Kind kind = name == "name" ? Kind::word : columns().at(name);
+    if (kind != Kind::paths && kind != Kind::words && words.size() != 1)
+      throw fault_here("'" + name + "' has several values");
     if (name == "name") {
       job.name = words.front();
       return;
     }
-    const Kind kind = columns().at(name);
-    if (kind != Kind::paths && kind != Kind::words && words.size() != 1)
-      throw fault_here("'" + name + "' has several values");
     if (kind == Kind::flag) {
       if (words[0] == "false" || words[0] == "0") return;
       if (words[0] != "true" && words[0] != "1") throw fault_here("'" + name + "' is neither true nor false");
@@ -179,13 +195,14 @@ class Reader {
   std::string path_of(const std::string& word) const { return (folder_ / word).lexically_normal().string(); }
 
   std::string garment_of(const std::string& word) const {
+    const auto is_file = [](const std::string& part) {  // as for `fit`
+      return part.find('/') != std::string::npos || fs::path(part).extension() == ".yaml";
+    };
     std::error_code error;
-    if (fs::is_regular_file(folder_ / word, error)) return path_of(word);
+    if (is_file(word) && fs::is_regular_file(folder_ / word, error)) return path_of(word);  // may have a +
     std::string all;
-    for (const std::string& part : geometry::joined_words(word)) {
-      const bool file = part.find('/') != std::string::npos || fs::path(part).extension() == ".yaml";
-      all += (all.empty() ? "" : "+") + (file ? path_of(part) : part);
-    }
+    for (const std::string& part : geometry::joined_words(word))
+      all += (all.empty() ? "" : "+") + (is_file(part) ? path_of(part) : part);
     return all;
   }
 

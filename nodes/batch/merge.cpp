@@ -10,6 +10,7 @@
 #include "batch/batch_page.hpp"
 #include "batch/database.hpp"
 #include "batch/drift.hpp"
+#include "batch/identity.hpp"
 #include "batch/manifest.hpp"
 #include "batch/table.hpp"
 #include "fit/result_folder.hpp"
@@ -24,21 +25,34 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kIncomplete = 4;
 
-/// Options of `fit` as a line has them.
-std::vector<std::string> arguments_of(const Json& line, const std::string& out) {
+Job job_of(const Json& line) {
   Job job;
   for (const auto& [name, values] : line["settings"].items())
     job.options[name] = values.get<std::vector<std::string>>();
   job.options[line["kind"]] = line["inputs"].get<std::vector<std::string>>();
-  std::vector<std::string> arguments = job.arguments();
-  arguments.insert(arguments.end(), {"--out=" + out, "--quiet"});
-  return arguments;
+  return job;
+}
+
+/// Whether its files are those that its figures are of.
+bool has_its_files(const Job& job, const Json& line) {
+  try {
+    return identity_of(job, "").subject == line["subject"];
+  } catch (const geometry::Refusal&) {
+    return false;
+  }
 }
 
 /// `fit` once more, for its pictures. Whether it went well.
 bool draw(const Json& line, const std::string& out) {
-  const geometry::SpawnedProcess fit =
-      geometry::spawn(geometry::sibling_program("fit"), arguments_of(line, out));
+  const Job job = job_of(line);
+  if (!has_its_files(job, line)) {
+    fmt::print(stderr, "row {}: no picture: a file of it is another now, or cannot be read\n",
+               line["row"].get<std::size_t>());
+    return false;
+  }
+  std::vector<std::string> arguments = job.arguments();
+  arguments.insert(arguments.end(), {"--out=" + out, "--quiet"});
+  const geometry::SpawnedProcess fit = geometry::spawn(geometry::sibling_program("fit"), arguments);
   close(fit.channel);
   return geometry::wait_for(fit.id) == 0;
 }

@@ -129,7 +129,7 @@ class Batch {
         return;
       }
       rows_[row] = LastLine{key, line.value("manifest", ""), line.value("build", "")};
-      if (!key.empty()) done_[key] = {line.at("status"), place};
+      if (!key.empty()) done_[key] = {line.at("status"), place, is_settled(line)};
     });
   }
 
@@ -138,6 +138,10 @@ class Batch {
     try {
       identity = identity_of(job, build_identity());
     } catch (const geometry::Refusal& refusal) {  // without a key: the file may be there the next time
+      if (const Done* done = settled(job.row)) {  // its scan was moved once the result was there
+        progress.add(done->status, false);
+        return;
+      }
       const Json reason{{"code", refusal.code()}, {"message", refusal.what()}};
       if (note_line(job, "")) file_.add(with_head(job, {}, {{"status", "refused"}, {"reason", reason}}));
       progress.add("refused", false);
@@ -176,7 +180,8 @@ class Batch {
     }
     const std::string status = finished.line.at("status");
     note_line(*work.job, work.identity.key);
-    done_[work.identity.key] = {status, file_.add(with_head(*work.job, work.identity, finished.line))};
+    const Json line = with_head(*work.job, work.identity, finished.line);
+    done_[work.identity.key] = {status, file_.add(line), is_settled(line)};
     progress.add(status, true);
     for (const Job* job : work.also) begin(*job, progress);
   }
@@ -186,6 +191,20 @@ class Batch {
   bool note_line(const Job& job, const std::string& key) {
     const LastLine last = last_line(key);
     return std::exchange(rows_[job.row], last) != last;
+  }
+
+  struct Done {
+    std::string status;
+    std::size_t place;
+    bool settled;
+  };
+
+  /// What the row has of this manifest and build; null: nothing, or nothing that stays.
+  const Done* settled(std::size_t row) const {
+    const auto last = rows_.find(row);
+    if (last == rows_.end() || last->second != last_line(std::get<0>(last->second))) return nullptr;
+    const auto done = done_.find(std::get<0>(last->second));
+    return done != done_.end() && done->second.settled ? &done->second : nullptr;
   }
 
   LastLine last_line(const std::string& key) const { return {key, manifest_, build_identity()}; }
@@ -215,10 +234,6 @@ class Batch {
   const std::string manifest_;  // identity
   ShardFile file_;
   WorkerPool pool_;
-  struct Done {
-    std::string status;
-    std::size_t place;
-  };
   std::unordered_map<std::string, Done> done_;  // by key
   std::map<std::size_t, LastLine> rows_;
   struct Work {

@@ -129,6 +129,10 @@ bool is_unfinished(const Json& line) {
   return status == "crashed" || status == "timed_out" || status == "out_of_memory" || status == "failed";
 }
 
+bool is_settled(const Json& line) {
+  return line.at("key") != "" && !is_unfinished(line);
+}
+
 ShardFile::ShardFile(const std::string& folder, const std::string& name) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

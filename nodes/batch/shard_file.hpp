@@ -19,6 +19,9 @@ bool has_all_parts(const nlohmann::ordered_json& line);
 /// Whether a line has no result of the scan, but a crash, a failure, or a lack of time or memory.
 bool is_unfinished(const nlohmann::ordered_json& line);
 
+/// Whether it says what the scan itself came to: it could be read, and no run of it broke off.
+bool is_settled(const nlohmann::ordered_json& line);
+
 class ShardFile {
  public:
   /// Opens FOLDER/NAME or makes it; an unfinished last line is taken off. Nobody else may have it open.

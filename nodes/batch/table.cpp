@@ -67,9 +67,10 @@ struct Folder {
   std::map<std::size_t, Json> lines;
 };
 
-/// Whether it says what the scan itself came to: it could be read, and no run of it broke off.
-bool is_settled(const Json& line) {
-  return line.at("key") != "" && !is_unfinished(line);
+/// Whether a line stays although one of the same row comes after it.
+bool stays(const Json& line, const Json& later) {
+  return is_settled(line) && !is_settled(later) &&
+         (later.at("key") == "" || later.at("key") == line.at("key"));
 }
 
 bool is_description(const Json& value) {
@@ -78,9 +79,9 @@ bool is_description(const Json& value) {
          value.value("manifest_identity", Json("")).is_string();
 }
 
-/// Nothing where there is no batch.json: the shard never began. Of several lines of a row the last in its
-/// file counts; files of another number of shards may have the row as well, and their names say nothing of
-/// which is the later: one that is settled counts before one that is not.
+/// Nothing where there is no batch.json: the shard never began. Of several lines of a row the last counts,
+/// but one that is settled before one that is not: scans are moved once their results are there, and the
+/// names of files of other numbers of shards say nothing of which is the later.
 std::optional<Folder> read_folder(const std::string& path) {
   const fs::path description = fs::path(path) / "batch.json";
   if (!fs::exists(description)) return std::nullopt;
@@ -97,20 +98,14 @@ std::optional<Folder> read_folder(const std::string& path) {
     if (fnmatch("shard-*-of-*.jsonl", entry.path().filename().c_str(), 0) == 0) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   for (const std::string& file : files) {
-    std::map<std::size_t, Json> last;
     for_each_line(file, [&](Json&& line, std::size_t) {
       const std::size_t row = line.at("row");
       if (row > rows || line.value("build", "") != build || line.value("manifest", "") != manifest) return;
       if (!has_all_parts(line))
         throw Refusal(kBroken, file + ": row " + std::to_string(row) + " lacks a part that each line has");
-      last[row] = std::move(line);
-    });
-    for (auto& [row, line] : last) {
       const auto known = folder.lines.find(row);
-      const bool stays = known != folder.lines.end() && is_settled(known->second) && !is_settled(line) &&
-                         (line.at("key") == "" || line.at("key") == known->second.at("key"));
-      if (!stays) folder.lines[row] = std::move(line);
-    }
+      if (known == folder.lines.end() || !stays(known->second, line)) folder.lines[row] = std::move(line);
+    });
   }
   return folder;
 }
@@ -131,7 +126,8 @@ std::string joined(const Json& list) {
 }
 
 std::string text_of(const Figure& figure) {
-  if (const auto* text = std::get_if<std::string>(&figure.second)) return files::csv_field(*text);
+  if (const auto* text = std::get_if<std::string>(&figure.second))
+    return files::csv_field(files::no_formula(*text));
   return fmt::format("{}", std::get<double>(figure.second));
 }
 
@@ -213,7 +209,7 @@ std::string table_csv(const Table& table) {
           text_of(line["key"]), text_of(line["version"]), text_of(line["build"]), text_of(line["status"]),
           reason.is_object() ? text_of(reason["code"]) : "",
           reason.is_object() ? text_of(reason["message"]) : ""})
-      text += "," + files::csv_field(field);
+      text += "," + files::csv_field(files::no_formula(field));
     for (const std::string& column : columns) text += "," + cells[row][column];
     text += "\n";
   }

@@ -20,6 +20,11 @@ geometry::PointCloud cloud_in(const sensor_msgs::PointCloud2& scan) {
   return geometry::points_of(cloud);
 }
 
+/// Of the points, whatever their stamp.
+std::string checksum_in(const std::string& scan_id) {
+  return scan_id.substr(scan_id.rfind('-') + 1);
+}
+
 geometry::TriangleMesh moved(geometry::TriangleMesh mesh, const Eigen::Isometry3d& motion) {
   for (Eigen::Vector3d& vertex : mesh.vertices) vertex = motion * vertex;
   return mesh;
@@ -58,10 +63,10 @@ std::optional<CorrelationHandler::Input> CorrelationHandler::add(const TriangleM
   if (body->scan_id != scan_id_) {
     scan_id_ = body->scan_id;
     stamp_ = body->header.stamp;
-    worn_.reset();
     fit_.reset();
-    if (early_ && !is_before_body(early_->tag)) worn_ = {early_->points, early_->tag, scan_id_};
-    early_.reset();
+    // It may have come while this body was being reconstructed.
+    if (worn_ && (worn_->tag.header.stamp.isZero() || is_before_body(worn_->tag))) worn_.reset();
+    if (worn_) worn_->of = scan_id_;
   }
   return completed(join_.add(body));
 }
@@ -73,7 +78,7 @@ std::optional<CorrelationHandler::Input> CorrelationHandler::add(const DeformedM
 std::optional<CorrelationHandler::Input> CorrelationHandler::add(
     const sensor_msgs::PointCloud2::ConstPtr& worn, const ScanTag& tag) {
   if (scan_id_.empty()) {
-    if (!tag.header.stamp.isZero()) early_ = {worn, tag, ""};
+    if (!tag.header.stamp.isZero()) worn_ = {worn, tag, ""};
     throw geometry::Refusal(geometry::refusal::kNothingYet,
                             "a scan in the garment came before any body: it is compared with the first one "
                             "if that was scanned before it");
@@ -151,6 +156,8 @@ CorrelationHandler::Output CorrelationHandler::handle(const Input& input) {
   if (result.compared < kMostlyCompared)
     output.warning = fmt::format("{:.0f} % of the skin under the garment could not be compared",
                                  100 * (1 - result.compared));
+  if (checksum_in(body_->scan_id) == checksum_in(body->scan_id))
+    output.warning = "the scan in the garment is the one without it once more: nothing was compared with it";
   return output;
 }
 

@@ -50,13 +50,14 @@ class CorrelationHandler {
   struct Worn {
     sensor_msgs::PointCloud2::ConstPtr points;
     ScanTag tag;
-    std::string of;  ///< scan_id of the body that it was sent for
+    std::string of;  ///< scan_id of the body that it is compared with; empty: it came before any
   };
   struct Input {
     Join::Joined fit;
     Worn worn;
   };
-  /// A body of another scan: worn scans sent for the one before are forgotten.
+  /// A body of another scan: a worn scan without a stamp, or made before it, was for the one before and is
+  /// forgotten.
   std::optional<Input> add(const TriangleMesh::ConstPtr& body);
   std::optional<Input> add(const Landmarks::ConstPtr& landmarks) { return completed(join_.add(landmarks)); }
   std::optional<Input> add(const ControlMesh::ConstPtr& control) { return completed(join_.add(control)); }
@@ -68,7 +69,9 @@ class CorrelationHandler {
   std::optional<Input> add(const sensor_msgs::PointCloud2::ConstPtr& worn, const ScanTag& tag);
 
   /// Whether the scan in the garment of that id waits for a body.
-  bool waits(const std::string& worn_scan_id) const { return early_ && early_->tag.scan_id == worn_scan_id; }
+  bool waits(const std::string& worn_scan_id) const {
+    return worn_ && worn_->of.empty() && worn_->tag.scan_id == worn_scan_id;
+  }
 
   /// scan_id of the newest body; empty before the first.
   const std::string& scan_id() const { return scan_id_; }
@@ -97,7 +100,6 @@ class CorrelationHandler {
   ros::Time stamp_;                  // of that scan
   std::optional<Join::Joined> fit_;  // newest
   std::optional<Worn> worn_;         // newest
-  std::optional<Worn> early_;        // newest that came before any body
 
   /// A worn scan as far as it is known without a fit: another garment needs no other reconstruction.
   struct WornBody {

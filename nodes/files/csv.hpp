@@ -16,6 +16,12 @@ inline std::string csv_field(const std::string& text) {
   return quoted + "\"";
 }
 
+/// A text of somebody else's, which spreadsheets would take for a formula where it begins like one: with '
+/// before it, as OWASP recommends.
+inline std::string no_formula(const std::string& text) {
+  return !text.empty() && std::string("=+-@\t\r").find(text[0]) != std::string::npos ? "'" + text : text;
+}
+
 /// What a row has wrong, in words that follow its line's number.
 struct CsvFault : std::runtime_error {
   using std::runtime_error::runtime_error;

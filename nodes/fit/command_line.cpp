@@ -144,7 +144,7 @@ std::optional<int> parse(int argc, const char* const* argv, CommandLine& line, s
                    "Degrees that the chest turns to her left"),
         std::tuple("--lean", &lean, std::round(geometry::kLargestLean * 180 / M_PI),
                    "Degrees that the chest leans to her left")})
-    app.add_option(name, *angle, what)->needs(garment)->check(CLI::Range(-limit, limit));
+    app.add_option(name, *angle, what)->needs(garment)->check(number_in(-limit, limit));
   auto* overlay = app.add_flag("--overlay", line.overlay,
                                "front.png and side.png show the registered body model over the body");
   app.add_flag("--quiet", line.quiet, "No progress");

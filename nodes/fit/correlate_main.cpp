@@ -1,4 +1,5 @@
 /// correlate: a fit and a worn scan -> result files.
+#include <algorithm>
 #include <iostream>
 
 #include "files/owner_only.hpp"
@@ -20,6 +21,14 @@ namespace fs = std::filesystem;
 const ResultNames kCorrelateResults(std::begin(kCorrelateFiles), std::end(kCorrelateFiles));
 const ResultNames kFitted = {kFitReport, kExportDocument, "body.ply", "deformed.ply", "control.ply"};
 
+// But for the rounding of files. The same points, read the same way, give the same mesh.
+bool is_same(const geometry::TriangleMesh& one, const geometry::TriangleMesh& other) {
+  constexpr double kRounding = 1e-6;  // m
+  return one.triangles == other.triangles &&
+         std::equal(one.vertices.begin(), one.vertices.end(), other.vertices.begin(), other.vertices.end(),
+                    [](const auto& p, const auto& q) { return (p - q).norm() < kRounding; });
+}
+
 class Run {
  public:
   explicit Run(const CorrelateLine& line) : line_(line) {}
@@ -40,7 +49,10 @@ class Run {
         correlation::differences_of(before.measures, simulated ? &simulated->measures : nullptr,
                                     worn.measures, result.alignment.patch_from_scan);
     say("pictures, report");
-    write({fitted_, source_, line_.options.thickness, result, differences}, before, worn);
+    const bool same_scan = is_same(fitted_.rest, worn.mesh.mesh);
+    if (same_scan)
+      std::cerr << "correlate: warning: the worn scan is the one without the garment once more\n";
+    write({fitted_, source_, line_.options.thickness, result, differences, same_scan}, before, worn);
   }
 
   const Source& source() const { return source_; }

@@ -147,8 +147,11 @@ std::string correlation_page(const Correlated& correlated, const std::vector<Pag
       fmt::arg("summary",
                fmt::format("Under the garment the real body lies <b>{:.1f} mm</b> from the simulated "
                            "one on average ({} mm with its sign); where the garment leaves "
-                           "the skin alone, {:.1f} mm.",
-                           1e3 * covered.mean_size, signed_millimetres(covered.mean), 1e3 * still.mean_size)),
+                           "the skin alone, {:.1f} mm.{}",
+                           1e3 * covered.mean_size, signed_millimetres(covered.mean), 1e3 * still.mean_size,
+                           correlated.same_scan
+                               ? " <b>The scan in the garment is the one without it once more.</b>"
+                               : "")),
       fmt::arg("lines", lines_of(correlated.fitted)), fmt::arg("thickness", 1e3 * correlated.thickness),
       fmt::arg("distances", distance_row("covered skin", covered) + distance_row("still skin", still)),
       fmt::arg("section", inspect::view_section(view)), fmt::arg("view", inspect::view_scripts(view)),

@@ -51,7 +51,9 @@ Json report_of(const Correlated& correlated) {
   for (const FittedFolder::Line& line : correlated.fitted.lines)
     report["simulated"]["lines"].push_back(
         {{"name", line.name}, {"request", line.request}, {"ratio", line.ratio}});
-  report["worn"] = {{"file", correlated.worn.file}, {"points", correlated.worn.points}};
+  report["worn"] = {{"file", correlated.worn.file},
+                    {"points", correlated.worn.points},
+                    {"same_scan", correlated.same_scan}};
   report["status"] = "ok";
   report["reason"] = nullptr;
   report["thickness"] = correlated.thickness;

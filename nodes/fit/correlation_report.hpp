@@ -22,6 +22,7 @@ struct Correlated {
   double thickness;  ///< m
   const correlation::Correlation& result;
   const correlation::Differences& differences;
+  bool same_scan;  ///< the worn scan is the one without the garment once more
 };
 
 /// correlate.json, metres.

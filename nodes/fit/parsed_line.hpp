@@ -2,6 +2,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <optional>
 
@@ -12,6 +14,17 @@ namespace tensegric_fit::fit {
 /// The whole numbers in a range.
 inline CLI::Range whole_in(const geometry::Range& range) {
   return {static_cast<int>(range.low), static_cast<int>(range.high)};
+}
+
+/// The numbers in a range, without NaN, which CLI::Range takes.
+inline CLI::Validator number_in(double low, double high) {
+  const CLI::Range range(low, high);
+  return {[range](std::string& text) {
+            const std::string fault = range(text);
+            const bool number = !std::isnan(std::strtod(text.c_str(), nullptr));
+            return fault.empty() && !number ? "'" + text + "' is not a number" : fault;
+          },
+          range.get_description()};
 }
 
 /// Exit code where the program has nothing more to do (0 help, 2 usage), else none. No option may be empty:

@@ -359,6 +359,56 @@ class FitBatch(unittest.TestCase):
             (folder / f"shard-1-of-{shards}.jsonl").write_text(json.dumps(line) + "\n")
         self.assertEqual(self.merged(folder), (0, self.table))
 
+    def test_results_stay_where_their_scans_were_moved(self):
+        place, folder, out = self.folder / "moved", self.folder / "moved/results", self.folder / "moved/table"
+        place.mkdir()
+        manifest, mesh = place / "manifest.csv", place / "body.ply"
+        manifest.write_text("mesh\nbody.ply\n")
+        shutil.copy(self.folder / "w1/body.ply", mesh)
+        self.assertEqual(fit_batch(manifest, "--out", folder).returncode, 0)
+        lines, table = lines_of(folder), self.merged(folder)
+        self.assertEqual((len(lines), table[0]), (1, 0))
+        self.assertEqual(fit_batch("merge", folder, "--out", out, "--pictures", 1).stderr, "")
+        self.assertTrue((out / "least_sure/1/front.png").exists())
+        shutil.rmtree(out)
+        mesh.unlink()
+        self.assertEqual(fit_batch(manifest, "--out", folder).returncode, 0)
+        self.assertEqual(lines_of(folder), lines)
+        lost = {part: value for part, value in lines[0].items() if part not in ("result", "cost")}
+        lost.update(key="", subject="", status="refused", reason={"code": "broken_file", "message": "cannot be read"})
+        with open(folder / "shard-1-of-1.jsonl", "a", encoding="utf-8") as file:  # as earlier builds did
+            file.write(json.dumps(lost) + "\n")
+        self.assertEqual(self.merged(folder), table)
+        for _ in range(2):
+            done = fit_batch("merge", folder, "--out", out, "--pictures", 1)
+            self.assertEqual(done.returncode, 0)
+            self.assertIn("row 1: no picture", done.stderr)
+            self.assertFalse((out / "least_sure").exists())
+            shutil.copy(self.folder / "w2/body.ply", mesh)  # somebody else
+
+    def test_names_are_no_formulas_of_a_spreadsheet(self):
+        manifest, folder = self.folder / "names.jsonl", self.folder / "names"
+        names = ["=1+2", "+1", "-1", "@a", "a=1"]
+        manifest.write_text("".join(json.dumps({"name": name, "mesh": "broken.ply"}) + "\n" for name in names))
+        self.assertEqual(fit_batch(manifest, "--out", folder).returncode, 0)
+        self.assertEqual([line["name"] for line in lines_of(folder)], names)
+        self.assertEqual(fit_batch("merge", folder, "--out", folder / "table").returncode, 0)
+        with open(folder / "table/table.csv", encoding="utf-8", newline="") as file:
+            self.assertEqual([row["name"] for row in csv.DictReader(file)], ["'=1+2", "'+1", "'-1", "'@a", "a=1"])
+        with sqlite3.connect(folder / "table/table.sqlite") as database:
+            self.assertEqual([name for name, in database.execute("SELECT name FROM runs ORDER BY row")], names)
+
+    def test_a_file_does_not_take_the_place_of_a_shipped_garment(self):
+        place = self.folder / "beside"
+        place.mkdir()
+        (place / "B1").write_text("no garment")
+        shutil.copy(self.folder / "w1/body.ply", place)
+        (place / "manifest.csv").write_text("mesh,garment,ratio\nbody.ply,B1,0.95\n")
+        self.assertEqual(fit_batch(place / "manifest.csv", "--out", place / "out").returncode, 0)
+        line = lines_of(place / "out")[0]
+        self.assertEqual(line["key"], next(each["key"] for each in lines_of(self.whole) if each["row"] == 1))
+        self.assertEqual(line["status"], "ok")
+
     def test_only_files_of_shards_are_merged(self):
         folder = self.folder / "with_manifest"
         shutil.copytree(self.whole, folder)
@@ -461,7 +511,9 @@ class FitBatch(unittest.TestCase):
         for text, message in {'{"scan": "w1/scan.ply"}\n[1]\n': "line 2: is no JSON object",
                               '{"scan": {"a": 1}}\n': "line 1: 'scan' is no text",
                               '{"scan":' + 200000 * "[" + 200000 * "]" + "}\n": "line 1: is no JSON object, or is nested",
-                              '{"colour": 1}\n': "line 1: there is no column 'colour'"}.items():
+                              '{"colour": 1}\n': "line 1: there is no column 'colour'",
+                              '{"scan": "a.ply", "ratio": 0.9, "ratio": 0.8}\n': "line 1: 'ratio' is there twice",
+                              '{"scan": "a.ply", "name": ["a", "b"]}\n': "line 1: 'name' has several values"}.items():
             manifest.write_text(text)
             done = fit_batch(manifest, "--out", self.folder / "bad")
             self.assertEqual(done.returncode, 3, text)

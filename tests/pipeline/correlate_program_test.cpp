@@ -84,6 +84,8 @@ TEST_F(CorrelateProgram, WritesEveryFieldAndFile) {
   EXPECT_EQ(r["alignment"]["status"], "converged");
   EXPECT_EQ(r["simulated"]["lines"][0]["name"], "chest");
   // The same scan: nothing moved but what was simulated.
+  EXPECT_TRUE(r["worn"]["same_scan"].get<bool>());
+  EXPECT_NE(read_file(file("log")).find("once more"), std::string::npos);
   EXPECT_LT(r["distance"]["still"]["mean_size"].get<double>(), 1e-4);
   EXPECT_GT(r["distance"]["covered"]["mean_size"].get<double>(), 5e-4);
   for (const char* effect : {"bust_point_height", "bust_point_spread"})

@@ -149,7 +149,10 @@ Recording run_bag(const std::string& path, const YAML::Node& pipeline, bool meas
     if (const auto garment = message.instantiate<Garment>()) chain.feed(*garment);
   }
   if (chain.recording.scan_id.empty())
-    throw geometry::Refusal(geometry::refusal::kBrokenFile, path + ": holds no scan");
+    throw geometry::Refusal(
+        geometry::refusal::kBrokenFile,
+        path + (chain.recording.refusal.empty() ? ": holds no scan"
+                                                : ": its clouds are refused: " + chain.recording.refusal));
   return chain.recording;
 }
 

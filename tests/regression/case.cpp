@@ -97,7 +97,7 @@ void read_garments(const YAML::Node& root, Case& read) {
   if (!root["garments"]) return;
   if (root["garments"].IsScalar() && root["garments"].Scalar() == "recorded" && !read.bag.empty()) {
     read.own_garments = true;
-    read.garments = garments_in(read.bag);
+    read.garments = read_bag(read.bag, [&read] { return garments_in(read.bag); });
     return;
   }
   if (!root["garments"].IsSequence()) throw Refusal(kBadCase, where + ": must be a list, or 'recorded'");

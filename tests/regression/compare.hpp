@@ -53,7 +53,7 @@ struct RunComparison {
 
 /// Two bags with what came out of a chain (replay.launch, regression, or recorded live), of any version of
 /// the messages. What is not the chain's is left out: header.seq, times of work, progress, /diagnostics.
-/// \throw rosbag::BagException, std::runtime_error
+/// \throw Refusal broken_file
 RunComparison compare_bags(const std::string& one, const std::string& other);
 
 /// Two bags, or two folders of `regression --out`: every case, with a note where only one of them has it.

@@ -16,6 +16,7 @@
 #include "ros/scan_tag.hpp"
 #include "scan_files/scan_bag.hpp"
 #include "tensegric/fit_messages.hpp"
+#include "xyz_cloud.hpp"
 
 namespace tensegric_fit::regression {
 namespace {
@@ -145,6 +146,11 @@ TEST_F(CompareTest, WhatIsMissingOrOfAnotherScanIsSaid) {
   EXPECT_EQ(comparison.notes[0], "other scans: s and t");
   rosbag::Bag(folder_ / "empty.bag", rosbag::bagmode::Write).write("/x", kTime, std_msgs::Header());
   EXPECT_THROW(compare_bags(one, folder_ / "empty.bag"), geometry::Refusal);
+  std::ofstream(folder_ / "junk.bag") << "#ROSBAG V2.0\njunk";
+  fs::copy_file(one, folder_ / "cut.bag");
+  fs::resize_file(folder_ / "cut.bag", fs::file_size(one) / 2);
+  for (const char* name : {"missing.bag", "junk.bag", "cut.bag"})
+    EXPECT_THROW(compare_runs(one, folder_ / name), geometry::Refusal) << name;
   EXPECT_THROW(compare_runs(one, folder_), geometry::Refusal) << "a bag and a folder";
   EXPECT_THROW(compare_runs(folder_, folder_), geometry::Refusal) << "no case in common";
 }
@@ -213,6 +219,29 @@ TEST_F(RecordTest, OtherGarmentsStayInTheBag) {
   EXPECT_EQ(asked.pipeline["control_mesh"]["template"].as<std::string>(), "hips");
 }
 
+TEST_F(RecordTest, WhatWasWornOnThatScanIsWorn) {
+  const RecordRequest first = scan_and({});
+  sensor_msgs::PointCloud2 cloud = xyz_cloud(1);
+  ros::Time time = kTime;
+  rosbag::Bag bag(first.bag, rosbag::bagmode::Write);
+  const auto next = [&time] { return time += ros::Duration(1); };
+  for (const char* name : {"H1", "B1", "", "H2", "H2", "", "B1"})
+    if (*name == 0)
+      bag.write("/scan/points", next(), cloud);
+    else
+      bag.write("/garment", next(), shipped(name));
+  bag.close();
+  for (const auto& [scan, worn] : {std::pair(1, std::vector<std::string>{"B1", "H2"}), {2, {"H2", "B1"}}}) {
+    RecordRequest request = first;
+    request.scan = scan;
+    write_case_input(request);
+    std::vector<std::string> names;
+    for (const Garment& garment : written().garments) names.push_back(garment.name.substr(0, 2));
+    EXPECT_EQ(names, worn) << scan;
+    fs::remove_all(folder_ / "cases");
+  }
+}
+
 TEST_F(RecordTest, ARefusedScanIsACaseToo) {
   const RecordRequest request = scan_and({});
   write_case_input(request);
@@ -229,11 +258,30 @@ TEST_F(RecordTest, ARefusedScanIsACaseToo) {
 
 TEST_F(RecordTest, CloudsOfSensorsAreAssembled) {
   const RecordRequest request = scan_and({});
-  sensor_msgs::PointCloud2 cloud;
-  rosbag::Bag bag(request.bag, rosbag::bagmode::Write);
-  for (const int i : {10, 9, 0}) bag.write("/camera_" + std::to_string(i) + "/points", kTime, cloud);
-  bag.close();
-  write_case_input(request);
+  sensor_msgs::PointCloud2 cloud = xyz_cloud(1);
+  cloud.header.stamp = kTime;
+  cloud.header.frame_id = "camera";
+  tf2_msgs::TFMessage places;
+  places.transforms.resize(1);
+  places.transforms[0].header.frame_id = "booth";
+  places.transforms[0].child_frame_id = "camera";
+  places.transforms[0].transform.rotation.w = 1;
+  HarnessOptions options;
+  options.replay = false;
+  options.folder = folder_ / "out";
+  for (const bool placed : {false, true}) {
+    rosbag::Bag bag(request.bag, rosbag::bagmode::Write);
+    for (const int i : {10, 9, 0}) bag.write("/camera_" + std::to_string(i) + "/points", kTime, cloud);
+    if (placed) bag.write("/tf_static", kTime, places);
+    for (const char* garment : {"B1", "H2", "H2"}) bag.write("/garment", kTime, shipped(garment));
+    bag.close();
+    write_case_input(request);
+    if (placed) break;
+    EXPECT_THROW(add_everything_found(request, options), geometry::Refusal) << "nobody says where they stand";
+    EXPECT_FALSE(fs::exists(folder_ / "cases" / "mine.yaml"));
+    EXPECT_TRUE(fs::is_empty(folder_ / "cases" / "bags"));
+  }
+  EXPECT_EQ(add_everything_found(request, options).recording.refusal, "too_few_points") << "of three points";
   const Case asked = written();
   EXPECT_TRUE(asked.sensors());
   EXPECT_EQ(asked.pipeline["assembler"]["sensors"].as<std::vector<std::string>>(),
@@ -245,6 +293,9 @@ TEST_F(RecordTest, BadRequestsAreNamed) {
   request.scan = 2;
   EXPECT_THROW(write_case_input(request), geometry::Refusal);
   request.scan = 1;
+  std::swap(request.bag, request.cases);
+  EXPECT_THROW(write_case_input(request), geometry::Refusal) << "no bag";
+  std::swap(request.bag, request.cases);
   request.name = "../mine";
   EXPECT_THROW(write_case_input(request), geometry::Refusal);
 }

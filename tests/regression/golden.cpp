@@ -39,12 +39,46 @@ std::string with_golden(const std::string& text, const Row& row, const std::stri
 }
 
 // Old and new, one line per metric.
-std::string changed_values(const Verdict& verdict) {
+std::string changed_values(const Verdict& verdict, const std::string& indent) {
   std::string lines;
   for (const Row& row : verdict.rows)
     if (row.expectation.golden && row.found && old_of(row) != to_text(*row.found))
-      lines += fmt::format("      {}: [{}, {}]\n", row.expectation.metric, old_of(row), to_text(*row.found));
+      lines += fmt::format("{}    {}: [{}, {}]\n", indent, row.expectation.metric, old_of(row),
+                           to_text(*row.found));
   return lines;
+}
+
+std::string update_entry(const std::string& file, const std::string& reason, const Verdict& verdict,
+                         const std::string& indent) {
+  const Stamp stamp = stamp_of(file);
+  const std::string values = changed_values(verdict, indent);
+  return fmt::format("{0}- date: {1}\n{0}  commit: {2}\n{0}  reason: {3}\n{4}", indent, stamp.date,
+                     stamp.commit, quoted(reason), values.empty() ? "" : indent + "  values:\n" + values);
+}
+
+/// The entries of `updates`, which need not be the last key: a place behind the last one, and how far they
+/// stand in. At the end of the text where there are none.
+struct Updates {
+  std::size_t end;
+  std::string indent = "  ";
+  bool there = false;
+};
+
+Updates updates_in(const std::string& text) {
+  static const std::regex key("(^|\n)updates:[ \t]*(#[^\n]*)?\n"), first("^( *)- ");
+  std::smatch found, entry;
+  if (!std::regex_search(text, found, key)) return {text.size()};
+  std::size_t end = static_cast<std::size_t>(found.position() + found.length());
+  const std::string behind = text.substr(end);
+  Updates updates{end, "  ", true};
+  if (std::regex_search(behind, entry, first, std::regex_constants::match_continuous))
+    updates.indent = entry[1];
+  while (end < text.size() && (text[end] == ' ' || text[end] == '-' || text[end] == '\n')) {
+    const bool blank = text[end] == '\n';
+    end = std::min(text.find('\n', end), text.size() - 1) + 1;
+    if (!blank) updates.end = end;
+  }
+  return updates;
 }
 
 bool is_recorded(const Row& row) {
@@ -108,19 +142,25 @@ void update_goldens(const Case& asked, const Verdict& verdict, const std::string
     if (row.expectation.golden) text = with_golden(text, row, asked.file);
   if (text == old && !moved) return;
   if (text.back() != '\n') text += '\n';
-  if (asked.updates.empty()) text += "updates:\n";
-  const Stamp stamp = stamp_of(asked.file);
-  text +=
-      fmt::format("  - date: {}\n    commit: {}\n    reason: {}\n", stamp.date, stamp.commit, quoted(reason));
-  const std::string values = changed_values(verdict);
-  if (!values.empty()) text += "    values:\n" + values;
+  const Updates updates = updates_in(text);
+  text.insert(updates.end, (updates.there ? "" : "updates:\n") +
+                               update_entry(asked.file, reason, verdict, updates.indent));
 
   const std::string unfinished = asked.file + ".new";
-  std::ofstream out(unfinished);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error(unfinished + ": cannot be written");
-  fs::rename(unfinished, asked.file);
+  try {
+    std::ofstream out(unfinished);
+    out << text;
+    out.close();
+    if (!out) throw std::runtime_error(unfinished + ": cannot be written");
+    if (load_case(unfinished).updates.size() != asked.updates.size() + 1)
+      throw Refusal(kBadCase, asked.file + ": 'updates' is no list with an entry per line");
+    fs::permissions(unfinished, fs::status(asked.file).permissions());
+    fs::rename(unfinished, asked.file);
+  } catch (...) {
+    std::error_code error;
+    fs::remove(unfinished, error);
+    throw;
+  }
 }
 
 }  // namespace tensegric_fit::regression

@@ -20,8 +20,9 @@ std::string update_table(const Case& asked, const Verdict& verdict);
 
 /// Writes the new values, and why, when, from which commit and over which values, into the case's file;
 /// everything else stays as it is, letter for letter, and where no value is another one the whole file,
-/// unless its recorded shape `moved`. \throw Refusal bad_case: a golden value does not stand on one line with
-/// its metric's name, or was not found in the run
+/// unless its recorded shape `moved`. \throw Refusal bad_case, and the file stays as it is: a golden value
+/// does not stand on one line with its metric's name, or was not found in the run; the new file could not be
+/// read
 void update_goldens(const Case& asked, const Verdict& verdict, const std::string& reason, bool moved = false);
 
 }  // namespace tensegric_fit::regression

@@ -165,6 +165,23 @@ TEST_F(HarnessTest, OnlyGoldenValuesAreReplacedAndTheReasonIsKept) {
   EXPECT_THROW(update_goldens(asked, judge(asked, "bag", {}), "nothing came"), geometry::Refusal);
 }
 
+TEST_F(HarnessTest, UpdatesNeedNotBeTheLastKey) {
+  for (const char* before : {"updates:\n  - first\n\n# Why.\n", "updates:  # why\n- first\n\n"}) {
+    Case asked = read(with(std::string(before) + "metrics:", "metrics:"));
+    update_goldens(asked, judge(asked, "bag", metrics(0.95)), "it moved");
+    asked = load_case(file_);
+    ASSERT_EQ(asked.updates.size(), 2u);
+    EXPECT_EQ(asked.updates[1].reason, "it moved");
+    EXPECT_EQ(asked.updates[1].values.size(), 2u);
+  }
+  const std::string unread = with("updates: [first]\nmetrics:", "metrics:");
+  const Case asked = read(unread);
+  EXPECT_THROW(update_goldens(asked, judge(asked, "bag", metrics(0.95)), "it moved"), geometry::Refusal);
+  std::ifstream in(file_);
+  EXPECT_EQ((std::string{std::istreambuf_iterator<char>(in), {}}), unread);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+}
+
 TEST_F(HarnessTest, NothingIsRecordedFromABadRun) {
   const Case asked = read(kGood);
   Metrics found = metrics(0.95);

@@ -8,6 +8,7 @@
 
 #include "case_pictures.hpp"
 #include "compare.hpp"
+#include "files/owner_only.hpp"
 #include "geometry/status.hpp"
 #include "golden.hpp"
 #include "golden_shape.hpp"
@@ -134,6 +135,7 @@ int compare(const CommandLine& line) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  files::owner_only();
   CommandLine line;
   CLI::App app(
       "Runs cases of the regression harness through the stages' handlers (bag) and through the launched "

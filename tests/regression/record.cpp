@@ -37,54 +37,6 @@ bool is_scan_topic(const std::string& topic) {
   return chain_topic(topic) == "scan/points";
 }
 
-Input read_input(const RecordRequest& request) {
-  Input input;
-  std::map<std::string, std::vector<PointCloud2::ConstPtr>> clouds;
-  std::string scan_topic;
-  const rosbag::Bag bag(request.bag, rosbag::bagmode::Read);
-  rosbag::View view(bag);
-  std::vector<std::string> topics;  // as they first come
-  for (const rosbag::MessageInstance& message : view) {
-    const std::string& topic = message.getTopic();
-    if (const auto cloud = message.instantiate<PointCloud2>()) {
-      if (clouds[topic].empty()) topics.push_back(topic);
-      clouds[topic].push_back(cloud);
-      if (is_scan_topic(topic)) scan_topic = topic;
-    }
-    if (const auto places = message.instantiate<tf2_msgs::TFMessage>()) input.places.push_back(places);
-    if (const auto garment = message.instantiate<Garment>())
-      if (scan_topic.empty() || clouds[scan_topic].size() <= static_cast<std::size_t>(request.scan)) {
-        if (scan_topic.empty()) input.garments.clear();  // before the scan the last one counts
-        input.garments.push_back(*garment);
-      }
-  }
-  if (scan_topic.empty() && topics.size() == 1) scan_topic = topics.front();
-  const auto wanted = static_cast<std::size_t>(request.scan);
-  const auto take = [&](const std::string& topic, const std::string& as) {
-    if (clouds[topic].size() < wanted)
-      throw Refusal(
-          geometry::refusal::kBrokenFile,
-          fmt::format("{}: has {} clouds on '{}', not {}", request.bag, clouds[topic].size(), topic, wanted));
-    input.clouds.emplace_back(as, clouds[topic][wanted - 1]);
-  };
-  if (topics.empty())
-    throw Refusal(geometry::refusal::kBrokenFile, request.bag + ": has no sensor_msgs/PointCloud2");
-  if (!scan_topic.empty()) {
-    take(scan_topic, "/scan/points");
-    input.places.clear();
-    return input;
-  }
-  std::sort(topics.begin(), topics.end(), [](const std::string& a, const std::string& b) {
-    return a.size() != b.size() ? a.size() < b.size() : a < b;  // 10 behind 9
-  });
-  for (const std::string& topic : topics) {
-    const std::string plain = topic.front() == '/' ? topic.substr(1) : topic;
-    input.sensors.push_back(plain);
-    take(topic, "/" + plain);
-  }
-  return input;
-}
-
 std::vector<std::uint8_t> bytes_of(Garment garment) {
   garment.header = {};
   garment.name.clear();
@@ -96,6 +48,79 @@ std::vector<std::uint8_t> bytes_of(Garment garment) {
 
 std::string plain_name(const Garment& garment) {
   return garment.name.substr(0, garment.name.find(" #"));
+}
+
+bool is_same(const Garment& one, const Garment& other) {
+  return plain_name(one) == plain_name(other) && bytes_of(one) == bytes_of(other);
+}
+
+/// What comes in a bag, each with its number there.
+struct Content {
+  std::map<std::string, std::vector<std::pair<std::size_t, PointCloud2::ConstPtr>>> clouds;  ///< by topic
+  std::vector<std::pair<std::size_t, Garment>> garments;
+  std::vector<tf2_msgs::TFMessage::ConstPtr> places;
+  std::string scan_topic;
+};
+
+Content content_of(const std::string& path) {
+  Content content;
+  std::size_t number = 0;
+  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  rosbag::View view(bag);
+  for (const rosbag::MessageInstance& message : view) {
+    ++number;
+    if (const auto cloud = message.instantiate<PointCloud2>()) {
+      content.clouds[message.getTopic()].emplace_back(number, cloud);
+      if (is_scan_topic(message.getTopic())) content.scan_topic = message.getTopic();
+    }
+    if (const auto places = message.instantiate<tf2_msgs::TFMessage>()) content.places.push_back(places);
+    if (const auto garment = message.instantiate<Garment>()) content.garments.emplace_back(number, *garment);
+  }
+  return content;
+}
+
+/// What is worn on the scan that is whole with message `begin`: what was put on last before it, and all until
+/// the next scan is whole with message `end`. The same once more is no other garment.
+std::vector<Garment> garments_between(std::size_t begin, std::size_t end, const Content& content) {
+  std::vector<Garment> garments;
+  for (const auto& [number, garment] : content.garments) {
+    if (number > end) break;
+    if (number < begin) garments.clear();
+    if (garments.empty() || !is_same(garments.back(), garment)) garments.push_back(garment);
+  }
+  return garments;
+}
+
+Input read_input(const RecordRequest& request) {
+  const Content content = read_bag(request.bag, [&request] { return content_of(request.bag); });
+  if (content.clouds.empty())
+    throw Refusal(geometry::refusal::kBrokenFile, request.bag + ": has no sensor_msgs/PointCloud2");
+  const bool sensors = content.scan_topic.empty() && content.clouds.size() > 1;
+  std::vector<std::string> topics;
+  if (sensors)
+    for (const auto& topic : content.clouds) topics.push_back(topic.first);
+  else
+    topics = {content.scan_topic.empty() ? content.clouds.begin()->first : content.scan_topic};
+  std::sort(topics.begin(), topics.end(), [](const std::string& a, const std::string& b) {
+    return a.size() != b.size() ? a.size() < b.size() : a < b;  // 10 behind 9
+  });
+  Input input;
+  const auto wanted = static_cast<std::size_t>(request.scan);
+  std::size_t begin = 0, end = 0;
+  for (const std::string& topic : topics) {
+    const auto& clouds = content.clouds.at(topic);
+    if (clouds.size() < wanted)
+      throw Refusal(geometry::refusal::kBrokenFile, fmt::format("{}: has {} clouds on '{}', not {}",
+                                                                request.bag, clouds.size(), topic, wanted));
+    const std::string plain = topic.front() == '/' ? topic.substr(1) : topic;
+    if (sensors) input.sensors.push_back(plain);
+    input.clouds.emplace_back(sensors ? "/" + plain : "/scan/points", clouds[wanted - 1].second);
+    begin = std::max(begin, clouds[wanted - 1].first);
+    end = std::max(end, clouds.size() > wanted ? clouds[wanted].first : std::string::npos);
+  }
+  if (sensors) input.places = content.places;
+  input.garments = garments_between(begin, end, content);
+  return input;
 }
 
 node::GarmentRequest shipped_garment(const std::string& name) {
@@ -143,8 +168,11 @@ void write_bag(const fs::path& path, const Input& input, bool with_garments) {
   rosbag::Bag bag(path, rosbag::bagmode::Write);
   bag.setCompression(rosbag::compression::BZ2);
   const ros::Time time(1000000000, 0);  // any fixed time: the same case, the same bytes
-  for (const auto& places : input.places) bag.write("/tf_static", time, *places);
-  for (const auto& [topic, cloud] : input.clouds) bag.write(topic, time, *cloud);
+  // What has the same time is read by topics, in no order of ours: places come before the clouds they are of.
+  for (const auto& places : input.places) bag.write("/tf_static", time - ros::Duration(1), *places);
+  for (std::size_t i = 0; i < input.clouds.size(); ++i)
+    bag.write(input.clouds[i].first, time + ros::Duration(0.001 * static_cast<double>(i)),
+              *input.clouds[i].second);
   if (!with_garments) return;
   for (std::size_t i = 0; i < input.garments.size(); ++i) {
     Garment garment = input.garments[i];
@@ -152,6 +180,31 @@ void write_bag(const fs::path& path, const Input& input, bool with_garments) {
     bag.write("/garment", time + ros::Duration(i == 0 ? -1.0 : static_cast<double>(i)), garment);
   }
 }
+
+/// The files of a case that is being recorded; what of them is there is removed where it fails.
+class Unfinished {
+ public:
+  explicit Unfinished(const RecordRequest& request) : cases_(request.cases), name_(request.name) {}
+  ~Unfinished() {
+    std::error_code missing;
+    if (!done_)
+      for (const fs::path& file : {file_of("bags", ".bag"), file_of("shapes", ".yaml"), file_of("", ".yaml")})
+        fs::remove(file, missing);
+  }
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+
+  void done() { done_ = true; }
+
+ private:
+  fs::path file_of(const std::string& folder, const std::string& end) const {
+    return cases_ / folder / (name_ + end);
+  }
+
+  const fs::path cases_;
+  const std::string name_;
+  bool done_ = false;
+};
 
 void write(const std::string& path, const std::string& text) {
   std::ofstream file(path);
@@ -228,6 +281,7 @@ void write_case_input(const RecordRequest& request) {
   for (const Garment& garment : input.garments) words.push_back(words_for(garment));
   const bool shipped =
       std::none_of(words.begin(), words.end(), [](const std::string& w) { return w.empty(); });
+  Unfinished unfinished(request);
   write_bag(fs::path(request.cases) / "bags" / (request.name + ".bag"), input, !shipped);
 
   const std::string about =
@@ -245,10 +299,12 @@ void write_case_input(const RecordRequest& request) {
   if (shipped && !words.empty()) text += fmt::format("garments: [{}]\n", fmt::join(words, ", "));
   text += "metrics:\n  refusal: {golden: null, reason: as recorded}\n";
   write(file, text);
+  unfinished.done();
 }
 
 Outcome add_everything_found(const RecordRequest& request, const HarnessOptions& options) {
   const std::string file = fs::path(request.cases) / (request.name + ".yaml");
+  Unfinished unfinished(request);
   Outcome outcome = run_case(load_case(file), options);
   const Verdict& verdict = outcome.verdicts.front();
   if (!verdict.faults.empty()) throw Refusal(kBadCase, file + ": " + verdict.faults.front());
@@ -269,6 +325,7 @@ Outcome add_everything_found(const RecordRequest& request, const HarnessOptions&
   write(file, text);
   outcome.asked = load_case(file);
   if (outcome.recording.body) write_shape(outcome.asked, outcome.recording);
+  unfinished.done();
   return outcome;
 }
 

@@ -19,11 +19,11 @@ struct RecordRequest {
 
 /// Writes CASES/NAME.yaml without expectations yet and CASES/bags/NAME.bag with the scan, sensors' places,
 /// and the bag's garments where they are no shipped ones. \throw Refusal bad_case: the case is there already,
-/// or the name is no name of a file; broken_file: no such scan; bad_garment; rosbag::BagException
+/// or the name is no name of a file; broken_file: no such scan, or no bag; bad_garment; rosbag::BagException
 void write_case_input(const RecordRequest& request);
 
 /// Runs it by the bag runner, and adds everything found as golden values, with a tolerance by kind and its
-/// reason; records its shape. \throw as run_bag; Refusal bad_case
+/// reason; records its shape. \throw as run_bag; Refusal bad_case. The case is removed then
 Outcome add_everything_found(const RecordRequest& request, const HarnessOptions& options);
 
 /// The lines of `metrics:` for what was found: times and memory are of the run, and left out.

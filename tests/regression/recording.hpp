@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/status.hpp"
 #include "tensegric/solver.hpp"
 
 namespace tensegric_fit::regression {
@@ -32,6 +33,19 @@ std::string chain_topic(const std::string& topic);
 
 /// When a bag's first and last message were recorded. \throw rosbag::BagException
 std::pair<ros::Time, ros::Time> times_of(const std::string& bag);
+
+/// What `read` makes of a bag. \throw Refusal broken_file, as those of `read` but for Refusals: rosbag and
+/// its streams throw many kinds
+template <typename Read>
+auto read_bag(const std::string& bag, const Read& read) {
+  try {
+    return read();
+  } catch (const geometry::Refusal&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw geometry::Refusal(geometry::refusal::kBrokenFile, bag + ": cannot be read: " + error.what());
+  }
+}
 
 struct Recording {
   std::string scan_id;

@@ -92,6 +92,27 @@ TEST_F(CorrelationHandlerTest, AWornScanThatCameFirstIsComparedWithABodyScannedB
   }
 }
 
+// She put the garment on while the scan without it was being reconstructed.
+TEST_F(CorrelationHandlerTest, AWornScanThatCameBeforeItsBodyIsKeptForIt) {
+  for (const int stamp : {0, 99, 101}) {
+    const auto cloud = boost::make_shared<sensor_msgs::PointCloud2>(xyz_cloud(1));
+    cloud->header.stamp = ros::Time(stamp);
+    CorrelationHandler handler{Parameters(YAML::Load("{}"), "correlation"),
+                               [](const geometry::PointCloud&) { return MeasuredScan{}; }};
+    const auto before = boost::make_shared<TriangleMesh>(to_message(some_tag(), tetrahedron(), {}));
+    before->scan_id = "the customer before";
+    before->header.stamp = ros::Time(50);
+    handler.add(TriangleMesh::ConstPtr(before));
+    handler.add(sensor_msgs::PointCloud2::ConstPtr(cloud), tag_of(*cloud));
+    add_body(handler, ros::Time(100));
+    const std::optional<Input> input = fit(handler);
+    EXPECT_EQ(input.has_value(), stamp == 101) << stamp;
+    if (input) {
+      EXPECT_EQ(input->worn.tag.scan_id, tag_of(*cloud).scan_id);
+    }
+  }
+}
+
 TEST_F(CorrelationHandlerTest, ReadsWhatTheFirstScanDidNotSee) {
   refusal_.clear();
   fit();
