@@ -10,13 +10,13 @@ import unittest
 LAUNCH = pathlib.Path(__file__).resolve().parents[1] / "launch"
 
 
-def loaded(text, launch_file="pipeline.launch", argument="config"):
-    """Whether roslaunch would start with such a file, and what it says."""
+def loaded(text, launch_file="pipeline.launch", argument="config", given=()):
+    """Whether roslaunch would start with such a file, and these further arguments, and what it says."""
     with tempfile.TemporaryDirectory(prefix="check config ") as folder:  # with a blank
         path = pathlib.Path(folder) / "own.yaml"
         path.write_text(text, encoding="utf-8")
         extra = ["simulate:=true"] if launch_file == "booth.launch" else []
-        done = subprocess.run(["roslaunch", "--dump-params", "tensegric_fit", launch_file, f"{argument}:={path}", *extra], capture_output=True, text=True,
+        done = subprocess.run(["roslaunch", "--dump-params", "tensegric_fit", launch_file, f"{argument}:={path}", *extra, *given], capture_output=True, text=True,
                               timeout=60, check=False)
         return "Unable to load file" not in done.stdout + done.stderr, done.stdout + done.stderr  # the exit code is 0 in any case
 
@@ -56,6 +56,30 @@ class CheckConfig(unittest.TestCase):
                 self.assertFalse(fine)
                 self.assertIn("own.yaml", words)
                 self.assertNotIn("Traceback", words)
+
+    def test_file_says_what_no_argument_does(self):
+        file = """{vault: {folders: [/srv/exports], retention_days: 30}, control_mesh: {template_directory: /srv/templates},
+                   tensegric: {garment: H1, garment_directory: /srv/garments}}"""
+        _, words = loaded(file)
+        for line in ("/vault/folders:\n- /srv/exports", "/vault/retention_days: 30", "/control_mesh/template_directory: /srv/templates", "/tensegric/garment: H1",
+                     "/tensegric/garment_directory: /srv/garments"):
+            self.assertIn(line + "\n", words)
+        _, words = loaded(file, given=("garment:=B2", "exports:=/mnt/exports", "retention_days:=0"))
+        for line in ("/vault/folders:\n- /mnt/exports", "/vault/retention_days: 0", "/tensegric/garment: B2"):
+            self.assertIn(line + "\n", words)
+        _, words = loaded("tffd: {setting: standard}\n")
+        self.assertIn("tensegric_fit_exports\n", words)
+        self.assertNotIn("/tensegric/garment", words)  # the node has a default
+
+    def test_file_of_sensors_says_what_no_argument_does(self):
+        file = "{assembler: {frame_id: hall}, simulated_booth: {frame_id: hall, customers: 5, family: implicit}, capture: {trigger: snap}}"
+        _, words = loaded(file, "booth.launch", "sensors")
+        for line in ("/assembler/frame_id: hall", "/simulated_booth/frame_id: hall", "/simulated_booth/customers: 5", "/simulated_booth/family: implicit",
+                     "/capture/trigger: snap"):
+            self.assertIn(line + "\n", words)
+        _, words = loaded(file, "booth.launch", "sensors", ("frame_id:=shop", "customers:=0", "trigger:=scan"))
+        for line in ("/assembler/frame_id: shop", "/simulated_booth/frame_id: shop", "/simulated_booth/customers: 0", "/capture/trigger: scan"):
+            self.assertIn(line + "\n", words)
 
 
 if __name__ == "__main__":

@@ -51,7 +51,7 @@ AssemblerHandler::Setup AssemblerHandler::setup_from(Parameters& parameters) {
   const int count = static_cast<int>(setup.sensors.size());
   const geometry::Range up_to_all{1, static_cast<double>(count)};
   setup.frame_id = parameters.frame("frame_id", "booth");
-  setup.min_sensors = parameters.integer("min_sensors", count, up_to_all);
+  setup.capture.min_sensors = parameters.integer("min_sensors", count, up_to_all);
   setup.capture.slop = parameters.number("slop", setup.capture.slop, geometry::kSlop);
   setup.capture.timeout = parameters.number("timeout", setup.capture.timeout, assembler::kTimeout);
   assembler::AssemblerOptions& assembler = setup.assembler;
@@ -117,8 +117,20 @@ AssemblerHandler::Output AssemblerHandler::handle(const assembler::Capture& capt
     output.facts.emplace_back("overlap_mm_before",
                               fmt::format("{:.3f}", 1000 * registration->residual_before));
     output.facts.emplace_back("overlap_mm_after", fmt::format("{:.3f}", 1000 * registration->residual_after));
+    if (registration->status == assembler::RegistrationStatus::too_far)
+      output.warning += (output.warning.empty() ? "" : "; ") + off_calibration(*registration);
   }
   return output;
+}
+
+std::string AssemblerHandler::off_calibration(const assembler::Registration& registration) const {
+  const int per_column = setup_.assembler.sensors_per_column;
+  const auto first = setup_.sensors.begin() + std::ptrdiff_t{registration.farthest} * per_column;
+  return fmt::format(
+      "column {} ({}) seems to stand {:.0f} mm and {:.1f} degrees off its calibration: calibrate "
+      "the booth again",
+      registration.farthest + 1, fmt::join(first, first + per_column, ", "),
+      1000 * registration.farthest_shift, 180 / M_PI * registration.farthest_turn);
 }
 
 Eigen::Isometry3d AssemblerHandler::pose_of(int sensor, const assembler::SensorCloud& cloud,

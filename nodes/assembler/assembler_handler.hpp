@@ -19,7 +19,6 @@ class AssemblerHandler {
   struct Setup {
     std::vector<std::string> sensors;  ///< topics, column by column
     std::string frame_id;              ///< of the scan
-    int min_sensors;                   ///< with fewer, a capture is refused
     assembler::CaptureOptions capture;
     assembler::AssemblerOptions assembler;
   };
@@ -39,7 +38,7 @@ class AssemblerHandler {
   struct Output {
     sensor_msgs::PointCloud2::ConstPtr scan;
     Facts facts;
-    std::string warning;  ///< why there are normals left out; empty where there are none
+    std::string warning;  ///< why normals are left out, and which column stands off; else empty
   };
   /// `transforms` know where the sensors stood. \throw Refusal no_transform naming the sensor's topic; as
   /// assembler::assemble
@@ -47,6 +46,7 @@ class AssemblerHandler {
 
  private:
   static Setup setup_from(Parameters& parameters);
+  std::string off_calibration(const assembler::Registration& registration) const;
   Eigen::Isometry3d pose_of(int sensor, const assembler::SensorCloud& cloud,
                             const tf2::BufferCore& transforms) const;
 

@@ -95,14 +95,25 @@ class AssemblerNode {
 
   void take(const assembler::Capture& capture) {
     const AssemblerHandler::Setup& setup = handler_.setup();
-    std::vector<std::string> missing;
-    for (int sensor : capture.missing()) missing.push_back(setup.sensors[sensor]);
+    const auto named = [&setup](const std::vector<int>& sensors) {
+      std::vector<std::string> names;
+      for (const int sensor : sensors) names.push_back(setup.sensors[sensor]);
+      return fmt::format("{}", fmt::join(names, ", "));
+    };
+    const std::vector<int> missing = capture.missing(), blind = capture.blind();
     const std::size_t came = setup.sensors.size() - missing.size();
-    const std::string warning = missing.empty()
-                                    ? ""
-                                    : fmt::format("{} of {} sensors came in time; missing: {}", came,
-                                                  setup.sensors.size(), fmt::join(missing, ", "));
-    if (static_cast<int>(came) < setup.min_sensors)
+    std::vector<std::string> parts;
+    if (!missing.empty() && !capture.is_stray)
+      parts.push_back(fmt::format("{} of {} sensors came in time; missing: {}", came, setup.sensors.size(),
+                                  named(missing)));
+    if (!blind.empty() && !capture.is_stray) parts.push_back(named(blind) + " saw nothing");
+    for (const assembler::OtherClock& clock : capture.other_clocks)
+      parts.push_back(words_of(clock, setup.sensors));
+    const std::string warning = fmt::format("{}", fmt::join(parts, "; "));
+    if (capture.is_stray) return stage_.drop(id_of(capture.first), Refusal(refusal::kMissingSensor, warning));
+    const bool are_all_blind = blind.size() == came;  // refused as such by assembler::assemble
+    const int counted = are_all_blind ? static_cast<int>(came) : capture.seeing();
+    if (counted < setup.capture.min_sensors)
       return stage_.refuse(id_of(capture.first), Refusal(refusal::kMissingSensor, warning));
     const std::shared_ptr<const assembler::CaptureTurn> replaced = queue_.put(capture, warning);
     if (!replaced) return;

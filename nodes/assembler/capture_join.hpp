@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,12 +21,25 @@ struct SensorCloud {
   geometry::PointCloud cloud;
 };
 
+/// Sensors whose clouds came together with a capture's, but were stamped `seconds` later than those.
+struct OtherClock {
+  std::vector<int> sensors;
+  double seconds;
+};
+
 struct Capture {
   std::uint64_t first, last;                               ///< stamps, ns
   std::vector<std::shared_ptr<const SensorCloud>> clouds;  ///< one per sensor, null where none came
+  std::vector<OtherClock> other_clocks = {};
+  bool is_stray = false;  ///< of sensors that are missing in a larger one: other_clocks has them
 
   std::vector<int> missing() const;
+  std::vector<int> blind() const;  ///< sensors whose clouds have no finite point
+  int seeing() const;              ///< how many sensors are neither
 };
+
+/// A sentence that names the topics.
+std::string words_of(const OtherClock& clock, const std::vector<std::string>& topics);
 
 inline constexpr geometry::Range kTimeout{0.01, 600};
 
@@ -33,6 +47,7 @@ inline constexpr geometry::Range kTimeout{0.01, 600};
 struct CaptureOptions {
   double slop = geometry::kUsualSlop;  ///< between the first and the last stamp of a capture
   double timeout = 2.0;                ///< how long a capture waits after its first cloud has come
+  int min_sensors = 0;  ///< that saw something: with fewer, a capture keeps no later one back; 0: any
 };
 
 /// Sorts clouds into captures by their stamps. Captures leave in the order of their stamps, each once; a
@@ -62,13 +77,21 @@ class CaptureJoin {
     Capture capture;
     double since;
   };
+  struct Left {
+    Capture capture;  // stamps alone
+    double since, at;
+    bool enough;  // sensors
+  };
   bool fits(const Capture& capture, std::uint64_t stamp) const;
+  bool has_left(int sensor, std::uint64_t stamp, double now, Fate& fate);
+  bool is_late(const Open& open, double now) const { return now - open.since >= timeout_; }
+  void compare_clocks(Open& leaving, double now) const;
 
-  int sensors_;
+  int sensors_, min_sensors_;
   std::uint64_t slop_;
   double timeout_;
-  std::vector<Open> open_;       // in the order of their stamps
-  std::optional<Capture> left_;  // stamps alone
+  std::vector<Open> open_;  // in the order of their stamps
+  std::deque<Left> left_;   // in the order in which they left
 };
 
 }  // namespace tensegric_fit::assembler

@@ -212,10 +212,20 @@ Registration register_columns(const std::vector<PointCloud>& columns, const Regi
     if (moving.step() < kStill) break;
   const double residual = moving.residual();
   bool near = true;
+  double worst = 0;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const SmallMotion motion = moving.motion_of(c);
-    near =
-        near && motion.head<3>().norm() <= options.max_turn && motion.tail<3>().norm() <= options.max_shift;
+    const double turn = motion.head<3>().norm(), shift = motion.tail<3>().norm();
+    if (turn <= options.max_turn && shift <= options.max_shift) continue;
+    near = false;
+    // As a share of what is allowed; where that is nothing, as a share of itself.
+    const double excess =
+        std::max(turn / std::max(options.max_turn, 1e-6), shift / std::max(options.max_shift, 1e-6));
+    if (excess <= worst) continue;
+    worst = excess;
+    result.farthest = static_cast<int>(c);
+    result.farthest_turn = turn;
+    result.farthest_shift = shift;
   }
   if (!near) {
     result.status = RegistrationStatus::too_far;

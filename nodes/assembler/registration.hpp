@@ -36,6 +36,9 @@ struct Registration {
   /// Trimmed mean distance between columns along the normal, before and with the corrections; metres, over
   /// matches that took no part in finding them.
   double residual_before = 0, residual_after = 0;
+  /// Where it is `too_far`: the column that seems to stand farthest off, by how many m and rad.
+  int farthest = -1;
+  double farthest_shift = 0, farthest_turn = 0;
 };
 
 /// Symmetric point-to-plane ICP (Rusinkiewicz 2019) over all pairs of columns at once: each step solves one

@@ -80,12 +80,15 @@ PipelineWatch::State PipelineWatch::state(double now) const {
     return now - stage.second.at <= geometry::kSilent;
   });
   state.newest_scan = refused_.empty() ? newest_ : refused_;
+  const bool begins = now - start_ < geometry::kSilent;
+  if (!lives && begins) return state;
   if (!lives) return {words::kPipelineNotRunning, true, false, 0, state.all, state.newest_scan};
   const auto first = stages_.find(kStages.front());
   const std::string scan_id = lone_ ? newest_ : first == stages_.end() ? "" : first->second.report.scan_id;
   for (std::size_t i = 0; i < all; ++i) {
     const char* stage = kStages[i];
     const auto found = stages_.find(stage);
+    if (found == stages_.end() && begins) continue;
     if (found == stages_.end() || now - found->second.at > geometry::kSilent) {
       if (!state.trouble) state.words = words::silent(stage);
       state.trouble = true;
@@ -118,6 +121,7 @@ void PipelineWatch::look_at_booth(double now, State& state) const {
   for (const char* stage : kBooth) {
     const auto found = stages_.find(stage);
     if (found == stages_.end() || !words.empty()) continue;
+    if (scan_at_ - found->second.at > geometry::kSilent) continue;  // scans come without it
     if (now - found->second.at > geometry::kSilent) {
       words = words::silent(stage);
     } else if (found->second.report.refused() && found->second.said_at >= scan_at_) {

@@ -16,7 +16,10 @@ class PipelineWatch {
   /// Seconds for which something that a stage dropped is shown.
   static constexpr double kNews = 30;
 
-  /// `now` in seconds of any steady clock.
+  /// `start`: when it began to listen; stages have until geometry::kSilent after it to report. Times in
+  /// seconds of any steady clock.
+  explicit PipelineWatch(double start = -geometry::kSilent) : start_(start) {}
+
   void hear(const StageReport& report, double now);
 
   /// How it stands, for people.
@@ -41,6 +44,7 @@ class PipelineWatch {
   void look_at_booth(double now, State& state) const;
   void add_warnings(State& state) const;
 
+  double start_;
   std::map<std::string, Heard> stages_;
   StageReport dropped_;  // the last that a stage named without a change of state
   double dropped_at_ = -kNews;

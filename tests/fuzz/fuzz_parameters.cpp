@@ -36,7 +36,7 @@ const std::array<Read, 9> kReaders{
     },
     [](Parameters p) {
       const AssemblerHandler::Setup setup = AssemblerHandler(std::move(p)).setup();
-      fuzz::require(setup.min_sensors > 0 && !setup.sensors.empty());
+      fuzz::require(setup.capture.min_sensors > 0 && !setup.sensors.empty());
     },
     [](Parameters p) { CaptureHandler handler(std::move(p), "/"); },
     [](Parameters p) { fuzz::require(vault_options(std::move(p)).retention_days >= 0); },

@@ -65,6 +65,76 @@ TEST(CaptureJoinTest, CloudsOfTwoCapturesThatCrossEachOtherAreNotMixed) {
   EXPECT_FALSE(join.next(100));
 }
 
+/// That saw something.
+std::shared_ptr<const assembler::SensorCloud> seen(double at) {
+  auto sent = *cloud(at);
+  sent.cloud.points = {Eigen::Vector3d::Zero()};
+  return std::make_shared<const assembler::SensorCloud>(sent);
+}
+
+TEST(CaptureJoinTest, ACaptureOfTooFewSensorsKeepsNoLaterOneBack) {
+  CaptureJoin join(2, {0.1, 2.0, 2});
+  join.add(0, seen(59), 0);  // its clock was ahead
+  const std::optional<Capture> ahead = join.next(2);
+  ASSERT_TRUE(ahead);
+  EXPECT_FALSE(ahead->is_stray);
+  EXPECT_EQ(join.add(1, seen(59.05), 2.1), Fate::late) << "its own late cloud";
+  EXPECT_EQ(join.add(0, seen(10), 10), Fate::taken);
+  EXPECT_EQ(join.add(1, seen(10), 10), Fate::taken);
+  EXPECT_TRUE(join.next(10));
+  EXPECT_EQ(join.add(0, seen(59), 11), Fate::played);
+  EXPECT_EQ(join.add(0, seen(59.02), 59), Fate::taken);
+  EXPECT_EQ(join.add(1, seen(59.02), 59), Fate::taken);
+  EXPECT_TRUE(join.next(59));
+}
+
+TEST(CaptureJoinTest, ACaptureOfTooFewSensorsPushesNoOlderOneOut) {
+  CaptureJoin join(3, {0.1, 2.0, 3});
+  join.add(0, seen(59), 0);
+  join.add(0, seen(2), 1.9);
+  join.add(1, seen(2), 1.9);
+  EXPECT_EQ(join.next(2)->first, kStart + 59 * kSecond);
+  EXPECT_FALSE(join.next(2));
+  join.add(2, seen(2), 2.1);
+  EXPECT_TRUE(join.next(2.1)->missing().empty());
+}
+
+TEST(CaptureJoinTest, ASensorWithAnotherClockIsNamedNotTheOthers) {
+  const std::vector<std::string> topics{"a", "b", "c"};
+  for (const double off : {-1.0, 1.0, 40.0})
+    for (const int enough : {2, 3}) {
+      CaptureJoin join(3, {0.1, 2.0, enough});
+      join.add(0, seen(100), 0);
+      join.add(1, seen(100 + off), 0.01);
+      join.add(2, seen(100), 0.02);
+      std::vector<Capture> left;
+      for (const double now : {1.0, 2.0, 2.015, 2.02, 3.0})
+        while (const auto capture = join.next(now)) left.push_back(*capture);
+      ASSERT_EQ(left.size(), 2u);
+      for (const Capture& capture : left) {
+        EXPECT_EQ(capture.is_stray, capture.seeing() == 1);
+        ASSERT_EQ(capture.other_clocks.size(), 1u) << off << " " << enough;
+        EXPECT_EQ(words_of(capture.other_clocks[0], topics),
+                  off == -1  ? "b is stamped 1.0 s before the others: are clocks set alike?"
+                  : off == 1 ? "b is stamped 1.0 s after the others: are clocks set alike?"
+                             : "b is stamped 40.0 s after the others: are clocks set alike?");
+      }
+    }
+}
+
+TEST(CaptureJoinTest, ASensorThatSawNothingIsBlind) {
+  CaptureJoin join(3, {0.1, 2.0, 3});
+  join.add(0, seen(0), 0);
+  join.add(1, cloud(0), 0);
+  auto black = *seen(0);
+  black.cloud.points = {Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN())};
+  join.add(2, std::make_shared<const assembler::SensorCloud>(black), 0);
+  const std::optional<Capture> capture = join.next(0);  // nothing to wait for
+  ASSERT_TRUE(capture);
+  EXPECT_EQ(capture->blind(), (std::vector<int>{1, 2}));
+  EXPECT_EQ(capture->seeing(), 1);
+}
+
 TEST(CaptureJoinTest, ASensorThatFiresTwiceWithinTheSlopBeginsAnotherCapture) {
   CaptureJoin join(2, {0.5, 2.0});
   join.add(0, cloud(0), 0);

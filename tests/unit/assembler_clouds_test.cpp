@@ -264,6 +264,9 @@ TEST(RegistrationTest, ColumnsThatAreFarOffOrSeeNothingInCommonAreLeftAsTheyAre)
   strict.registration.max_shift = 0.0005;
   const auto far = assemble(booth.capture, booth.booth_from_sensor, strict).registration;
   EXPECT_EQ(far->status, RegistrationStatus::too_far);
+  EXPECT_GE(far->farthest, 0);
+  EXPECT_GT(far->farthest_shift, 0.0005);
+  EXPECT_LT(far->farthest_shift, 0.006);
   EXPECT_TRUE(identity(*far));
 
   geometry::PointCloud one{{{0, 0, 0}, {0, 0, 0.001}}, {{1, 0, 0}, {1, 0, 0}}};

@@ -17,6 +17,18 @@ TEST(PipelineWatch, NothingHeardMeansNotRunning) {
   EXPECT_TRUE(PipelineWatch().state(0).trouble);
 }
 
+TEST(PipelineWatch, SaysNothingOfStagesThatCannotHaveReportedYet) {
+  PipelineWatch watch(100);
+  EXPECT_EQ(watch.state(101).words, "");
+  EXPECT_FALSE(watch.state(101).trouble);
+  watch.hear({"reconstruction", "waiting", "", ""}, 101);
+  EXPECT_EQ(watch.state(101).words, words::kWaitsForScan);
+  EXPECT_FALSE(watch.state(101).trouble);
+  watch.hear({"reconstruction", "waiting", "", ""}, 104);
+  EXPECT_EQ(watch.state(104).words, words::silent("landmarks"));
+  EXPECT_EQ(PipelineWatch(100).state(104).words, words::kPipelineNotRunning);
+}
+
 TEST(PipelineWatch, CountsTheStagesThatAreThroughWithTheNewestScan) {
   PipelineWatch watch;
   all_say(watch, "done", 0);
@@ -194,6 +206,9 @@ TEST(PipelineWatch, CamerasThatDiedAreNamed) {
   all_say(watch, "done", 10);
   EXPECT_EQ(watch.state(10).words, words::silent("depth_cameras"));
   EXPECT_TRUE(watch.state(10).trouble);
+  for (const char* stage : {"reconstruction", "landmarks", "control_mesh", "tensegric", "tffd"})
+    watch.hear({stage, "done", "", "two"}, 11);
+  EXPECT_EQ(watch.state(11).words, words::kReady) << "a scan came without it";
 }
 
 TEST(PipelineWatch, WarningsOfTheScanThatIsShownAreSaidAndOfNoOther) {
