@@ -21,9 +21,10 @@ namespace fs = std::filesystem;
 const ResultNames kCorrelateResults(std::begin(kCorrelateFiles), std::end(kCorrelateFiles));
 const ResultNames kFitted = {kFitReport, kExportDocument, "body.ply", "deformed.ply", "control.ply"};
 
+constexpr double kRounding = 1e-6;  // m, of files
+
 // But for the rounding of files. The same points, read the same way, give the same mesh.
 bool is_same(const geometry::TriangleMesh& one, const geometry::TriangleMesh& other) {
-  constexpr double kRounding = 1e-6;  // m
   return one.triangles == other.triangles &&
          std::equal(one.vertices.begin(), one.vertices.end(), other.vertices.begin(), other.vertices.end(),
                     [](const auto& p, const auto& q) { return (p - q).norm() < kRounding; });

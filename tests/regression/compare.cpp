@@ -175,8 +175,8 @@ RunComparison compare_bags(const std::string& one, const std::string& other) {
   RunComparison result;
   result.one = one;
   result.other = other;
-  const auto content = [](const std::string& bag) { return read_bag(bag, [&] { return content_of(bag); }); };
-  const Content a = content(one), b = content(other);
+  const auto read = [](const std::string& bag) { return read_bag(bag, [&] { return content_of(bag); }); };
+  const Content a = read(one), b = read(other);
   if (a.by_scan.empty() || b.by_scan.empty())
     throw geometry::Refusal(geometry::refusal::kBrokenFile,
                             (a.by_scan.empty() ? one : other) + ": holds nothing that comes out of a chain");
