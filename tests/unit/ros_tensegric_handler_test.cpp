@@ -256,7 +256,7 @@ TEST_F(CoarseAnswerTest, AnElasticBandPullsAsHardOnBothMeshes) {
   stage.add(control_of("A", times(2)));
   Garment elastic = band_at(0.9);
   elastic.lines[0].law = GarmentLine::STIFFNESS;
-  elastic.lines[0].stiffness = 5;
+  elastic.lines[0].stiffness = 10;
   const auto input = stage.put_on(elastic);
   ASSERT_TRUE(input && input->coarse);
   const Heard heard = handle(stage, *input, kGoOn);
