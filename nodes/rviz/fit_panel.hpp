@@ -109,7 +109,7 @@ class FitPanel : public rviz::Panel {
   using Clock = std::chrono::steady_clock;
 
   FitSession session_;
-  PipelineWatch watch_;
+  PipelineWatch watch_{std::chrono::duration<double>(Clock::now().time_since_epoch()).count()};
   std::map<std::string, Garment> known_;  // whole garments by name: laws and courses of their lines
   std::shared_ptr<const Garment> worn_;
   std::shared_ptr<const FitState> fitted_;  // the last that has ended

@@ -124,7 +124,7 @@ void FitPanel::show_girths() {
   new_girths_ = false;
   follow_view();
   const std::vector<Eigen::Vector3d> worn = without_posture(body_.vertices(1));
-  table_->show_measures(measures_, {body_.mesh(), worn});
+  table_->show_measures(measures_, {body_.mesh(), worn}, body_.is_worn());
 
   const std::string pressed = extreme_skin(true), stretched = extreme_skin(false);
   say_warnings(tightness_, pressed + (pressed.empty() || stretched.empty() ? "" : " ") + stretched);

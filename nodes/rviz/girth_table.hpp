@@ -12,8 +12,8 @@ namespace tensegric_fit::inspect {
 class GirthTable : public QTableWidget {
  public:
   GirthTable();
-  /// Lift and distance of the bust points, then girths.
-  void show_measures(const geometry::BodyMeasures& measures, const geometry::MovedSkin& skin);
+  /// Lift and distance of the bust points, then girths. Where nothing is worn, as they were scanned alone.
+  void show_measures(const geometry::BodyMeasures& measures, const geometry::MovedSkin& skin, bool is_worn);
 
  private:
   void set_row(int row, const std::array<std::string, 4>& words);

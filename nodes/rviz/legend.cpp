@@ -18,7 +18,7 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr int kWidth = 400, kHeight = 116, kMargin = 12, kBarTop = 26, kBarHeight = 16;  // pixels
+constexpr int kWidth = 400, kHeight = 124, kMargin = 12, kBarTop = 26, kBarHeight = 16;  // pixels
 constexpr int kPaperOpacity = 215;
 
 std::string next_legend_name() {
@@ -39,8 +39,11 @@ QImage legend_picture(const ColourScale& scale, const std::string& sentence) {
 
   painter.setPen(QColor(40, 40, 40));
   const int bar = kWidth - 2 * kMargin;
-  painter.drawText(QRect(kMargin, kHeight - 26, bar, 20), Qt::AlignHCenter | Qt::AlignVCenter,
-                   text(sentence));
+  // On two lines where one is too short; the first may end a word before the margin.
+  constexpr int kLongestWord = 110;
+  const QString shown =
+      painter.fontMetrics().elidedText(text(sentence), Qt::ElideRight, 2 * bar - kLongestWord);
+  painter.drawText(QRect(kMargin, kHeight - 38, bar, 36), Qt::AlignCenter | Qt::TextWordWrap, shown);
   if (scale.by == ColourBy::plain) return picture;
   const double low = scale.low, high = scale.high;
   for (int x = 0; x < bar; ++x) {

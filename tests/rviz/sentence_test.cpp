@@ -4,9 +4,20 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QImage>
+#include <set>
 #include <string>
 
+#include "inspect/colour_scale.hpp"
+#include "inspect/panel_words.hpp"
+#include "inspect/pointing.hpp"
+#include "inspect/words.hpp"
+#include "rviz/girth_table.hpp"
+
 namespace tensegric_fit::inspect {
+
+QImage legend_picture(const ColourScale& scale, const std::string& sentence);  // its header needs Ogre
+
 namespace {
 
 constexpr char kLong[] =
@@ -67,6 +78,49 @@ TEST_F(SentenceTest, OneWordThatIsTooLongIsLeftOut) {
   place.resize(60, place.height());
   place.say(std::string(5000, 'x'));
   EXPECT_EQ(place.text().toStdString(), " \u2026");
+}
+
+TEST_F(SentenceTest, AnAnswerToAClickIsReadWholeOnTheLegend) {
+  const ColourScale scale = fixed_scale(ColourBy::distortion);
+  const auto columns_with_ink = [&](const std::string& words) {
+    const QImage with = legend_picture(scale, words), without = legend_picture(scale, "");
+    std::set<int> columns;
+    for (int x = 0; x < with.width(); ++x)
+      for (int y = 0; y < with.height(); ++y)
+        if (with.pixel(x, y) != without.pixel(x, y)) columns.insert(x);
+    return columns;
+  };
+  std::string words = words::pointed(scale.by, 0.72, spoken("gluteal_fold_R"), 0.123);  // the longest name
+  for (int more = 0; more < 2; ++more, words += " " + words + words) {
+    const std::set<int> columns = columns_with_ink(words);
+    ASSERT_FALSE(columns.empty());
+    EXPECT_GT(*columns.begin(), 12) << words;
+    EXPECT_LT(*columns.rbegin(), 400 - 12) << words;
+  }
+}
+
+TEST_F(SentenceTest, UnsureGirthsAreMarkedAndHaveNoSize) {
+  const auto shown = [](double confidence, bool is_worn) {
+    geometry::BodyMeasures measures;
+    measures.girths = {{"bust", 0.93, confidence, "much was unseen"}, {"underbust", 0.76, 1, ""}};
+    const geometry::TriangleMesh none;
+    GirthTable table;
+    table.show_measures(measures, {none, none.vertices}, is_worn);
+    std::vector<std::string> cells;
+    for (int row = 0; row < table.rowCount(); ++row)
+      for (int column : {0, 1, 2}) cells.push_back(table.item(row, column)->text().toStdString());
+    cells.push_back(table.item(1, 0)->toolTip().toStdString());
+    return cells;
+  };
+  const std::vector<std::string> sure = shown(0.9, true), unsure = shown(0.4, false);
+  ASSERT_EQ(sure.size(), 10u);
+  ASSERT_EQ(unsure.size(), 10u);
+  EXPECT_NE(sure[1], words::kNoSize);
+  EXPECT_EQ(unsure[1], words::kNoSize);
+  EXPECT_EQ(unsure[3], sure[3] + "*");
+  EXPECT_EQ(unsure[9], "much was unseen");
+  EXPECT_EQ(sure[5], words::kNoSize) << "worn, and not known";
+  EXPECT_EQ(unsure[5], "") << "nothing is worn";
 }
 
 TEST_F(SentenceTest, MarkupIsShownAsItCame) {
