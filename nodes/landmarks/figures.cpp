@@ -23,8 +23,8 @@ constexpr double kUnit =
     0.002;  // m of misfit that Spread::base is for (definition; also in fit_precision.py)
 constexpr double kNormal = 1.96;  // quantile of the normal distribution at 97.5 % (definition)
 constexpr double kGross = 4;  // spreads between two readings of one thing: with Gaussian errors 1 in 16,000
-constexpr double kNearlyGross =
-    0.75;  // of that distance: from here on the mesh counts less, so that no figure jumps
+constexpr double kNearlyGross = 0.75;  // of that distance (any share below 1 does): from here on the mesh
+                                       // counts less, so that no figure jumps
 
 Spread spread_in(const YAML::Node& node, const std::string& where) {
   geometry::check_keys(node, {"bias", "base", "growth", "support", "outside", "shift"}, where, kCode);

@@ -1,6 +1,7 @@
 #include "tensegric/skin_membrane.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 
 namespace tensegric_fit::tensegric {
