@@ -36,8 +36,10 @@ std::vector<std::pair<int, int>> coupled_nodes(const Problem& problem,
       for (int j = 0; j < i; ++j) couple(nodes[i], nodes[j]);
   };
   for (const UnitVolume& unit : problem.units) couple_all(unit.nodes);
-  for (const UnitPressure& unit : problem.pressures) couple_all(unit.nodes);
   for (const UnitShear& unit : problem.shears) couple_all(unit.nodes);
+  for (const Column& column : problem.pressures.columns)
+    for (std::size_t i = 1; i < column.nodes.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) pairs.emplace_back(column.nodes[i], column.nodes[j]);
   for (const SkinTriangle& one : problem.skin)
     for (int i = 0; i < 3; ++i) couple(one.nodes[i], one.nodes[(i + 1) % 3]);
   for (const LengthCurvature& curvature : curvatures)

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "tensegric/band.hpp"
+#include "tensegric/column_pressure.hpp"
 #include "tensegric/fold_barrier.hpp"
 #include "tensegric/region_volume.hpp"
 #include "tensegric/skin_membrane.hpp"
 #include "tensegric/solver.hpp"
-#include "tensegric/unit_pressure.hpp"
 #include "tensegric/unit_shear.hpp"
 
 namespace tensegric_fit::tensegric {
@@ -23,7 +23,7 @@ struct Problem {
   std::vector<Band> bands;
   std::vector<RegionVolume> volumes;
   std::vector<UnitVolume> units;
-  std::vector<UnitPressure> pressures;
+  Pressures pressures;
   std::vector<UnitShear> shears;
   std::vector<SkinTriangle> skin;
   double force_scale;  ///< mean tension of the tensile parts at rest
