@@ -21,10 +21,10 @@ using geometry::Refusal;
 using geometry::SurfacePoint;
 namespace refusal = geometry::refusal;
 
-constexpr double kTurn = 0.020;         // m: the way across the band is averaged over so much of it
-constexpr int kFibres = 7;              // of a band; of a thread one
-constexpr double kPointsPerReach = 2;   // of averaged fibres: closer ones add nothing
-constexpr double kOffTheTape = 0.0005;  // m: a point this far inside the tape is bridged
+constexpr double kTurn = 0.020;        // m: the way across the band is averaged over so much of it
+constexpr int kFibres = 7;             // of a band; of a thread one
+constexpr double kPointsPerReach = 2;  // of averaged fibres: closer ones add nothing
+constexpr double kOffTheTape = 1e-5;   // m: a point farther inside the tape than rounding is bridged
 
 // Unit vectors over the skin, square to the band, smooth along it.
 std::vector<Vector3d> across(const std::vector<SurfacePoint>& middle, const SkinNear& skin) {
@@ -153,6 +153,24 @@ std::vector<CarriedPoint> on_the_tape(const std::vector<CarriedPoint>& points,
   return touched;
 }
 
+// A tape's own points between those that it touches: each is carried by both ends of its span.
+std::vector<CarriedPoint> spanned(const std::vector<CarriedPoint>& touched) {
+  std::vector<CarriedPoint> points;
+  for (std::size_t i = 0; i + 1 < touched.size(); ++i) {
+    const CarriedPoint &a = touched[i], &b = touched[i + 1];
+    const int steps = std::max(1, static_cast<int>(std::lround((b.rest - a.rest).norm() / kLineSpacing)));
+    for (int k = 0; k < steps; ++k) {
+      const double share = static_cast<double>(k) / steps;
+      std::map<int, double> weights;
+      for (const auto& [node, weight] : a.weights) weights[node] += (1 - share) * weight;
+      for (const auto& [node, weight] : b.weights) weights[node] += share * weight;
+      points.push_back({(1 - share) * a.rest + share * b.rest, {weights.begin(), weights.end()}});
+    }
+  }
+  points.push_back(touched.back());
+  return points;
+}
+
 // As few points as describe the course of a fibre that was averaged over `reach`: as evenly as whole points
 // allow, the same from either end. A short last step would bend sharply, and a band over her middle would not
 // be symmetric.
@@ -211,10 +229,10 @@ std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::Tr
       points.push_back(carried(at, skin, m));
       normals.push_back(skin.normal(at));
     }
-    if (line.smooth > 0) points = averaged(points, line.smooth);
-    if (line.taut) points = on_the_tape(points, normals);
     if (line.held[0]) points.front().weights.clear();
     if (line.held[1]) points.back().weights.clear();
+    if (line.taut) points = spanned(on_the_tape(points, normals));
+    if (line.smooth > 0) points = averaged(points, line.smooth);
     fibres[f] = {share, thinned(points, line.smooth)};
   };
   geometry::parallel_for(fibres.size(), [&lay](std::size_t begin, std::size_t end, int) {
