@@ -43,14 +43,13 @@ struct ModelOptions {
   int layers = 1;        ///< of units, one below the other, between the skin and the inner nodes
   bool uniform = false;  ///< all parts of a kind have one k, as in the papers, whatever tissue they stand for
   double strut_stiffness = 0.55;    ///< of struts; edges have 1. The papers' rigid strut is the limit
-  double lateral_stiffness = 0.41;  ///< of the tensile parts from outer to inner node
-  double skin = 0.0094;             ///< m of tissue that the skin is as stiff as; equilibrium solver only
-  double volume_stiffness =
-      2.8;  ///< pressure per relative change of a unit's volume; equilibrium solver only
-  double shear_stiffness = 0.18;  ///< shear modulus of units, alike in all directions; likewise
-  double modulus = 1350;          ///< Pa, of tissue for which a kind's share is 1: what forces are in newtons
-  double stiffening = 64;         ///< of struts, tensile parts and units: k (1 + stiffening e^2) at strain e
-  double prestress = 0.1;         ///< mean tension of a piece's tensile parts at rest / their mean k, at most
+  double lateral_stiffness = 0.44;  ///< of the tensile parts from outer to inner node
+  double skin = 0.0061;             ///< m of tissue that the skin is as stiff as; equilibrium solver only
+  double volume_stiffness = 5.1;    ///< pressure per relative change of volume; equilibrium solver only
+  double shear_stiffness = 0.18;    ///< shear modulus of units, alike in all directions; likewise
+  double modulus = 1510;   ///< Pa, of tissue for which a kind's share is 1: what forces are in newtons
+  double stiffening = 59;  ///< of struts, tensile parts and units: k (1 + stiffening e^2) at strain e
+  double prestress = 0.1;  ///< mean tension of a piece's tensile parts at rest / their mean k, at most
   std::vector<StiffPart> stiff_parts;
 };
 inline constexpr geometry::Range kLayers{1, 8};

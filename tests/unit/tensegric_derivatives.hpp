@@ -14,18 +14,26 @@
 
 namespace tensegric_fit::tensegric {
 
-/// Along a random direction, near rest. `energy(units, x)`, `add_gradient(units, x, free_index, gradient)`
-/// and `add_hessian(units, x, free_index, hessian)`.
-template <typename Unit, typename Energy, typename AddGradient, typename AddHessian>
-void expect_derivatives(const Model& model, const std::vector<Unit>& units, const Energy& energy,
-                        const AddGradient& add_gradient, const AddHessian& add_hessian) {
-  const std::vector<int> free_index = model.free_index();
-  std::vector<std::pair<int, int>> pairs;
+using NodePairs = std::vector<std::pair<int, int>>;
+
+/// Of all nodes of each unit; those that are not free are left out.
+template <typename Unit>
+NodePairs pairs_within(const std::vector<Unit>& units, const std::vector<int>& free_index) {
+  NodePairs pairs;
   for (const Unit& unit : units)
-    for (int i = 0; i < static_cast<int>(unit.nodes.size()); ++i)
-      for (int j = 0; j < i; ++j)
+    for (std::size_t i = 0; i < unit.nodes.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
         if (free_index[unit.nodes[i]] >= 0 && free_index[unit.nodes[j]] >= 0)
           pairs.emplace_back(free_index[unit.nodes[i]], free_index[unit.nodes[j]]);
+  return pairs;
+}
+
+/// Along a random direction, near rest. `energy(units, x)`, `add_gradient(units, x, free_index, gradient)`
+/// and `add_hessian(units, x, free_index, hessian)`, whose blocks are at `pairs`.
+template <typename Units, typename Energy, typename AddGradient, typename AddHessian>
+void expect_derivatives(const Model& model, const Units& units, const NodePairs& pairs, const Energy& energy,
+                        const AddGradient& add_gradient, const AddHessian& add_hessian) {
+  const std::vector<int> free_index = model.free_index();
   const unsigned seed = std::random_device{}();
   const testing::ScopedTrace trace{__FILE__, __LINE__, "seed " + std::to_string(seed)};
   std::mt19937 random{seed};

@@ -7,7 +7,7 @@
 #include "geometry/status.hpp"
 #include "tensegric/model.hpp"
 #include "tensegric/solver.hpp"
-#include "tensegric/unit_pressure.hpp"
+#include "tensegric/unit_prism.hpp"
 #include "tensegric_bust.hpp"
 
 namespace tensegric_fit::tensegric {

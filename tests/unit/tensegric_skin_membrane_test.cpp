@@ -65,7 +65,7 @@ TEST(SkinMembrane, DerivativesAreThoseOfItsEnergy) {
   const Model model = build_model(bust_mesh(), options);
   const std::vector<SkinTriangle> skin = skin_triangles(model, model.free_index());
   ASSERT_GT(skin.size(), 60U);
-  expect_derivatives(model, skin, skin_energy, add_skin_gradient,
+  expect_derivatives(model, skin, pairs_within(skin, model.free_index()), skin_energy, add_skin_gradient,
                      [](const auto& of, const Positions& x, const std::vector<int>& index,
                         NodeMatrix& hessian) { add_skin_hessian(of, x, index, hessian); });
 }

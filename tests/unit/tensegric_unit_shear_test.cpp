@@ -112,7 +112,7 @@ TEST(UnitShear, DerivativesAreThoseOfItsEnergy) {
   const Model model = build_model(bust_mesh(), options);
   const std::vector<UnitShear> units = unit_shears(model, model.free_index());
   ASSERT_GT(units.size(), 60U);
-  expect_derivatives(model, units, shear_energy, add_shear_gradient,
+  expect_derivatives(model, units, pairs_within(units, model.free_index()), shear_energy, add_shear_gradient,
                      [](const auto& of, const Positions& x, const std::vector<int>& index,
                         NodeMatrix& hessian) { add_shear_hessian(of, x, index, hessian); });
 }
