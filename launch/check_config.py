@@ -18,12 +18,23 @@ def nodes():
     return sorted({node.get("name") for node in found if node.get("pkg") == "tensegric_fit"})
 
 
+class EachKeyOnce(yaml.SafeLoader):
+    """Of two sections with one name YAML keeps the last, without a word."""
+
+    def construct_mapping(self, node, deep=False):
+        keys = [self.construct_object(key, deep=True) for key, _ in node.value]
+        for key in keys:
+            if keys.count(key) > 1:
+                raise yaml.constructor.ConstructorError(None, None, f"'{key}' stands there twice", node.start_mark)
+        return super().construct_mapping(node, deep)
+
+
 def main():
     if len(sys.argv) != 2:
         print(__doc__, file=sys.stderr)
         return 2
     try:
-        loaded = yaml.safe_load(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"))
+        loaded = yaml.load(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"), Loader=EachKeyOnce)
     except (yaml.YAMLError, OSError, ValueError) as error:
         print(f"{sys.argv[1]} cannot be read: {error}", file=sys.stderr)
         return 1

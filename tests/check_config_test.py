@@ -49,6 +49,13 @@ class CheckConfig(unittest.TestCase):
                 self.assertIn("'reconstruciton', which is none of the nodes: ", words)
                 self.assertIn("reconstruction", words.partition("none of the nodes: ")[2])
 
+    def test_a_section_twice(self):
+        for text in ("tffd: {beta: 1.3}\ntensegric: {layers: 2}\ntffd: {beta: 1.7}\n", "tffd:\n  beta: 1.3\n  beta: 1.7\n"):
+            with self.subTest(text):
+                fine, words = loaded(text)
+                self.assertFalse(fine)
+                self.assertIn("twice", words)
+
     def test_no_parameters_by_node(self):
         for text in ("- 3\n", "a: [", "just words\n", "3\n"):
             with self.subTest(text):

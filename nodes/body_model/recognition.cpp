@@ -179,9 +179,9 @@ std::vector<char> recognise(RegisteredBody& body, const Samples& samples) {
   body.note.clear();
   if (body.evidence.shape > kUnusual)
     body.note = fmt::format(
-        "an unusual shape: {:.1f} deviations from the model's mean woman, of the women it was made from none "
-        "is beyond {}; a man, padding, clothes?",
-        body.evidence.shape, kUnusual);
+        "an unusual shape for the body model: {:.1f} deviations from its mean, where women that it was "
+        "tried on have 1.25 at most; clothes, padding or a man's body can be the reason",
+        body.evidence.shape);
   return is_of_thing;
 }
 

@@ -157,7 +157,9 @@ CorrelationHandler::Output CorrelationHandler::handle(const Input& input) {
     output.warning = fmt::format("{:.0f} % of the skin under the garment could not be compared",
                                  100 * (1 - result.compared));
   if (checksum_in(body_->scan_id) == checksum_in(body->scan_id))
-    output.warning = "the scan in the garment is the one without it once more: nothing was compared with it";
+    output.warning =
+        "the scan in the garment is the one without it once more: these differences say nothing of the "
+        "garment";
   return output;
 }
 

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <map>
+#include <utility>
 
 #include "geometry/scan_extent.hpp"
 #include "geometry/status.hpp"
@@ -33,6 +34,7 @@ constexpr double kStray = 0.005;
 constexpr double kDeepest = 0.36;  // share of a stature: a whole person is less deep, a trunk deeper
 constexpr double kUpright = 0.5, kAsLong = 0.8;  // shares of the longest extent
 constexpr double kClearly = 1.25;                // how much faster the head's end widens
+constexpr double kBeside = 0.015;                // share of the height: parts farther apart do not touch
 
 int axis_of(const std::string& up) {
   return static_cast<int>(up.back() - 'x');
@@ -94,29 +96,63 @@ void check_given(const std::string& unit, double metres) {
                 fmt::format("in the unit that is given, {}, the scan is {:.4g} m across", unit, metres));
 }
 
+/// Seen along `axis`, those of `points` that hang together with `end`: not a second leg beside the end of the
+/// other one.
+Points together_with(const Points& end, const Points& points, int axis, double cell) {
+  const auto cell_of = [&](const Vector3d& p) {
+    return std::pair(static_cast<int>(std::floor(p[(axis + 1) % 3] / cell)),
+                     static_cast<int>(std::floor(p[(axis + 2) % 3] / cell)));
+  };
+  std::map<std::pair<int, int>, Points> open;
+  for (const Vector3d& p : points) open[cell_of(p)].push_back(p);
+  Points found;
+  std::vector<std::pair<int, int>> reached;
+  for (const Vector3d& p : end) reached.push_back(cell_of(p));
+  while (!reached.empty()) {
+    const auto [i, j] = reached.back();
+    reached.pop_back();
+    for (int di = -1; di <= 1; ++di)
+      for (int dj = -1; dj <= 1; ++dj) {
+        const auto at = open.find({i + di, j + dj});
+        if (at == open.end()) continue;
+        found.insert(found.end(), at->second.begin(), at->second.end());
+        open.erase(at);
+        reached.emplace_back(i + di, j + dj);
+      }
+  }
+  return found;
+}
+
+double width_of(const Points& points, int axis) {
+  if (points.size() < 10) return 0;
+  Vector3d mean = Vector3d::Zero();
+  for (const Vector3d& p : points) mean += p / static_cast<double>(points.size());
+  double sum = 0;
+  for (Vector3d p : points) {
+    p -= mean;
+    p[axis] = 0;
+    sum += p.squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(points.size()));
+}
+
 /// How much wider she is a fifth of the height below this end than near it: from face to shoulders about
 /// double.
 double widening(const Points& points, const Spread& spread, int axis, bool from_top) {
-  const auto width = [&](double near, double far) {
-    Points slab;
+  const auto slab = [&](double near, double far) {
+    Points between;
     for (const Vector3d& p : points) {
       const double share = (p[axis] - spread.low[axis]) / spread.extent[axis];
       const double depth = from_top ? 1 - share : share;
-      if (depth >= near && depth <= far) slab.push_back(p);
+      if (depth >= near && depth <= far) between.push_back(p);
     }
-    if (slab.size() < 10) return 0.0;
-    Vector3d mean = Vector3d::Zero();
-    for (const Vector3d& p : slab) mean += p / static_cast<double>(slab.size());
-    double sum = 0;
-    for (Vector3d p : slab) {
-      p -= mean;
-      p[axis] = 0;
-      sum += p.squaredNorm();
-    }
-    return std::sqrt(sum / static_cast<double>(slab.size()));
+    return between;
   };
-  const double end = width(0.04, 0.10);
-  return end > 0 ? width(0.17, 0.23) / end : 0;
+  const Points end = slab(0.04, 0.10);
+  const double width = width_of(end, axis);
+  if (width == 0) return 0;
+  const Points below = together_with(end, slab(0.17, 0.23), axis, kBeside * spread.extent[axis]);
+  return width_of(below, axis) / width;
 }
 
 Refusal two_axes(const std::string& a, const std::string& b) {

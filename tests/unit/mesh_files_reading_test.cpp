@@ -66,6 +66,18 @@ TEST(Reading, TurnsAreRotationsThatBringUpToZ) {
   EXPECT_TRUE(Reading().turn().isIdentity(0));
 }
 
+// One leg ends below the knee, or a foot is lifted: a second leg beside the lowest foot is no shoulder.
+TEST(Reading, OneFootIsNoHead) {
+  for (const double ends : {0.25, 0.45}) {
+    Points points;
+    for (const Vector3d& p : figure())
+      if (p.y() > -0.03 || p.z() > ends || std::abs(p.y()) > 0.17) points.push_back(p);
+    EXPECT_EQ(infer_reading(points, kMesh, {}).up, "z") << ends;
+    for (Vector3d& p : points) p.z() = -p.z();
+    EXPECT_EQ(infer_reading(points, kMesh, {}).up, "-z") << ends;
+  }
+}
+
 TEST(Reading, ArmsStraightOutAreNoUp) {
   Points points = figure(0);
   for (double side : {-1.0, 1.0})

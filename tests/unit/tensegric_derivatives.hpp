@@ -21,8 +21,8 @@ template <typename Unit>
 NodePairs pairs_within(const std::vector<Unit>& units, const std::vector<int>& free_index) {
   NodePairs pairs;
   for (const Unit& unit : units)
-    for (std::size_t i = 0; i < unit.nodes.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j)
+    for (int i = 0; i < static_cast<int>(unit.nodes.size()); ++i)
+      for (int j = 0; j < i; ++j)
         if (free_index[unit.nodes[i]] >= 0 && free_index[unit.nodes[j]] >= 0)
           pairs.emplace_back(free_index[unit.nodes[i]], free_index[unit.nodes[j]]);
   return pairs;
