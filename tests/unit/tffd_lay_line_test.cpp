@@ -217,7 +217,8 @@ TEST_F(Slab, ATautBandLiesOnSkinThatIsFlatAlongIt) {
 }
 
 TEST_F(Slab, NothingCarriesAnEndThatIsHeld) {
-  LineOnBody line{over_the_bump(), 0.03, 0.02};
+  constexpr double kReach = 0.02;  // of the means
+  LineOnBody line{over_the_bump(), 0.03, kReach};
   line.held = {true, false};
   const auto half_held = lay_line(line, body, binding);
   line.held = {false, false};
@@ -230,8 +231,9 @@ TEST_F(Slab, NothingCarriesAnEndThatIsHeld) {
     EXPECT_FALSE(free.front().weights.empty());
     for (std::size_t i = 0; i < held.size(); ++i) {
       EXPECT_EQ(held[i].rest, free[i].rest);
-      if (i == 0) continue;
-      EXPECT_EQ(held[i].weights, free[i].weights);
+      if ((held[i].rest - held.front().rest).norm() > 2 * kReach) {
+        EXPECT_EQ(held[i].weights, free[i].weights);
+      }
     }
   }
 }
