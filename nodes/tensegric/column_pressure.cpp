@@ -117,7 +117,8 @@ void add_pressure_hessian(const Pressures& pressures, const Positions& x, const 
     const VolumeHessian second = volume_hessian(corners);
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < i; ++j)  // a node's own is zero
-        hessian.add(free_index[unit.nodes[i]], free_index[unit.nodes[j]], whole * of_units[k] * second[i][j]);
+        hessian.add(free_index[unit.nodes[i]], free_index[unit.nodes[j]],
+                    cross_matrix(whole * of_units[k] * second[i][j]));
   }
   std::vector<Eigen::Vector3d> by_node;
   for (const Column& column : pressures.columns) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "tensegric/rank_update.hpp"
+
 namespace tensegric_fit::tensegric {
 namespace {
 
@@ -189,6 +191,7 @@ Eigen::MatrixXd FrontFactor::assemble(const Front& front, const NodeMatrix& matr
 
 bool FrontFactor::eliminate(Front& front, Eigen::MatrixXd& dense) {
   const Eigen::Index width = 3 * front.width(), size = dense.rows();
+  Eigen::MatrixXd scaled, below;
   for (Eigen::Index p = 0; p < width; p += kPanel) {
     const Eigen::Index end = std::min(p + kPanel, width), rest = size - end;
     for (Eigen::Index j = p; j < end; ++j) {
@@ -200,12 +203,12 @@ bool FrontFactor::eliminate(Front& front, Eigen::MatrixXd& dense) {
       dense.col(j).segment(j + 1, end - j - 1) /= pivot;
     }
     if (rest == 0) continue;
-    auto below = dense.block(end, p, rest, end - p);
     const auto corner = dense.block(p, p, end - p, end - p);
-    corner.triangularView<Eigen::UnitLower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
-    const Eigen::MatrixXd scaled = below;  // L D
+    scaled = dense.block(end, p, rest, end - p);  // L D
+    corner.triangularView<Eigen::UnitLower>().transpose().solveInPlace<Eigen::OnTheRight>(scaled);
     below = scaled * pivots_.segment(3 * front.first + p, end - p).cwiseInverse().asDiagonal();
-    dense.bottomRightCorner(rest, rest).triangularView<Eigen::Lower>() -= below * scaled.transpose();
+    dense.block(end, p, rest, end - p) = below;
+    subtract_product(below, scaled, dense.bottomRightCorner(rest, rest));
   }
   front.factor = dense.leftCols(width);
   return true;

@@ -2,12 +2,9 @@
 
 #include <Eigen/Geometry>
 
-#include "tensegric/node_matrix.hpp"
-
 namespace tensegric_fit::tensegric {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // The unit's surface, oriented outward: with weight 1 its two triangles, with 1/2 both foldings of each side.
@@ -69,13 +66,13 @@ Corners volume_gradient(const Corners& p) {
 
 VolumeHessian volume_hessian(const Corners& p) {
   VolumeHessian second;
-  for (auto& row : second) row.fill(Matrix3d::Zero());
-  // By a, then b, of a . (b x c): -cross_matrix(c).
+  for (auto& row : second) row.fill(Vector3d::Zero());
+  // By a, then b, of a . (b x c): v -> -c x v.
   const auto add = [&second](int a, int b, const Vector3d& by) {
     if (a > b)
-      second[a][b] -= cross_matrix(by);
+      second[a][b] -= by;
     else
-      second[b][a] += cross_matrix(by);
+      second[b][a] += by;
   };
   for (const Face& f : kFaces) {
     add(f.a, f.b, f.weight / 6 * p[f.c]);

@@ -15,8 +15,8 @@ inline constexpr double kFlatUnit = 1e-3;
 
 /// The upper triangle's, then those below them.
 using Corners = std::array<Eigen::Vector3d, 6>;
-/// Second derivatives by two corners, the lower triangle; the others are zero.
-using VolumeHessian = std::array<std::array<Eigen::Matrix3d, 6>, 6>;
+/// Second derivatives by corner i, then by corner j < i: cross_matrix of [i][j]. A corner's own are zero.
+using VolumeHessian = std::array<std::array<Eigen::Vector3d, 6>, 6>;
 
 Eigen::Vector3d centre_of(const std::array<int, 6>& nodes, const Positions& x);
 

@@ -126,8 +126,8 @@ void add_shear_hessian(const std::vector<UnitShear>& units, const Positions& x,
     const double of_volume = 2 / (unit.rest * unit.rest);
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j <= i; ++j) {
-        Matrix3d block =
-            of_volume * by_node[i] * by_node[j].transpose() + whole * shear.by_volume * second[i][j];
+        Matrix3d block = of_volume * by_node[i] * by_node[j].transpose();
+        if (i != j) block += cross_matrix(whole * shear.by_volume * second[i][j]);
         block.diagonal().array() += 2 * unit.form(i, j);
         block = shear.times * block + unit.stiffening / 3 * shear.by_node[i] * shear.by_node[j].transpose();
         hessian.add(free_index[unit.nodes[i]], free_index[unit.nodes[j]], unit.stiffness / 2 * block);
