@@ -126,10 +126,7 @@ void add_pressure_hessian(const Pressures& pressures, const Positions& x, const 
     for (std::size_t k = 0; k < column.units.size(); ++k)
       for (int i = 0; i < 6; ++i)
         if (column.at_node[k][i] >= 0) by_node[column.at_node[k][i]] += gradients[column.units[k]][i];
-    const double factor = kShare * kShare * column.stiffness / column.rest;
-    for (std::size_t i = 0; i < by_node.size(); ++i)
-      for (std::size_t j = 0; j <= i; ++j)
-        hessian.add(column.nodes[i], column.nodes[j], factor * by_node[i] * by_node[j].transpose());
+    hessian.add_outer(column.nodes, by_node, kShare * kShare * column.stiffness / column.rest);
   }
 }
 

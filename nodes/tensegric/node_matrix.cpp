@@ -48,6 +48,27 @@ void NodeMatrix::add(int row, int column, const Eigen::Matrix3d& block) {
     for (int i = 0; i < 3; ++i) values[columns[3 * column + j] + (3 - j) + 3 * rank + i] += block(i, j);
 }
 
+void NodeMatrix::add_outer(const std::vector<int>& nodes, const std::vector<Eigen::Vector3d>& at_nodes,
+                           double factor) {
+  double* values = lower_.valuePtr();
+  const int* columns = lower_.outerIndexPtr();
+  for (std::size_t b = 0; b < nodes.size(); ++b) {
+    const int column = nodes[b];
+    const Eigen::Vector3d by_column = factor * at_nodes[b];
+    for (int j = 0; j < 3; ++j)
+      for (int i = j; i < 3; ++i) values[columns[3 * column + j] + i - j] += at_nodes[b][i] * by_column[j];
+    auto row = rows_.begin() + start_[column];
+    const auto first = row, last = rows_.begin() + start_[column + 1];
+    for (std::size_t a = b + 1; a < nodes.size(); ++a) {
+      row = std::lower_bound(row, last, nodes[a]);
+      const int rank = static_cast<int>(row - first);
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i)
+          values[columns[3 * column + j] + (3 - j) + 3 * rank + i] += at_nodes[a][i] * by_column[j];
+    }
+  }
+}
+
 Eigen::Matrix3d NodeMatrix::block(int column, int rank) const {
   Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
   for (int j = 0; j < 3; ++j) {

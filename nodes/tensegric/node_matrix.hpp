@@ -26,6 +26,8 @@ class NodeMatrix {
   /// Adds `block` at (row, column) and, off the diagonal, its transpose at (column, row). A negative index (a
   /// fixed node) adds nothing. \pre the pair is in the pattern
   void add(int row, int column, const Eigen::Matrix3d& block);
+  /// Adds factor v v^T, where v has `at_nodes` at `nodes`, which ascend. \pre all pairs are in the pattern
+  void add_outer(const std::vector<int>& nodes, const std::vector<Eigen::Vector3d>& at_nodes, double factor);
   void add_to_diagonal(double value);
   int nodes() const { return static_cast<int>(start_.size()) - 1; }
   /// The nodes below the diagonal in a block column, ascending.

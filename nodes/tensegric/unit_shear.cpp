@@ -37,19 +37,25 @@ Corners corners_of(const UnitShear& unit, const Positions& x) {
 // q, its first derivative, and how much stiffer the tissue is.
 struct Shear {
   double q;
-  double by_volume;  // of the terms in J
+  double by_volume;   // of the terms in J
+  Corners of_volume;  // derivative of the volume
   Corners by_node;
   double times;
 };
 
 Shear shear_of(const UnitShear& unit, const Corners& corners) {
-  const double strain = unit_volume(corners) / unit.rest - 1;
-  Shear shear{-3 - 2 * strain + strain * strain, 2 * (strain - 1) / unit.rest, volume_gradient(corners), 1};
+  Shear shear;
+  shear.of_volume = volume_gradient(corners);
+  double volume = 0;  // a form of the third degree
+  for (int i = 0; i < 6; ++i) volume += corners[i].dot(shear.of_volume[i]) / 3;
+  const double strain = volume / unit.rest - 1;
+  shear.q = -3 - 2 * strain + strain * strain;
+  shear.by_volume = 2 * (strain - 1) / unit.rest;
   for (int i = 0; i < 6; ++i) {
     Vector3d sum = Vector3d::Zero();
     for (int j = 0; j < 6; ++j) sum += unit.form(i, j) * corners[j];
     shear.q += corners[i].dot(sum);
-    shear.by_node[i] = shear.by_volume * shear.by_node[i] + 2 * sum;
+    shear.by_node[i] = shear.by_volume * shear.of_volume[i] + 2 * sum;
   }
   shear.times = 1 + unit.stiffening / 3 * shear.q;
   return shear;
@@ -120,13 +126,13 @@ void add_shear_gradient(const std::vector<UnitShear>& units, const Positions& x,
 void add_shear_hessian(const std::vector<UnitShear>& units, const Positions& x,
                        const std::vector<int>& free_index, NodeMatrix& hessian, double whole) {
   for (const UnitShear& unit : units) {
-    const Corners corners = corners_of(unit, x), by_node = volume_gradient(corners);
+    const Corners corners = corners_of(unit, x);
     const Shear shear = shear_of(unit, corners);
     const VolumeHessian second = volume_hessian(corners);
     const double of_volume = 2 / (unit.rest * unit.rest);
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j <= i; ++j) {
-        Matrix3d block = of_volume * by_node[i] * by_node[j].transpose();
+        Matrix3d block = of_volume * shear.of_volume[i] * shear.of_volume[j].transpose();
         if (i != j) block += cross_matrix(whole * shear.by_volume * second[i][j]);
         block.diagonal().array() += 2 * unit.form(i, j);
         block = shear.times * block + unit.stiffening / 3 * shear.by_node[i] * shear.by_node[j].transpose();
