@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Parameters by node, as the launch files load them: is each name that of a node? roslaunch runs this before it starts anything, and ends where
+"""Parameters by node, as the launch files load them: is each name that of a node, and is each there once? roslaunch runs this before it starts anything, and ends where
 it fails. What a node is given is the node's own to check.
 
 Usage: check_config.py FILE.yaml"""
@@ -22,10 +22,14 @@ class EachKeyOnce(yaml.SafeLoader):
     """Of two sections with one name YAML keeps the last, without a word."""
 
     def construct_mapping(self, node, deep=False):
-        keys = [self.construct_object(key, deep=True) for key, _ in node.value]
-        for key in keys:
-            if keys.count(key) > 1:
-                raise yaml.constructor.ConstructorError(None, None, f"'{key}' stands there twice", node.start_mark)
+        seen = set()
+        for name, _ in node.value:
+            if name.tag == "tag:yaml.org,2002:merge":
+                continue
+            key = self.construct_object(name, deep=True)
+            if key in seen:
+                raise yaml.constructor.ConstructorError(None, None, f"'{key}' stands there twice", name.start_mark)
+            seen.add(key)
         return super().construct_mapping(node, deep)
 
 

@@ -29,7 +29,8 @@ class CheckConfig(unittest.TestCase):
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_sound_files(self):
-        for text in ("reconstruction: {body_triangles: 6000}\n", "reconstruction/body_triangles: 6000\n", "/reconstruction: {body_triangles: 6000}\n"):
+        merged = "reconstruction: &same {body_triangles: 6000}\ntffd: {<<: *same}\n"
+        for text in ("reconstruction: {body_triangles: 6000}\n", "reconstruction/body_triangles: 6000\n", "/reconstruction: {body_triangles: 6000}\n", merged):
             with self.subTest(text):
                 fine, words = loaded(text)
                 self.assertTrue(fine, words)

@@ -25,7 +25,8 @@ constexpr double kShape = 3.3;  // women 2.9 at most, a pole that misfits by 0.0
 constexpr double kUnexplained = 0.25;  // of the surface; women 0.02 at most, things that are refused by it
                                        // alone 0.33 at least, two persons 0.5
 constexpr double kShortest = 1.2, kTallest = 2.2;  // m, of grown-up people
-constexpr double kUnusual = 1.6;                   // women of the model's own kind 1.25 at most
+constexpr double kOfItsKind = 1.25;                // deviations: women of the model's own kind, at most
+constexpr double kUnusual = 1.6;
 
 constexpr double kOff = 0.035;         // m from the skin: more than the model misses women by
 constexpr int kJudgedSamples = 6000;   // that are asked: 17 mm apart on a woman
@@ -179,9 +180,10 @@ std::vector<char> recognise(RegisteredBody& body, const Samples& samples) {
   body.note.clear();
   if (body.evidence.shape > kUnusual)
     body.note = fmt::format(
-        "an unusual shape for the body model: {:.1f} deviations from its mean, where women that it was "
-        "tried on have 1.25 at most; clothes, padding or a man's body can be the reason",
-        body.evidence.shape);
+        "an unusual shape for the body model: {:.1f} deviations from its mean, where women of its own kind "
+        "have "
+        "{} at most; clothes, padding, a man or another make of body can be the reason",
+        body.evidence.shape, kOfItsKind);
   return is_of_thing;
 }
 

@@ -34,7 +34,10 @@ constexpr double kStray = 0.005;
 constexpr double kDeepest = 0.36;  // share of a stature: a whole person is less deep, a trunk deeper
 constexpr double kUpright = 0.5, kAsLong = 0.8;  // shares of the longest extent
 constexpr double kClearly = 1.25;                // how much faster the head's end widens
-constexpr double kBeside = 0.015;                // share of the height: parts farther apart do not touch
+constexpr double kBeside =
+    0.015;  // share of the height, edge of a cell: what is two apart is not joined; legs are 0.05 apart
+constexpr double kAside = 2;          // of the height: what lies farther aside is stray
+constexpr std::size_t kOutline = 10;  // points, at least
 
 int axis_of(const std::string& up) {
   return static_cast<int>(up.back() - 'x');
@@ -97,11 +100,13 @@ void check_given(const std::string& unit, double metres) {
 }
 
 /// Seen along `axis`, those of `points` that hang together with `end`: not a second leg beside the end of the
-/// other one.
-Points together_with(const Points& end, const Points& points, int axis, double cell) {
+/// other one. All of them where hardly any do.
+Points together_with(const Points& end, const Points& points, const Spread& spread, int axis) {
+  const double cell = kBeside * spread.extent[axis];
   const auto cell_of = [&](const Vector3d& p) {
-    return std::pair(static_cast<int>(std::floor(p[(axis + 1) % 3] / cell)),
-                     static_cast<int>(std::floor(p[(axis + 2) % 3] / cell)));
+    const Vector3d from_low = (p - spread.low) / cell;
+    return std::pair(static_cast<int>(std::floor(from_low[(axis + 1) % 3])),
+                     static_cast<int>(std::floor(from_low[(axis + 2) % 3])));
   };
   std::map<std::pair<int, int>, Points> open;
   for (const Vector3d& p : points) open[cell_of(p)].push_back(p);
@@ -120,11 +125,11 @@ Points together_with(const Points& end, const Points& points, int axis, double c
         reached.emplace_back(i + di, j + dj);
       }
   }
-  return found;
+  return found.size() < kOutline ? points : found;
 }
 
 double width_of(const Points& points, int axis) {
-  if (points.size() < 10) return 0;
+  if (points.size() < kOutline) return 0;
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& p : points) mean += p / static_cast<double>(points.size());
   double sum = 0;
@@ -142,17 +147,15 @@ double widening(const Points& points, const Spread& spread, int axis, bool from_
   const auto slab = [&](double near, double far) {
     Points between;
     for (const Vector3d& p : points) {
-      const double share = (p[axis] - spread.low[axis]) / spread.extent[axis];
-      const double depth = from_top ? 1 - share : share;
-      if (depth >= near && depth <= far) between.push_back(p);
+      const Vector3d shares = (p - spread.low) / spread.extent[axis];
+      const double depth = from_top ? 1 - shares[axis] : shares[axis];
+      if (depth >= near && depth <= far && shares.cwiseAbs().maxCoeff() <= kAside) between.push_back(p);
     }
     return between;
   };
   const Points end = slab(0.04, 0.10);
   const double width = width_of(end, axis);
-  if (width == 0) return 0;
-  const Points below = together_with(end, slab(0.17, 0.23), axis, kBeside * spread.extent[axis]);
-  return width_of(below, axis) / width;
+  return width == 0 ? 0 : width_of(together_with(end, slab(0.17, 0.23), spread, axis), axis) / width;
 }
 
 Refusal two_axes(const std::string& a, const std::string& b) {
@@ -172,7 +175,7 @@ std::string up_of(const Points& points, const Spread& spread, const Kind& kind, 
       ends.emplace_back(widening(points, spread, axis, up[0] != '-'), up);
   }
   std::stable_sort(ends.begin(), ends.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  if (ends[0].first >= kClearly * ends[1].first) return ends[0].second;
+  if (ends[0].first > 0 && ends[0].first >= kClearly * ends[1].first) return ends[0].second;
   for (const auto& end : ends)
     if (end.second == kind.usual_up) return kind.usual_up;
   throw two_axes(ends[0].second, ends[1].second);

@@ -37,7 +37,7 @@ std::vector<std::pair<int, int>> coupled_nodes(const Problem& problem,
   };
   for (const UnitVolume& unit : problem.units) couple_all(unit.nodes);
   for (const UnitShear& unit : problem.shears) couple_all(unit.nodes);
-  for (const Column& column : problem.pressures.columns)
+  for (const Column& column : problem.columns.columns)
     for (std::size_t i = 1; i < column.nodes.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) pairs.emplace_back(column.nodes[i], column.nodes[j]);
   for (const SkinTriangle& one : problem.skin)
@@ -102,7 +102,7 @@ KktResidual Kkt::defect(const Balance& at, const Load& load) const {
   result.gradient = result.jacobian * multipliers;
   add_member_gradient(problem_.model, at.x, problem_.free_index, result.gradient);
   add_fold_gradient(problem_.units, at.x, problem_.free_index, result.gradient);
-  add_pressure_gradient(problem_.pressures, at.x, problem_.free_index, result.gradient);
+  add_pressure_gradient(problem_.columns, at.x, problem_.free_index, result.gradient);
   add_shear_gradient(problem_.shears, at.x, problem_.free_index, result.gradient);
   add_skin_gradient(problem_.skin, at.x, problem_.free_index, result.gradient);
   for (std::size_t i = 0; i < problem_.model.control.outer.size(); ++i)
@@ -113,7 +113,7 @@ KktResidual Kkt::defect(const Balance& at, const Load& load) const {
 
 double Kkt::energy(const Balance& at, const Load& load) const {
   double energy = member_energy(problem_.model, at.x) + fold_energy(problem_.units, at.x) +
-                  pressure_energy(problem_.pressures, at.x) + shear_energy(problem_.shears, at.x) +
+                  pressure_energy(problem_.columns, at.x) + shear_energy(problem_.shears, at.x) +
                   skin_energy(problem_.skin, at.x);
   for (std::size_t i = 0; i < problem_.model.control.outer.size(); ++i)
     if (problem_.free_index[i] >= 0) energy -= load.gravity.dot(at.x[i] - problem_.rest[i]);
@@ -132,7 +132,7 @@ void Kkt::assemble(const Balance& at, const std::vector<StraightPush>& lines, do
   hessian_.clear();
   add_member_hessian(problem_.model, at.x, problem_.free_index, hessian_, whole);
   add_fold_hessian(problem_.units, at.x, lines, problem_.free_index, hessian_, whole);
-  add_pressure_hessian(problem_.pressures, at.x, problem_.free_index, hessian_, whole);
+  add_pressure_hessian(problem_.columns, at.x, problem_.free_index, hessian_, whole);
   add_shear_hessian(problem_.shears, at.x, problem_.free_index, hessian_, whole);
   add_skin_hessian(problem_.skin, at.x, problem_.free_index, hessian_, whole);
   for (int b = 0; b < bands_; ++b) curvatures_[b].add(at.x, std::max(0.0, at.tensions[b]), hessian_);

@@ -120,7 +120,7 @@ Problem lay_garment(const Model& model, const Garment& garment, const SolverOpti
     band.straight = straight_way(model, carried, at_end);
   }
   problem.units = unit_volumes(model, problem.free_index);
-  problem.pressures = column_pressures(model, problem.free_index);
+  problem.columns = columns_of(model, problem.free_index);
   problem.shears = unit_shears(model, problem.free_index);
   problem.skin = skin_triangles(model, problem.free_index);
   for (std::size_t r = 0; r < model.control.regions.size(); ++r) {

@@ -23,7 +23,7 @@ struct Problem {
   std::vector<Band> bands;
   std::vector<RegionVolume> volumes;
   std::vector<UnitVolume> units;
-  Pressures pressures;
+  Columns columns;
   std::vector<UnitShear> shears;
   std::vector<SkinTriangle> skin;
   double force_scale;  ///< mean tension of the tensile parts at rest

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-// A function is made for several processors, and the one for this processor is taken when the library is
-// loaded: not with clang, which fuzz targets are built with, nor under sanitizers, which are not ready by
-// then.
+// The compiler makes two versions, and the loader takes the one that fits the processor: not with clang,
+// which fuzz targets are built with, nor under sanitizers, which are not ready by then.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define TENSEGRIC_FIT_FOR_EACH_PROCESSOR __attribute__((target_clones("avx2", "default")))
@@ -17,15 +16,15 @@ namespace {
 
 // Four numbers side by side, wherever they lie.
 using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
-constexpr Eigen::Index kRows = 8, kColumns = 4;  // of a tile: its sums stay in registers
+constexpr Eigen::Index kRows = 8, kColumns = 4;  // of a tile, whose sums stay in registers with AVX2
 
-struct Columns {
+struct Panel {
   const double* data;
   Eigen::Index stride;
 };
 
 TENSEGRIC_FIT_FOR_EACH_PROCESSOR
-void subtract(const Columns a, const Columns b, Eigen::Index terms, Eigen::Index rows, double* lower,
+void subtract(const Panel a, const Panel b, Eigen::Index terms, Eigen::Index rows, double* lower,
               Eigen::Index stride) {
   for (Eigen::Index i = 0; i < rows; i += kRows) {
     const Eigen::Index columns = std::min(i + kRows, rows);

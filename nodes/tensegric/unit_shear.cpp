@@ -46,7 +46,7 @@ struct Shear {
 Shear shear_of(const UnitShear& unit, const Corners& corners) {
   Shear shear;
   shear.of_volume = volume_gradient(corners);
-  double volume = 0;  // a form of the third degree
+  double volume = 0;  // homogeneous of degree 3: a third of x . gradient
   for (int i = 0; i < 6; ++i) volume += corners[i].dot(shear.of_volume[i]) / 3;
   const double strain = volume / unit.rest - 1;
   shear.q = -3 - 2 * strain + strain * strain;

@@ -25,11 +25,11 @@ struct LineOnBody {
 };
 
 /// Fibres across the band's width, on the skin of `body` at rest, carried by the binding's nodes as the skin
-/// is; nothing carries an end that is held. Their shares are even over the width. The first is the rightmost
-/// as one goes along the line with the outside up. `body` is the one that was
-/// bound. \pre a cup has a width
-/// \throw Refusal bad_garment: a point farther than 30 mm from the skin, or a line without length;
-/// bad_option: a binding in the paper's setting, which has no constant M
+/// is; nothing carries an end that is held, and points averaged with it, or on a span from it, hang on it in
+/// part. Their shares are even over the width. The first is the rightmost as one goes along the line with the
+/// outside up. `body` is the one that was bound. \pre a cup has a width \throw Refusal bad_garment: a point
+/// farther than 30 mm from the skin, or a line without length; bad_option: a binding in the paper's setting,
+/// which has no constant M
 std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::TriangleMesh& body,
                                       const Binding& binding);
 

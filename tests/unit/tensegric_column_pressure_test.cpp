@@ -39,9 +39,9 @@ ModelOptions stiff_tissue(double volume_stiffness) {
   return options;
 }
 
-NodePairs pairs_of(const Pressures& pressures) {
+NodePairs pairs_of(const Columns& columns) {
   NodePairs pairs;
-  for (const Column& column : pressures.columns)
+  for (const Column& column : columns.columns)
     for (std::size_t i = 1; i < column.nodes.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) pairs.emplace_back(column.nodes[i], column.nodes[j]);
   return pairs;
@@ -52,9 +52,9 @@ TEST(ColumnPressure, DerivativesAreThoseOfItsEnergy) {
     ModelOptions options = stiff_tissue(3);
     options.layers = layers;
     const Model model = build_model(bust_mesh(), options);
-    const Pressures pressures = column_pressures(model, model.free_index());
-    ASSERT_GT(pressures.columns.size(), 60U * layers);
-    expect_derivatives(model, pressures, pairs_of(pressures), pressure_energy, add_pressure_gradient,
+    const Columns columns = columns_of(model, model.free_index());
+    ASSERT_GT(columns.columns.size(), 60U * layers);
+    expect_derivatives(model, columns, pairs_of(columns), pressure_energy, add_pressure_gradient,
                        [](const auto& of, const Positions& x, const std::vector<int>& index,
                           NodeMatrix& hessian) { add_pressure_hessian(of, x, index, hessian); });
   }
@@ -82,18 +82,18 @@ std::vector<int> every_node_free(const Model& model) {
 // Where all tissue swells alike the energy is 1/2 K V e^2, as that of units one by one is.
 TEST(ColumnPressure, IsThatOfTheWholeVolumeWhereTissueSwellsAlike) {
   const Model model = flat_sheet();
-  const Pressures pressures = column_pressures(model, every_node_free(model));
+  const Columns columns = columns_of(model, every_node_free(model));
   Positions x = model.rest_positions();
   for (Vector3d& p : x) p.z() *= 1.1;
   const double volume = 0.3 * 0.18 * 0.02;
-  EXPECT_NEAR(pressure_energy(pressures, x), 5 * volume * 0.1 * 0.1 / 2, 1e-12 * volume);
+  EXPECT_NEAR(pressure_energy(columns, x), 5 * volume * 0.1 * 0.1 / 2, 1e-12 * volume);
 }
 
-// One unit swells, the next one shrinks by as much: columns that hold both keep their volume, so that this
-// costs far less than twice what one unit would alone.
+// One column of nodes moves along the sheet: units on one side swell, those on the other shrink, and columns
+// that hold both keep their volume. That costs less than half of what it would unit by unit.
 TEST(ColumnPressure, LetsUnitsOfOneColumnExchangeVolume) {
   const Model model = flat_sheet();
-  const Pressures pressures = column_pressures(model, every_node_free(model));
+  const Columns columns = columns_of(model, every_node_free(model));
   const int middle = 3 * 11 + 5;  // of the sheet's 11 by 7 nodes
   Positions x = model.rest_positions();
   x[middle] += Vector3d(0.003, 0, 0);
@@ -106,7 +106,7 @@ TEST(ColumnPressure, LetsUnitsOfOneColumnExchangeVolume) {
     by_unit += 5 * before * (after / before - 1) * (after / before - 1) / 2;
   }
   EXPECT_GT(by_unit, 0);
-  EXPECT_LT(pressure_energy(pressures, x), by_unit / 2);
+  EXPECT_LT(pressure_energy(columns, x), by_unit / 2);
 }
 
 // A unit that leans so far that it is nearly flat resists nothing: where it holds less than a thousandth of
@@ -120,7 +120,7 @@ TEST(ColumnPressure, NearlyFlatUnitsHaveNone) {
       model.control.inner[i] =
           model.control.outer[i] - Vector3d(std::sqrt(kDepth * kDepth - height * height), 0, height);
     }
-    const std::size_t moving = column_pressures(model, every_node_free(model)).units.size();
+    const std::size_t moving = columns_of(model, every_node_free(model)).units.size();
     EXPECT_EQ(moving, share > 1e-3 ? model.control.triangles.size() : 0) << share;
   }
 }
@@ -147,7 +147,7 @@ double volume_change(double volume_stiffness) {
   return std::sqrt(sum / static_cast<double>(model.control.triangles.size()));
 }
 
-TEST(ColumnPressure, KeepsUnitsNearTheirOwnVolumes) {
+TEST(ColumnPressure, KeepsVolumesNearWhatTheyWere) {
   const double loose = volume_change(0), firm = volume_change(1), firmer = volume_change(10);
   EXPECT_LT(firm, 0.9 * loose);
   EXPECT_LT(firmer, 0.7 * firm);

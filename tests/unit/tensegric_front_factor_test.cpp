@@ -7,6 +7,11 @@
 #include <Eigen/Eigenvalues>
 #include <limits>
 #include <random>
+#include <utility>
+#include <vector>
+
+#include "tensegric/node_matrix.hpp"
+#include "tensegric/rank_update.hpp"
 
 namespace tensegric_fit::tensegric {
 namespace {
@@ -55,6 +60,43 @@ void fill(NodeMatrix& matrix, const Pairs& pairs, double share_negative, Lot& lo
 
 Eigen::MatrixXd dense(const NodeMatrix& matrix) {
   return Eigen::MatrixXd(matrix.lower()).selfadjointView<Eigen::Lower>();
+}
+
+// Whatever version the processor gets: to the bit what one term after the other gives.
+TEST(RankUpdate, IsTheSumInOrder) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0, 1);
+  const auto any = [&](Eigen::Index rows, Eigen::Index columns) {
+    return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(
+        rows, columns, [&](Eigen::Index, Eigen::Index) { return normal(random); }));
+  };
+  for (Eigen::Index rows = 1; rows <= 27; ++rows)
+    for (const Eigen::Index terms : {1, 5, 48}) {
+      const Eigen::MatrixXd a = any(rows, terms), b = any(rows, terms), all = any(rows + 3, rows + 2);
+      Eigen::MatrixXd updated = all;
+      subtract_product(a, b, updated.bottomRightCorner(rows, rows));
+      EXPECT_EQ(updated.topRows(3), all.topRows(3)) << "beside it";
+      EXPECT_EQ(updated.leftCols(2), all.leftCols(2)) << "beside it";
+      for (Eigen::Index j = 0; j < rows; ++j)
+        for (Eigen::Index i = j; i < rows; ++i) {
+          double sum = 0;
+          for (Eigen::Index k = 0; k < terms; ++k) sum += a(i, k) * b(j, k);
+          EXPECT_EQ(updated(3 + i, 2 + j), all(3 + i, 2 + j) - sum) << rows << " " << terms;
+        }
+    }
+}
+
+TEST(NodeMatrix, AddsAnOuterProductBlockByBlock) {
+  const std::vector<std::pair<int, int>> pairs = {{0, 1}, {0, 3}, {1, 3}, {1, 2}, {3, 4}};
+  NodeMatrix whole(5, pairs), by_block(5, pairs);
+  const std::vector<int> nodes = {0, 1, 3};
+  const std::vector<Eigen::Vector3d> at_nodes = {{1, -2, 3}, {0.5, 4, -1}, {-3, 0.25, 2}};
+  whole.add_outer(nodes, at_nodes, 0.7);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t j = 0; j <= i; ++j)
+      by_block.add(nodes[i], nodes[j], 0.7 * at_nodes[i] * at_nodes[j].transpose());
+  EXPECT_LE((Eigen::MatrixXd(whole.lower()) - Eigen::MatrixXd(by_block.lower())).norm(), 1e-14);
+  EXPECT_GT(Eigen::MatrixXd(whole.lower()).norm(), 1);
 }
 
 TEST(FrontFactor, SolvesAsDenseAlgebraDoes) {
