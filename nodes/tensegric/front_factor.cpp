@@ -204,10 +204,12 @@ bool FrontFactor::eliminate(Front& front, Eigen::MatrixXd& dense) {
     }
     if (rest == 0) continue;
     const auto corner = dense.block(p, p, end - p, end - p);
-    scaled = dense.block(end, p, rest, end - p);  // L D
+    const Eigen::Index padded = (rest + kTileRows - 1) / kTileRows * kTileRows;
+    scaled.setZero(padded, end - p);  // L D
+    scaled.topRows(rest) = dense.block(end, p, rest, end - p);
     corner.triangularView<Eigen::UnitLower>().transpose().solveInPlace<Eigen::OnTheRight>(scaled);
     below = scaled * pivots_.segment(3 * front.first + p, end - p).cwiseInverse().asDiagonal();
-    dense.block(end, p, rest, end - p) = below;
+    dense.block(end, p, rest, end - p) = below.topRows(rest);
     subtract_product(below, scaled, dense.bottomRightCorner(rest, rest));
   }
   front.factor = dense.leftCols(width);

@@ -16,7 +16,7 @@ namespace {
 
 // Four numbers side by side, wherever they lie.
 using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
-constexpr Eigen::Index kRows = 8, kColumns = 4;  // of a tile, whose sums stay in registers with AVX2
+constexpr Eigen::Index kColumns = 4;  // of a tile, whose sums stay in registers with AVX2
 
 struct Panel {
   const double* data;
@@ -26,20 +26,9 @@ struct Panel {
 TENSEGRIC_FIT_FOR_EACH_PROCESSOR
 void subtract(const Panel a, const Panel b, Eigen::Index terms, Eigen::Index rows, double* lower,
               Eigen::Index stride) {
-  for (Eigen::Index i = 0; i < rows; i += kRows) {
-    const Eigen::Index columns = std::min(i + kRows, rows);
+  for (Eigen::Index i = 0; i < rows; i += kTileRows) {
+    const Eigen::Index columns = std::min(i + kTileRows, rows);
     for (Eigen::Index j = 0; j < columns; j += kColumns) {
-      double* tile = lower + i + j * stride;
-      if (i + kRows > rows || j + kColumns > rows) {  // at the edge
-        for (Eigen::Index c = 0; c < std::min(kColumns, rows - j); ++c)
-          for (Eigen::Index r = 0; r < std::min(kRows, rows - i); ++r) {
-            double sum = 0;
-            for (Eigen::Index k = 0; k < terms; ++k)
-              sum += a.data[i + r + k * a.stride] * b.data[j + c + k * b.stride];
-            tile[r + c * stride] -= sum;
-          }
-        continue;
-      }
       Four sums[kColumns][2] = {};
       for (Eigen::Index k = 0; k < terms; ++k) {
         const double* column = a.data + i + k * a.stride;
@@ -51,10 +40,17 @@ void subtract(const Panel a, const Panel b, Eigen::Index terms, Eigen::Index row
           sums[c][1] += below * row[c];
         }
       }
-      for (Eigen::Index c = 0; c < kColumns; ++c) {
-        *reinterpret_cast<Four*>(tile + c * stride) -= sums[c][0];
-        *reinterpret_cast<Four*>(tile + c * stride + 4) -= sums[c][1];
+      double* tile = lower + i + j * stride;
+      if (i + kTileRows <= rows && j + kColumns <= rows) {
+        for (Eigen::Index c = 0; c < kColumns; ++c) {
+          *reinterpret_cast<Four*>(tile + c * stride) -= sums[c][0];
+          *reinterpret_cast<Four*>(tile + c * stride + 4) -= sums[c][1];
+        }
+        continue;
       }
+      for (Eigen::Index c = 0; c < std::min(kColumns, rows - j); ++c)
+        for (Eigen::Index r = 0; r < std::min(kTileRows, rows - i); ++r)
+          tile[r + c * stride] -= sums[c][r / 4][r % 4];
     }
   }
 }

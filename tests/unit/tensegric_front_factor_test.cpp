@@ -72,7 +72,8 @@ TEST(RankUpdate, IsTheSumInOrder) {
   };
   for (Eigen::Index rows = 1; rows <= 27; ++rows)
     for (const Eigen::Index terms : {1, 5, 48}) {
-      const Eigen::MatrixXd a = any(rows, terms), b = any(rows, terms), all = any(rows + 3, rows + 2);
+      const Eigen::Index padded = (rows + kTileRows - 1) / kTileRows * kTileRows;
+      const Eigen::MatrixXd a = any(padded, terms), b = any(padded, terms), all = any(rows + 3, rows + 2);
       Eigen::MatrixXd updated = all;
       subtract_product(a, b, updated.bottomRightCorner(rows, rows));
       EXPECT_EQ(updated.topRows(3), all.topRows(3)) << "beside it";
