@@ -156,20 +156,41 @@ void FrontFactor::place_sources(const NodeMatrix& pattern) {
 }
 
 bool FrontFactor::factorise(const NodeMatrix& matrix) {
-  std::vector<Eigen::MatrixXd> updates(fronts_.size());
+  std::vector<std::vector<double>> updates(fronts_.size());
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    Eigen::MatrixXd dense = assemble(fronts_[f], matrix, updates);
+    Square dense = assemble(fronts_[f], matrix, updates);
     if (!eliminate(fronts_[f], dense)) return false;
     const Eigen::Index rest = 3 * static_cast<Eigen::Index>(fronts_[f].rows.size());
-    updates[f] = dense.bottomRightCorner(rest, rest);
+    updates[f] = spare(rest * rest);
+    Square(updates[f].data(), rest, rest) = dense.bottomRightCorner(rest, rest);
   }
   return true;
 }
 
-Eigen::MatrixXd FrontFactor::assemble(const Front& front, const NodeMatrix& matrix,
-                                      std::vector<Eigen::MatrixXd>& updates) {
+std::vector<double> FrontFactor::spare(Eigen::Index count) {
+  const auto needed = static_cast<std::size_t>(count);
+  std::vector<double> taken;
+  if (!spare_.empty()) {
+    // the smallest that is large enough, or else the largest
+    const auto better = [needed](const std::vector<double>& a, const std::vector<double>& b) {
+      const bool a_will_do = a.capacity() >= needed, b_will_do = b.capacity() >= needed;
+      return a_will_do != b_will_do ? a_will_do : (a.capacity() < b.capacity()) == a_will_do;
+    };
+    const auto best = std::min_element(spare_.begin(), spare_.end(), better);
+    taken = std::move(*best);
+    *best = std::move(spare_.back());
+    spare_.pop_back();
+  }
+  taken.resize(needed);
+  return taken;
+}
+
+FrontFactor::Square FrontFactor::assemble(const Front& front, const NodeMatrix& matrix,
+                                          std::vector<std::vector<double>>& updates) {
   const Eigen::Index size = 3 * (front.width() + static_cast<Eigen::Index>(front.rows.size()));
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
+  dense_.resize(std::max(dense_.size(), static_cast<std::size_t>(size * size)));
+  Square dense(dense_.data(), size, size);
+  dense.setZero();
   for (const Source& s : front.sources) {
     const Eigen::Matrix3d block = matrix.block(s.column, s.rank);
     dense.block<3, 3>(3 * s.to_row, 3 * s.to_column) =
@@ -180,18 +201,18 @@ Eigen::MatrixXd FrontFactor::assemble(const Front& front, const NodeMatrix& matr
     local_[front.rows[i]] = front.width() + static_cast<int>(i);
   for (int child : front.children) {
     const std::vector<int>& rows = fronts_[child].rows;
+    const auto count = 3 * static_cast<Eigen::Index>(rows.size());
+    const Square update(updates[child].data(), count, count);
     for (std::size_t b = 0; b < rows.size(); ++b)
       for (std::size_t a = b; a < rows.size(); ++a)
-        dense.block<3, 3>(3 * local_[rows[a]], 3 * local_[rows[b]]) +=
-            updates[child].block<3, 3>(3 * a, 3 * b);
-    updates[child].resize(0, 0);
+        dense.block<3, 3>(3 * local_[rows[a]], 3 * local_[rows[b]]) += update.block<3, 3>(3 * a, 3 * b);
+    spare_.push_back(std::move(updates[child]));
   }
   return dense;
 }
 
-bool FrontFactor::eliminate(Front& front, Eigen::MatrixXd& dense) {
+bool FrontFactor::eliminate(Front& front, Square& dense) {
   const Eigen::Index width = 3 * front.width(), size = dense.rows();
-  Eigen::MatrixXd scaled, below;
   for (Eigen::Index p = 0; p < width; p += kPanel) {
     const Eigen::Index end = std::min(p + kPanel, width), rest = size - end;
     for (Eigen::Index j = p; j < end; ++j) {
@@ -205,12 +226,12 @@ bool FrontFactor::eliminate(Front& front, Eigen::MatrixXd& dense) {
     if (rest == 0) continue;
     const auto corner = dense.block(p, p, end - p, end - p);
     const Eigen::Index padded = (rest + kTileRows - 1) / kTileRows * kTileRows;
-    scaled.setZero(padded, end - p);  // L D
-    scaled.topRows(rest) = dense.block(end, p, rest, end - p);
-    corner.triangularView<Eigen::UnitLower>().transpose().solveInPlace<Eigen::OnTheRight>(scaled);
-    below = scaled * pivots_.segment(3 * front.first + p, end - p).cwiseInverse().asDiagonal();
-    dense.block(end, p, rest, end - p) = below.topRows(rest);
-    subtract_product(below, scaled, dense.bottomRightCorner(rest, rest));
+    scaled_.setZero(padded, end - p);  // L D
+    scaled_.topRows(rest) = dense.block(end, p, rest, end - p);
+    corner.triangularView<Eigen::UnitLower>().transpose().solveInPlace<Eigen::OnTheRight>(scaled_);
+    below_ = scaled_ * pivots_.segment(3 * front.first + p, end - p).cwiseInverse().asDiagonal();
+    dense.block(end, p, rest, end - p) = below_.topRows(rest);
+    subtract_product(below_, scaled_, dense.bottomRightCorner(rest, rest));
   }
   front.factor = dense.leftCols(width);
   return true;

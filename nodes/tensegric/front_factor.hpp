@@ -44,14 +44,20 @@ class FrontFactor {
 
   void find_fronts(const std::vector<std::vector<int>>& columns, const std::vector<int>& parent);
   void place_sources(const NodeMatrix& pattern);
-  Eigen::MatrixXd assemble(const Front& front, const NodeMatrix& matrix,
-                           std::vector<Eigen::MatrixXd>& updates);
-  bool eliminate(Front& front, Eigen::MatrixXd& dense);
+  using Square = Eigen::Map<Eigen::MatrixXd>;
+  Square assemble(const Front& front, const NodeMatrix& matrix, std::vector<std::vector<double>>& updates);
+  bool eliminate(Front& front, Square& dense);
+  std::vector<double> spare(Eigen::Index count);
 
   std::vector<int> order_, rank_;  // old number by new, new by old
   std::vector<Front> fronts_;      // children before parents
   std::vector<int> local_;         // of each node in the front at hand
   Eigen::VectorXd pivots_;
+  // Memory of earlier fronts and factorisations, for the next: nodes give freed memory back to the system at
+  // once, and half of a solve went into getting it again.
+  std::vector<double> dense_;
+  std::vector<std::vector<double>> spare_;
+  Eigen::MatrixXd scaled_, below_;
 };
 
 }  // namespace tensegric_fit::tensegric
