@@ -25,8 +25,9 @@ constexpr double kShape = 3.3;  // women 2.9 at most, a pole that misfits by 0.0
 constexpr double kUnexplained = 0.25;  // of the surface; women 0.02 at most, things that are refused by it
                                        // alone 0.33 at least, two persons 0.5
 constexpr double kShortest = 1.2, kTallest = 2.2;  // m, of grown-up people
-constexpr double kOfItsKind = 1.25;                // deviations: women of the model's own kind, at most
-constexpr double kUnusual = 1.6;
+// Deviations (tests/body_model/recognise.py): women of the model's own kind have 1.24 at most; what is
+// clearly above gets a word and is measured all the same, so the limit need not be sharp.
+constexpr double kOfItsKind = 1.25, kUnusual = 1.6;
 
 constexpr double kOff = 0.035;         // m from the skin: more than the model misses women by
 constexpr int kJudgedSamples = 6000;   // that are asked: 17 mm apart on a woman

@@ -199,7 +199,7 @@ TEST_F(Slab, WhatATautBandBridgesIsNoPartOfItsMean) {
       for (const auto& [node, weight] : point.weights)
         if (std::abs(over.outer[static_cast<std::size_t>(node) % over.outer.size()].x()) < 0.01)
           middle += std::abs(weight);
-      EXPECT_LT(middle, 0.1) << "hangs on the hollow";
+      EXPECT_LT(middle, 0.1) << "hangs on the hollow";  // 0.009 at most as it is
     }
   }
 }
