@@ -192,9 +192,12 @@ FrontFactor::Square FrontFactor::assemble(const Front& front, const NodeMatrix& 
   Square dense(dense_.data(), size, size);
   dense.setZero();
   for (const Source& s : front.sources) {
-    const Eigen::Matrix3d block = matrix.block(s.column, s.rank);
-    dense.block<3, 3>(3 * s.to_row, 3 * s.to_column) =
-        s.transposed ? Eigen::Matrix3d(block.transpose()) : block;
+    const auto block = matrix.block(s.column, s.rank);
+    auto to = dense.block<3, 3>(3 * s.to_row, 3 * s.to_column);
+    if (s.transposed)
+      to = block.transpose();
+    else
+      to = block;
   }
   for (int j = front.first; j <= front.last; ++j) local_[j] = j - front.first;
   for (std::size_t i = 0; i < front.rows.size(); ++i)

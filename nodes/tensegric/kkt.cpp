@@ -144,12 +144,18 @@ void Kkt::assemble(const Balance& at, const std::vector<StraightPush>& lines, do
 // Factorises and forms the Schur complement; true where the
 // balance is a minimum under its conditions: by the law of inertia, where the matrix has as many negative
 // pivots as the complement has negative eigenvalues.
-bool Kkt::factorise(const Balance& at, const Load& load, const KktResidual& defect) {
+bool Kkt::factorise(const Balance& at, const Load& load, const KktResidual& defect,
+                    const Eigen::VectorXd& gradient) {
   usable_ = factor_.factorise(hessian_);
   ++factorisations_;
   if (!usable_) return false;
-  solved_ = factor_.solve(defect.jacobian);
   const int count = regions_ + bands_;
+  Eigen::MatrixXd right(gradient.size(), count + 1);
+  right.leftCols(count) = defect.jacobian;
+  right.col(count) = gradient;
+  solved_ = factor_.solve(right);
+  free_move_ = solved_.col(count);
+  solved_.conservativeResize(Eigen::NoChange, count);
   by_length_.setOnes(count);
   by_multiplier_.setZero(count);
   for (int b = 0; b < bands_; ++b) {
@@ -194,14 +200,14 @@ Step Kkt::step(const Balance& at, const Load& load, const KktResidual& defect, b
   Eigen::VectorXd gradient = defect.gradient;
   add_straight_difference(problem_.units, at.x, result.lines, problem_.free_index, gradient);
   assemble(at, result.lines, 1);
-  result.minimum = factorise(at, load, defect);
+  result.minimum = factorise(at, load, defect, gradient);
   if (!result.minimum && !(to_saddle && usable_)) {
     raise_ = std::max(kLeastRaise, raise_ / kRaiseChange);
     taken_back_ = std::max(kLeastTakenBack, taken_back_ / kTakenChange);
     for (int tries = 0; tries < kMostTries; ++tries) {
       assemble(at, result.lines, 1 - taken_back_);
       hessian_.add_to_diagonal(raise_ * spring(problem_.model.members.back()));
-      if (factorise(at, load, defect)) break;
+      if (factorise(at, load, defect, gradient)) break;
       raise_ *= kRaiseChange;
       taken_back_ = std::min(1.0, kTakenChange * taken_back_);
     }
@@ -210,16 +216,25 @@ Step Kkt::step(const Balance& at, const Load& load, const KktResidual& defect, b
     result.move.setConstant(defect.gradient.size(), std::numeric_limits<double>::quiet_NaN());
     return result;
   }
-  const Eigen::VectorXd free_move = factor_.solve(gradient);
-  const Eigen::VectorXd wanted =
-      defect.conditions - by_length_.asDiagonal() * (defect.jacobian.transpose() * free_move);
-  result.multipliers = schur_factor_.solve(wanted);
-  result.left_over = wanted - schur_ * result.multipliers;
-  result.move = -(free_move + solved_ * result.multipliers);
+  take_multipliers(defect, free_move_, result);
   result.push_change = pushes_after(problem_.units, at.x, result.lines, problem_.free_index, result.move);
   for (std::size_t k = 0; k < result.lines.size(); ++k)
     result.push_change[static_cast<Eigen::Index>(k)] -= result.lines[k].push;
   return result;
+}
+
+Step Kkt::step_again(const KktResidual& defect) const {
+  Step result;
+  take_multipliers(defect, factor_.solve(defect.gradient), result);
+  return result;
+}
+
+void Kkt::take_multipliers(const KktResidual& defect, const Eigen::VectorXd& free_move, Step& step) const {
+  const Eigen::VectorXd wanted =
+      defect.conditions - by_length_.asDiagonal() * (defect.jacobian.transpose() * free_move);
+  step.multipliers = schur_factor_.solve(wanted);
+  step.left_over = wanted - schur_ * step.multipliers;
+  step.move = -(free_move + solved_ * step.multipliers);
 }
 
 Eigen::VectorXd Kkt::correction(const Eigen::VectorXd& conditions) const {

@@ -71,6 +71,9 @@ class Kkt {
   /// is no step. With `foreseen` units about to fold push as `at` foresees it.
   Step step(const Balance& at, const Load& load, const KktResidual& defect, bool to_saddle, bool foreseen);
 
+  /// What remains to be done after a step, by the matrix of the last step: its lines and pushes are none.
+  Step step_again(const KktResidual& defect) const;
+
   /// A move of least effort that takes `conditions` to zero, by the matrix of the last step.
   Eigen::VectorXd correction(const Eigen::VectorXd& conditions) const;
 
@@ -88,7 +91,9 @@ class Kkt {
 
  private:
   void assemble(const Balance& at, const std::vector<StraightPush>& lines, double whole);
-  bool factorise(const Balance& at, const Load& load, const KktResidual& defect);
+  bool factorise(const Balance& at, const Load& load, const KktResidual& defect,
+                 const Eigen::VectorXd& gradient);
+  void take_multipliers(const KktResidual& defect, const Eigen::VectorXd& free_move, Step& step) const;
 
   const Problem& problem_;
   int regions_, bands_;
@@ -102,6 +107,7 @@ class Kkt {
   FrontFactor factor_;
   bool usable_ = false;                        // the last factorisation
   Eigen::MatrixXd solved_;                     // the conditions' gradients, solved for
+  Eigen::VectorXd free_move_;                  // the step's, solved for
   Eigen::VectorXd by_length_, by_multiplier_;  // each condition's derivatives
   Eigen::MatrixXd schur_;
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> schur_factor_;

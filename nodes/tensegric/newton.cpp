@@ -19,6 +19,9 @@ constexpr Tolerance kNearBalance{0.2, 1e-4, 1e-4};
 constexpr int kMostHoldChanges = 20, kMostHalvings = 14;
 constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();  // of the coordinates
 constexpr double kContradicted = 1e-6;  // of a neutral length: far above rounding
+constexpr int kMostFurtherSteps = 4;    // by one matrix; five and more were never worth it
+constexpr double kMostLeftOver =
+    0.5;  // of the residual, after a further step: else the matrix is too far off
 constexpr int kMostMends = 8;
 constexpr double kMended = 1e-12;     // relative, of volumes and lengths
 constexpr int kStepsBeyondLimit = 3;  // a tension may overshoot for a step or two
@@ -87,9 +90,10 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
       }
       if (within(defect, kWanted)) return settled(true);
     }
-    if (!advance(at, load, defect, step)) {
+    if (!advance(at, load, defect, step, tolerance)) {
       step = kkt_.step(at, load, defect, within(defect, kAtSaddle), false);
-      if (!step.move.allFinite() || !step.multipliers.allFinite() || !advance(at, load, defect, step))
+      if (!step.move.allFinite() || !step.multipliers.allFinite() ||
+          !advance(at, load, defect, step, tolerance))
         return settled(is_balance(at, load, defect));
     }
     if (!recorder_.record(++iterations_, at.x, defect.residual, merit_change_)) {
@@ -125,10 +129,11 @@ void Newton::mend(Balance& at, const Load& load) const {
   }
 }
 
-// Line search on energy plus penalties for broken conditions, with a second-order correction of the full
-// step. `at` and its defect go where it ends.
-bool Newton::advance(Balance& at, const Load& load, KktResidual& defect, const Step& step) {
-  const Eigen::Index regions = at.pressures.size();
+// Line search on energy plus penalties for broken conditions. The full step is followed by further ones by
+// the same matrix, or else by a second-order correction. `at` and its defect go where it ends.
+bool Newton::advance(Balance& at, const Load& load, KktResidual& defect, const Step& step,
+                     const Tolerance& tolerance) {
+  const Eigen::Index regions = at.pressures.size(), bands = at.tensions.size();
   const auto kept = [&](Eigen::Index i) { return i < regions || at.holds[i - regions] == Hold::length; };
   double slope = defect.gradient.dot(step.move);
   for (Eigen::Index i = 0; i < penalties_.size(); ++i) {
@@ -147,6 +152,29 @@ bool Newton::advance(Balance& at, const Load& load, KktResidual& defect, const S
     return value;
   };
   const double start = merit(at, defect);
+  const auto is_enough = [&](double reached, double length) {
+    return reached <= start + 1e-4 * length * std::min(slope, 0.0) + 1e-12 * std::abs(start);
+  };
+  double reached = start;
+  // Steps on what is left over, by the same matrix: most of a step's time goes into that and its factors.
+  const auto go_on = [&](Balance& from, KktResidual& left) {
+    int steps = 0;
+    for (; steps < kMostFurtherSteps && !within(left, tolerance); ++steps) {
+      const Step step_on = kkt_.step_again(left);
+      Balance next = from;
+      move(next.x, step_on.move);
+      next.pressures += step_on.multipliers.head(regions);
+      next.tensions += step_on.multipliers.tail(bands);
+      next.pushes.setZero();  // no longer foreseen
+      KktResidual beyond = kkt_.defect(next, load);
+      const double merit_there = merit(next, beyond);
+      if (!(beyond.residual <= kMostLeftOver * left.residual) || !is_enough(merit_there, 1)) break;
+      from = std::move(next);
+      left = std::move(beyond);
+      reached = merit_there;
+    }
+    return steps > 0;
+  };
   double longest = 0;
   for (int i = 0; i < problem_.free_nodes; ++i)
     longest = std::max(longest, step.move.segment<3>(3 * i).norm());
@@ -155,7 +183,7 @@ bool Newton::advance(Balance& at, const Load& load, KktResidual& defect, const S
     Balance trial = at;
     move(trial.x, length * step.move);
     trial.pressures += length * step.multipliers.head(regions);
-    trial.tensions += length * step.multipliers.tail(static_cast<Eigen::Index>(problem_.bands.size()));
+    trial.tensions += length * step.multipliers.tail(bands);
     // A push goes the whole step, however short the way of the nodes is: cut with it, it would take ten steps
     // to hold a node at its barrier. One that would end goes as far as the nodes do.
     trial.pushes.setZero(static_cast<Eigen::Index>(problem_.units.size()));
@@ -164,15 +192,16 @@ bool Newton::advance(Balance& at, const Load& load, KktResidual& defect, const S
       trial.pushes[step.lines[k].unit] = push + change > 0 ? push + change : push + length * change;
     }
     KktResidual there = kkt_.defect(trial, load);
-    if (length == 1) {
+    const bool gone_on = length == 1 && go_on(trial, there);
+    if (length == 1 && !gone_on) {
       Eigen::VectorXd broken = there.conditions;
       for (Eigen::Index i = 0; i < broken.size(); ++i)
         if (!kept(i)) broken[i] = 0;
       move(trial.x, kkt_.correction(broken));
       there = kkt_.defect(trial, load);
     }
-    const double reached = merit(trial, there);
-    if (reached <= start + 1e-4 * length * std::min(slope, 0.0) + 1e-12 * std::abs(start)) {
+    if (!gone_on) reached = merit(trial, there);
+    if (is_enough(reached, length)) {
       merit_change_ = (reached - start) / std::max(std::abs(start), std::numeric_limits<double>::min());
       at = trial;
       defect = std::move(there);

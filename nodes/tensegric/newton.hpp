@@ -36,7 +36,8 @@ class Newton {
 
  private:
   Stop spent() const;
-  bool advance(Balance& at, const Load& load, KktResidual& defect, const Step& step);
+  bool advance(Balance& at, const Load& load, KktResidual& defect, const Step& step,
+               const Tolerance& tolerance);
   bool stop_at_limits(Balance& at, const Load& load) const;
   bool release_contradicted(Balance& at, const Load& load, const Step& step) const;
   bool change_holds(Balance& at, const Load& load) const;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -20,7 +21,7 @@ inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
 class NodeMatrix {
  public:
   /// Blocks on the diagonal and at each of `pairs` of nodes, in any order, repeated or not.
-  NodeMatrix(int nodes, std::vector<std::pair<int, int>> pairs);
+  NodeMatrix(int nodes, const std::vector<std::pair<int, int>>& pairs);
 
   void clear();
   /// Adds `block` at (row, column) and, off the diagonal, its transpose at (column, row). A negative index (a
@@ -34,15 +35,24 @@ class NodeMatrix {
   std::vector<int> below(int column) const {
     return {rows_.begin() + start_[column], rows_.begin() + start_[column + 1]};
   }
-  /// The block at the `rank`th of below(column), or with rank -1 the lower triangle of the one on the
-  /// diagonal.
-  Eigen::Matrix3d block(int column, int rank) const;
+  /// The block at the `rank`th of below(column), or with rank -1 the one on the diagonal.
+  Eigen::Map<const Eigen::Matrix3d> block(int column, int rank) const {
+    return Eigen::Map<const Eigen::Matrix3d>(values_.data() + place(column, rank));
+  }
   /// Lower triangle.
-  const Eigen::SparseMatrix<double>& lower() const { return lower_; }
+  Eigen::SparseMatrix<double> lower() const;
 
  private:
+  // Of a block's nine values, column by column: a block column's first is on the diagonal.
+  std::size_t place(int column, int rank) const {
+    return 9 * static_cast<std::size_t>(start_[column] + column + 1 + rank);
+  }
+  Eigen::Map<Eigen::Matrix3d> block(int column, int rank) {
+    return Eigen::Map<Eigen::Matrix3d>(values_.data() + place(column, rank));
+  }
+
   std::vector<int> start_, rows_;  // of each block column, the block rows below the diagonal
-  Eigen::SparseMatrix<double> lower_;
+  std::vector<double> values_;
 };
 
 }  // namespace tensegric_fit::tensegric

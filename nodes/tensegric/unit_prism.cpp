@@ -8,24 +8,24 @@ namespace {
 using Eigen::Vector3d;
 
 // The unit's surface, oriented outward: with weight 1 its two triangles, with 1/2 both foldings of each side.
+// Seen from corner 0, those at that corner enclose nothing and are left out.
 struct Face {
   int a, b, c;
   double weight;
 };
-constexpr std::array<Face, 14> kFaces = {{{0, 1, 2, 1},
-                                          {5, 4, 3, 1},
-                                          {0, 3, 4, 0.5},
-                                          {0, 4, 1, 0.5},
-                                          {0, 3, 1, 0.5},
-                                          {3, 4, 1, 0.5},
-                                          {1, 4, 5, 0.5},
-                                          {1, 5, 2, 0.5},
-                                          {1, 4, 2, 0.5},
-                                          {4, 5, 2, 0.5},
-                                          {2, 5, 3, 0.5},
-                                          {2, 3, 0, 0.5},
-                                          {2, 5, 0, 0.5},
-                                          {5, 3, 0, 0.5}}};
+constexpr std::array<Face, 7> kFaces = {{{5, 4, 3, 1},
+                                         {3, 4, 1, 0.5},
+                                         {1, 4, 5, 0.5},
+                                         {1, 5, 2, 0.5},
+                                         {1, 4, 2, 0.5},
+                                         {4, 5, 2, 0.5},
+                                         {2, 5, 3, 0.5}}};
+
+Corners seen_from_first(const Corners& corners) {
+  Corners seen;
+  for (int i = 0; i < 6; ++i) seen[i] = corners[i] - corners[0];
+  return seen;
+}
 
 }  // namespace
 
@@ -48,12 +48,15 @@ bool moves(const std::array<int, 6>& nodes, const std::vector<int>& free_index) 
 }
 
 double unit_volume(const Corners& corners) {
+  const Corners p = seen_from_first(corners);
   double volume = 0;
-  for (const Face& f : kFaces) volume += f.weight / 6 * corners[f.a].dot(corners[f.b].cross(corners[f.c]));
+  for (const Face& f : kFaces) volume += f.weight / 6 * p[f.a].dot(p[f.b].cross(p[f.c]));
   return volume;
 }
 
-Corners volume_gradient(const Corners& p) {
+// Moved as a whole, a unit keeps its volume: corner 0 has what the others lack.
+Corners volume_gradient(const Corners& corners) {
+  const Corners p = seen_from_first(corners);
   Corners g;
   g.fill(Vector3d::Zero());
   for (const Face& f : kFaces) {
@@ -61,10 +64,12 @@ Corners volume_gradient(const Corners& p) {
     g[f.b] += f.weight / 6 * p[f.c].cross(p[f.a]);
     g[f.c] += f.weight / 6 * p[f.a].cross(p[f.b]);
   }
+  for (int i = 1; i < 6; ++i) g[0] -= g[i];
   return g;
 }
 
-VolumeHessian volume_hessian(const Corners& p) {
+VolumeHessian volume_hessian(const Corners& corners) {
+  const Corners p = seen_from_first(corners);
   VolumeHessian second;
   for (auto& row : second) row.fill(Vector3d::Zero());
   // By a, then b, of a . (b x c): v -> -c x v.
@@ -78,6 +83,10 @@ VolumeHessian volume_hessian(const Corners& p) {
     add(f.a, f.b, f.weight / 6 * p[f.c]);
     add(f.b, f.c, f.weight / 6 * p[f.a]);
     add(f.c, f.a, f.weight / 6 * p[f.b]);
+  }
+  for (int i = 1; i < 6; ++i) {
+    for (int j = 1; j < i; ++j) second[i][0] -= second[i][j];
+    for (int j = i + 1; j < 6; ++j) second[i][0] += second[j][i];
   }
   return second;
 }

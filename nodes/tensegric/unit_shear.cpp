@@ -129,15 +129,17 @@ void add_shear_hessian(const std::vector<UnitShear>& units, const Positions& x,
     const Corners corners = corners_of(unit, x);
     const Shear shear = shear_of(unit, corners);
     const VolumeHessian second = volume_hessian(corners);
-    const double of_volume = 2 / (unit.rest * unit.rest);
-    for (int i = 0; i < 6; ++i)
+    const double half = unit.stiffness / 2, whole_shear = half * shear.times;
+    const double by_volume = 2 * whole_shear / (unit.rest * unit.rest), by_q = half * unit.stiffening / 3;
+    for (int i = 0; i < 6; ++i) {
+      const Vector3d of_volume = by_volume * shear.of_volume[i], of_q = by_q * shear.by_node[i];
       for (int j = 0; j <= i; ++j) {
-        Matrix3d block = of_volume * shear.of_volume[i] * shear.of_volume[j].transpose();
-        if (i != j) block += cross_matrix(whole * shear.by_volume * second[i][j]);
-        block.diagonal().array() += 2 * unit.form(i, j);
-        block = shear.times * block + unit.stiffening / 3 * shear.by_node[i] * shear.by_node[j].transpose();
-        hessian.add(free_index[unit.nodes[i]], free_index[unit.nodes[j]], unit.stiffness / 2 * block);
+        Matrix3d block = of_volume * shear.of_volume[j].transpose() + of_q * shear.by_node[j].transpose();
+        if (i != j) block += cross_matrix(whole * whole_shear * shear.by_volume * second[i][j]);
+        block.diagonal().array() += 2 * whole_shear * unit.form(i, j);
+        hessian.add(free_index[unit.nodes[i]], free_index[unit.nodes[j]], block);
       }
+    }
   }
 }
 

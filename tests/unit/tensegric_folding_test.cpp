@@ -393,7 +393,7 @@ TEST_F(Folding, TimeBudgetAndCancelling) {
   EXPECT_EQ(solve(model, chest(0.90), options).status, Status::converged);
   const Solution cancelled =
       solve(model, chest(0.90), {}, nullptr,
-            [](const Iterate& iterate, const auto&, const auto&) { return iterate.iteration < 8; });
+            [](const Iterate& iterate, const auto&, const auto&) { return iterate.iteration < 4; });
   EXPECT_EQ(cancelled.status, Status::capped);
   EXPECT_NE(cancelled.note.find("cancelled"), std::string::npos);
   EXPECT_NEAR(cancelled.regions[0].volume_after / cancelled.regions[0].volume_before, 1, 1e-9);

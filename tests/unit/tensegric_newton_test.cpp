@@ -45,7 +45,7 @@ class NewtonOnTheBust : public testing::Test {
 constexpr Tolerance kExact{1e-10, 1e-12, 1e-11};
 
 TEST_F(NewtonOnTheBust, TakesAsManySteps) {
-  for (const int most : {1, 2, 3}) {
+  for (const int most : {1, 2}) {
     Newton newton(problem, recorder, 0, 100);
     Balance at = at_rest();
     EXPECT_FALSE(newton.settle(at, load, kExact, most));
@@ -54,6 +54,26 @@ TEST_F(NewtonOnTheBust, TakesAsManySteps) {
   Newton newton(problem, recorder, 0, 100);
   Balance at = at_rest();
   EXPECT_TRUE(newton.settle(at, load, kExact, 100));
+}
+
+// A second step by the matrix of the first leaves a hundredth of what the first one left.
+TEST_F(NewtonOnTheBust, TheMatrixOfAStepServesForTheNext) {
+  Newton newton(problem, recorder, 0, 100);
+  Balance at = at_rest();
+  ASSERT_TRUE(newton.settle(at, load, {1, 1e-2, 1e-2}, 100));
+  Kkt& kkt = newton.kkt();
+  const auto after = [&](const Step& step) {
+    for (std::size_t i = 0; i < at.x.size(); ++i)
+      if (problem.free_index[i] >= 0) at.x[i] += step.move.segment<3>(3 * problem.free_index[i]);
+    at.pressures += step.multipliers.head(1);
+    at.tensions += step.multipliers.tail(2);
+    return kkt.defect(at, load);
+  };
+  const KktResidual start = kkt.defect(at, load);
+  const KktResidual left = after(kkt.step(at, load, start, false, true));
+  ASSERT_GT(left.residual, 1e-8);
+  const KktResidual left_again = after(kkt.step_again(left));
+  EXPECT_LT(left_again.residual, 0.01 * left.residual);
 }
 
 // Tensions take no part in it, nor do lines that are not kept at their lengths.
