@@ -276,7 +276,7 @@ def tensegric(runs):
                  label="length error of the line")
     way.semilogy(steps, [max(abs(row["volume_error_bust"]), 1e-16) for row in history[1:]], "^-", label="volume error")
     way.legend(fontsize=7)
-    level_axes(way, "equilibrium: B1 at 0.90 from rest", "Newton step", "relative")
+    level_axes(way, "equilibrium: B1 at 0.90 from rest", "iteration", "relative")
 
     fold = figure.add_subplot(2, 3, 5)
     share = np.linspace(0.005, 1.1, 400)
