@@ -15,6 +15,7 @@ constexpr Tolerance kExact{1e-10, 1e-12, 1e-11};  // what is aimed at
 constexpr Tolerance kOnTheWay{0.2, 1e-4, 1e-4};   // at a load between rest and the request
 constexpr double kShareOfWeight = 0.01;           // residual on the way, of the change in gravity
 constexpr double kFirstRatioStep = 0.1;  // change of a neutral length in the first load step, relative
+constexpr int kQuick = 2;                // iterations of a load step after which the next is twice as long
 constexpr double kShortestLoadStep = 1.0 / 1024;
 constexpr double kTrue = 1e-6;       // of a length: README.md, Exactness
 constexpr double kSamePlace = 1e-9;  // m
@@ -187,7 +188,7 @@ class LoadPath {
       if (newton_.settle(at, load_at(next), next < 1 ? on_the_way() : kExact, most_at(next))) {
         share = next;
         settled = at;
-        if (newton_.iterations() - before <= 4) load_step *= 2;
+        if (newton_.iterations() - before <= kQuick) load_step *= 2;
       } else {
         at = settled;
         load_step = std::min(load_step, next - share) / 2;

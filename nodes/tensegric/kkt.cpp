@@ -141,7 +141,7 @@ void Kkt::assemble(const Balance& at, const std::vector<StraightPush>& lines, do
                        -whole * at.pressures[r] / problem_.volumes[r].area, hessian_);
 }
 
-// Factorises and forms the Schur complement; true where the
+// Factorises, solves for `gradient` and forms the Schur complement; true where the
 // balance is a minimum under its conditions: by the law of inertia, where the matrix has as many negative
 // pivots as the complement has negative eigenvalues.
 bool Kkt::factorise(const Balance& at, const Load& load, const KktResidual& defect,

@@ -30,7 +30,7 @@ struct Balance {
   Eigen::VectorXd tensions;     ///< one per band
   std::vector<Hold> holds;      ///< one per band
   Eigen::VectorXd pushes = {};  ///< of units about to fold, as the last step foresaw them, below zero where
-                                ///< it would have had them pull; empty: not known
+                                ///< it would have had them pull; zero, or empty: not foreseen
 };
 
 /// What is asked for: changes as the load is followed.
@@ -71,7 +71,8 @@ class Kkt {
   /// is no step. With `foreseen` units about to fold push as `at` foresees it.
   Step step(const Balance& at, const Load& load, const KktResidual& defect, bool to_saddle, bool foreseen);
 
-  /// What remains to be done after a step, by the matrix of the last step: its lines and pushes are none.
+  /// What remains to be done after a step, by the matrix of the last step, though by the conditions'
+  /// gradients where `defect` is: its lines and pushes are none.
   Step step_again(const KktResidual& defect) const;
 
   /// A move of least effort that takes `conditions` to zero, by the matrix of the last step.
@@ -107,7 +108,7 @@ class Kkt {
   FrontFactor factor_;
   bool usable_ = false;                        // the last factorisation
   Eigen::MatrixXd solved_;                     // the conditions' gradients, solved for
-  Eigen::VectorXd free_move_;                  // the step's, solved for
+  Eigen::VectorXd free_move_;                  // the step's gradient, solved for
   Eigen::VectorXd by_length_, by_multiplier_;  // each condition's derivatives
   Eigen::MatrixXd schur_;
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> schur_factor_;

@@ -24,8 +24,15 @@ constexpr double kMostLeftOver =
     0.5;  // of the residual, after a further step: else the matrix is too far off
 constexpr int kMostMends = 8;
 constexpr double kMended = 1e-12;     // relative, of volumes and lengths
-constexpr int kStepsBeyondLimit = 3;  // a tension may overshoot for a step or two
+constexpr int kStepsBeyondLimit = 3;  // a tension may overshoot in an iteration or two
 constexpr int kLeastCap = 400;        // of factorisations: 20 to 60 are usual; on fine meshes each takes long
+
+// m, of a node.
+double longest_of(const Eigen::VectorXd& move) {
+  double longest = 0;
+  for (Eigen::Index i = 0; i < move.size(); i += 3) longest = std::max(longest, move.segment<3>(i).norm());
+  return longest;
+}
 
 }  // namespace
 
@@ -59,11 +66,14 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
       Eigen::VectorXd::Zero(problem_.volumes.size() + static_cast<Eigen::Index>(problem_.bands.size()));
   int changes = 0;
   bool passes_branch = false;
+  bool looked = true;  // at the second derivative near balance, or there was nothing to be done
+  KktResidual defect = kkt_.defect(at, load);
   const auto settled = [&](bool balanced) {
+    if (balanced && !looked && tolerance.residual < kNearBalance.residual)
+      passes_branch = !kkt_.step(at, load, defect, true, true).minimum;
     branch_near_ = branch_near_ || (balanced && passes_branch);
     return balanced;
   };
-  KktResidual defect = kkt_.defect(at, load);
   const auto goes_on = [&] {  // after holds have changed
     defect = kkt_.defect(at, load);
     return ++changes <= kMostHoldChanges;
@@ -77,7 +87,8 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
     stop_ = spent();
     if (i == most || stop_ != Stop::none) return settled(is_balance(at, load, defect));
     Step step = kkt_.step(at, load, defect, within(defect, kAtSaddle), true);
-    passes_branch = passes_branch || (!step.minimum && within(defect, kNearBalance));
+    looked = within(defect, kNearBalance);
+    passes_branch = passes_branch || (!step.minimum && looked);
     if (!step.move.allFinite() || !step.multipliers.allFinite()) return false;
     if (release_contradicted(at, load, step)) {
       if (!goes_on()) return false;
@@ -155,17 +166,19 @@ bool Newton::advance(Balance& at, const Load& load, KktResidual& defect, const S
   const auto is_enough = [&](double reached, double length) {
     return reached <= start + 1e-4 * length * std::min(slope, 0.0) + 1e-12 * std::abs(start);
   };
+  const double longest = longest_of(step.move);
   double reached = start;
   // Steps on what is left over, by the same matrix: most of a step's time goes into that and its factors.
   const auto go_on = [&](Balance& from, KktResidual& left) {
     int steps = 0;
-    for (; steps < kMostFurtherSteps && !within(left, tolerance); ++steps) {
+    for (; steps < kMostFurtherSteps && std::isfinite(left.residual) && !within(left, tolerance); ++steps) {
       const Step step_on = kkt_.step_again(left);
+      if (!(longest_of(step_on.move) <= longest)) break;
       Balance next = from;
       move(next.x, step_on.move);
       next.pressures += step_on.multipliers.head(regions);
       next.tensions += step_on.multipliers.tail(bands);
-      next.pushes.setZero();  // no longer foreseen
+      next.pushes.setZero();  // not foreseen: lines touch at the units' own shares
       KktResidual beyond = kkt_.defect(next, load);
       const double merit_there = merit(next, beyond);
       if (!(beyond.residual <= kMostLeftOver * left.residual) || !is_enough(merit_there, 1)) break;
@@ -175,9 +188,6 @@ bool Newton::advance(Balance& at, const Load& load, KktResidual& defect, const S
     }
     return steps > 0;
   };
-  double longest = 0;
-  for (int i = 0; i < problem_.free_nodes; ++i)
-    longest = std::max(longest, step.move.segment<3>(3 * i).norm());
   double length = longest > longest_move_ ? longest_move_ / longest : 1;
   for (int halving = 0; halving < kMostHalvings; ++halving, length /= 2) {
     Balance trial = at;

@@ -29,11 +29,11 @@ void NodeMatrix::add(int row, int column, const Eigen::Matrix3d& block) {
   if (row < 0 || column < 0) return;
   if (row < column) return add(column, row, block.transpose());
   if (row == column) {
-    this->block(column, -1) += block;
+    block_at(column, -1) += block;
     return;
   }
   const auto first = rows_.begin() + start_[column], last = rows_.begin() + start_[column + 1];
-  this->block(column, static_cast<int>(std::lower_bound(first, last, row) - first)) += block;
+  block_at(column, static_cast<int>(std::lower_bound(first, last, row) - first)) += block;
 }
 
 void NodeMatrix::add_outer(const std::vector<int>& nodes, const std::vector<Eigen::Vector3d>& at_nodes,
@@ -41,18 +41,18 @@ void NodeMatrix::add_outer(const std::vector<int>& nodes, const std::vector<Eige
   for (std::size_t b = 0; b < nodes.size(); ++b) {
     const int column = nodes[b];
     const Eigen::Vector3d by_column = factor * at_nodes[b];
-    block(column, -1) += at_nodes[b] * by_column.transpose();
+    block_at(column, -1) += at_nodes[b] * by_column.transpose();
     auto row = rows_.begin() + start_[column];
     const auto first = row, last = rows_.begin() + start_[column + 1];
     for (std::size_t a = b + 1; a < nodes.size(); ++a) {
       row = std::lower_bound(row, last, nodes[a]);
-      block(column, static_cast<int>(row - first)) += at_nodes[a] * by_column.transpose();
+      block_at(column, static_cast<int>(row - first)) += at_nodes[a] * by_column.transpose();
     }
   }
 }
 
 void NodeMatrix::add_to_diagonal(double value) {
-  for (int column = 0; column < nodes(); ++column) block(column, -1).diagonal().array() += value;
+  for (int column = 0; column < nodes(); ++column) block_at(column, -1).diagonal().array() += value;
 }
 
 Eigen::SparseMatrix<double> NodeMatrix::lower() const {

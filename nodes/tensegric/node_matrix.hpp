@@ -47,7 +47,7 @@ class NodeMatrix {
   std::size_t place(int column, int rank) const {
     return 9 * static_cast<std::size_t>(start_[column] + column + 1 + rank);
   }
-  Eigen::Map<Eigen::Matrix3d> block(int column, int rank) {
+  Eigen::Map<Eigen::Matrix3d> block_at(int column, int rank) {
     return Eigen::Map<Eigen::Matrix3d>(values_.data() + place(column, rank));
   }
 

@@ -54,6 +54,7 @@ TEST_F(NewtonOnTheBust, TakesAsManySteps) {
   Newton newton(problem, recorder, 0, 100);
   Balance at = at_rest();
   EXPECT_TRUE(newton.settle(at, load, kExact, 100));
+  EXPECT_EQ(newton.kkt().factorisations(), 3);  // one step each are not enough
 }
 
 // A second step by the matrix of the first leaves a hundredth of what the first one left.
