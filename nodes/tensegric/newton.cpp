@@ -19,7 +19,7 @@ constexpr Tolerance kNearBalance{0.2, 1e-4, 1e-4};
 constexpr int kMostHoldChanges = 20, kMostHalvings = 14;
 constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();  // of the coordinates
 constexpr double kContradicted = 1e-6;  // of a neutral length: far above rounding
-constexpr int kMostFurtherSteps = 4;    // by one matrix; five and more were never worth it
+constexpr int kMostFurtherSteps = 4;    // by one matrix: 1, 2 and 4 were tried (tests/stability/README.md)
 constexpr double kMostLeftOver =
     0.5;  // of the residual, after a further step: else the matrix is too far off
 constexpr int kMostMends = 8;
