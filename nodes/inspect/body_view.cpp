@@ -42,6 +42,21 @@ void BodyView::take_worn(Worn worn) {
   note_.clear();
 }
 
+bool BodyView::forget(const std::string& scan_id) {
+  const bool waits = waiting_ && waiting_->scan_id == scan_id, is_shown = !empty() && scan_id_ == scan_id;
+  if (waits) {
+    waiting_.reset();
+    note_.clear();
+  }
+  if (!is_shown) return waits;
+  scan_id_.clear();
+  mesh_ = {};
+  ++revision_;
+  stretch_.reset();
+  worn_.reset();
+  return true;
+}
+
 void BodyView::check(const Worn& worn) const {
   const std::size_t count = mesh_.vertices.size();
   if (worn.vertices.size() != count || worn.distortion.size() != count)

@@ -31,6 +31,9 @@ class BodyView {
   /// another number of vertices; non_finite
   void take_worn(Worn worn);
 
+  /// Holds nothing of that scan any more. False: it held nothing of it.
+  bool forget(const std::string& scan_id);
+
   bool empty() const { return mesh_.triangles.empty(); }
   bool is_worn() const { return worn_.has_value(); }
   const std::string& scan_id() const { return scan_id_; }

@@ -13,6 +13,14 @@ constexpr double kSure = 0.5;         // confidence
 constexpr double kDotLift = 0.005;    // metres: most of a dot is seen
 constexpr double kModelLift = 0.002;  // metres: over the chords of the body's triangles
 
+// Whether there was something of it.
+template <typename Held>
+bool forget_in(Held& held, const std::string& scan_id) {
+  if (!held || held->scan_id != scan_id) return false;
+  held.reset();
+  return true;
+}
+
 template <typename Held>
 bool is_of(const Held& held, const BodyView& body) {
   return held && held->scan_id == body.scan_id();
@@ -33,6 +41,17 @@ void Overlays::take_model(const std::string& scan_id, ModelSkin skin) {
 
 void Overlays::take_control(const std::string& scan_id, geometry::ControlMesh control) {
   control_ = {scan_id, std::move(control)};
+}
+
+bool Overlays::forget(const std::string& scan_id) {
+  const bool had_measures = forget_in(measures_, scan_id), had_model = forget_in(model_, scan_id);
+  if (had_measures) carried_.reset();
+  if (had_model) carried_model_.reset();
+  bool had_others = forget_in(control_, scan_id);
+  had_others |= forget_in(fit_, scan_id);
+  had_others |= forget_in(bands_, scan_id);
+  had_others |= forget_in(members_, scan_id);
+  return had_measures || had_model || had_others;
 }
 
 void Overlays::take_fit(const std::string& scan_id, std::vector<Eigen::Vector3d> outer,

@@ -46,6 +46,9 @@ class Overlays {
   /// \throw Refusal bad_mesh: arrays that do not fit each other
   void take_members(const std::string& scan_id, MemberPulls members);
 
+  /// Holds nothing of that scan any more. False: it held nothing of it.
+  bool forget(const std::string& scan_id);
+
   // `blend`: from rest (0) to worn (1). Empty where there is nothing of the body's scan.
   std::vector<NamedDot> dots(const BodyView& body, double blend);
   std::vector<Stroke> tapes(const BodyView& body, double blend);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <tensegric_fit/BodyModel.h>
 #include <tensegric_fit/DeformedMesh.h>
 #include <tensegric_fit/FitState.h>
@@ -74,6 +73,10 @@ class BagReader {
   }
 
   void check_connections() {
+    if (const std::set<std::string> booths = booths_in(view_); !booths.empty())
+      find(true, "many_booths", fmt::format("more than one booth is in the bag: {}", fmt::join(booths, ", ")),
+           "take one out: rosbag filter BAG ONE.bag \"topic.startswith(('/ONE/', '/tf'))\", with ONE for its "
+           "namespace");
     for (const rosbag::ConnectionInfo* connection : view_.getConnections()) {
       BagTopic& topic = topics_[connection->topic];
       topic.name = connection->topic;
@@ -161,6 +164,17 @@ BagCheck unreadable(const std::string& name, const std::string& what, const std:
 
 bool BagCheck::can_be_replayed() const {
   return std::none_of(findings.begin(), findings.end(), [](const BagFinding& f) { return f.hinders; });
+}
+
+std::set<std::string> booths_in(rosbag::View& bag) {
+  std::set<std::string> scans, garments;
+  for (const rosbag::ConnectionInfo* connection : bag.getConnections()) {
+    const std::string topic = connection->topic.substr(
+        std::min(connection->topic.find_first_not_of('/'), connection->topic.size()));
+    if (files::is_scan_topic(topic)) scans.insert(topic);
+    if (connection->datatype == ros::message_traits::datatype<Garment>()) garments.insert(topic);
+  }
+  return scans.size() > 1 ? scans : garments.size() > 1 ? garments : std::set<std::string>();
 }
 
 BagCheck check_bag(const std::string& path) {

@@ -1,7 +1,10 @@
 /// Whether a bag can be replayed through the chain, and what to do where it cannot.
 #pragma once
 
+#include <rosbag/view.h>
+
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -39,10 +42,14 @@ struct BagCheck {
   bool can_be_replayed() const;
 };
 
-/// Names of findings that hinder: no_file, broken_bag, unindexed_bag, empty_bag, other_version, wrong_topic,
-/// no_scan, wrong_type, stamps_backwards, bad_scan, lost_latched; of others: gap, no_stamp, no_frame,
-/// many_frames, sensors, no_tf, not_finite, no_model. Never throws for what is in the bag.
+/// Names of findings that hinder: no_file, broken_bag, unindexed_bag, empty_bag, other_version, many_booths,
+/// wrong_topic, no_scan, wrong_type, stamps_backwards, bad_scan, lost_latched; of others: gap, no_stamp,
+/// no_frame, many_frames, sensors, no_tf, not_finite, no_model. Never throws for what is in the bag.
 BagCheck check_bag(const std::string& path);
+
+/// The topics of scans, or of garments, where there are several: what came from two booths is no one's.
+/// Empty: one booth's bag.
+std::set<std::string> booths_in(rosbag::View& bag);
 
 /// A page of text for people, the verdict first.
 std::string to_text(const BagCheck& check, const std::string& path);

@@ -57,4 +57,14 @@ class HeldScan {
   std::multiset<std::string> exported_;  // at this moment
 };
 
+/// Whether what `message` points to is of a scan that this process forgot.
+template <typename Pointer>
+auto is_of_forgotten(const Pointer& message) -> decltype(message->scan_id.empty()) {
+  return HeldScan::of_process().is_forgotten(message->scan_id);
+}
+template <typename... OfNoScan>
+bool is_of_forgotten(const OfNoScan&...) {
+  return false;
+}
+
 }  // namespace tensegric_fit::node

@@ -1,6 +1,5 @@
 /// Bag in, bag out: sends each scan and garment of a bag through a running chain and writes down what comes
 /// out.
-#include <rosbag/view.h>
 
 #include <fmt/format.h>
 
@@ -14,6 +13,7 @@
 #include "files/descriptor.hpp"
 #include "files/owner_only.hpp"
 #include "geometry/status.hpp"
+#include "ros/bag_check.hpp"
 #include "ros/log_words.hpp"
 #include "ros/parameters.hpp"
 #include "ros/replay.hpp"
@@ -83,6 +83,11 @@ int run(const Setup& setup) {
   files::check_bag_structure(setup.bag);
   rosbag::Bag in(setup.bag, rosbag::bagmode::Read);
   rosbag::View view(in);
+  if (const std::set<std::string> booths = booths_in(view); !booths.empty())
+    throw geometry::Refusal(
+        geometry::refusal::kBrokenFile,
+        fmt::format("'{}' is of more than one booth: {}; check_bag says how to take one out", setup.bag,
+                    fmt::join(booths, ", ")));
   WholeBag out(setup.out);
   Replay replay(ros::NodeHandle{}, setup.options);
   const std::vector<std::string> missing = replay.wait_for_chain();

@@ -52,7 +52,7 @@ class WatchedInputs {
   void subscribe(const std::string& topic, std::uint32_t queue, void (Node::*method)(Argument), Node* node,
                  const ros::TransportHints& hints = {}) {
     const auto take = [method, node](Argument message) {
-      if (!is_forgotten(message, 0)) (node->*method)(message);
+      if (!is_of_forgotten(message)) (node->*method)(message);
     };
     add<Argument>("", topic, queue, take, hints);
   }
@@ -70,11 +70,11 @@ class WatchedInputs {
           losses->heard(message->scan_id);
         else if (losses->is_late(message->scan_id))
           return;
-        if (!is_forgotten(message, 0)) (node->*method)(message);
+        if (!is_of_forgotten(message)) (node->*method)(message);
       };
       if (!losses->is_overtaken(message->scan_id))
         give();
-      else if (!is_forgotten(message, 0)) {
+      else if (!is_of_forgotten(message)) {
         HeldScan::of_process().begin_beside(message->scan_id);
         *late = {message->scan_id, give};
       }
@@ -130,15 +130,6 @@ class WatchedInputs {
   }
   template <typename Message>
   static bool is_passing(const Message&, long) {
-    return false;
-  }
-
-  template <typename Argument>
-  static auto is_forgotten(const Argument& message, int) -> decltype(message->scan_id.empty()) {
-    return HeldScan::of_process().is_forgotten(message->scan_id);
-  }
-  template <typename Argument>
-  static bool is_forgotten(const Argument&, long) {  // of no scan
     return false;
   }
 

@@ -17,6 +17,7 @@
 #include "inspect/words.hpp"
 #include "ros/body_messages.hpp"
 #include "ros/flat.hpp"
+#include "ros/held_scan.hpp"
 #include "ros/model_skin_message.hpp"
 #include "rviz/qt_text.hpp"
 
@@ -46,17 +47,21 @@ BodyMeshDisplay::BodyMeshDisplay()
 
 // Qt takes the event filter back itself; rviz may have deleted its render panel before its displays.
 BodyMeshDisplay::~BodyMeshDisplay() {
-  if (context_ != nullptr) context_->visibilityBits()->freeBits(view_bits_);
+  if (context_ != nullptr) context_->visibilityBits()->freeBits(parts_.before | parts_.worn);
 }
 
 void BodyMeshDisplay::onInitialize() {
-  const BodyScene::Parts parts{context_->visibilityBits()->allocBit(),
-                               context_->visibilityBits()->allocBit()};
-  view_bits_ = parts.before | parts.worn;
-  scene_ = std::make_unique<BodyScene>(scene_manager_, scene_node_, parts);
+  parts_ = {context_->visibilityBits()->allocBit(), context_->visibilityBits()->allocBit()};
+  make_scene();
   rviz::RenderPanel* panel = context_->getViewManager()->getRenderPanel();
-  second_ = std::make_unique<SecondView>(scene_manager_, panel, parts.before, parts.worn);
+  second_ = std::make_unique<SecondView>(scene_manager_, panel, parts_.before, parts_.worn);
   panel->installEventFilter(this);
+  forgetting_ = std::make_unique<Forgetting>(*context_, [this](const std::string& id) { return forget(id); });
+}
+
+void BodyMeshDisplay::make_scene() {
+  scene_.reset();
+  scene_ = std::make_unique<BodyScene>(scene_manager_, scene_node_, parts_);
 }
 
 template <typename Message>
@@ -66,6 +71,7 @@ void BodyMeshDisplay::subscribe(rviz::RosTopicProperty* topic,
   if (topic->getTopicStd().empty()) return;
   const boost::function<void(const boost::shared_ptr<const Message>&)> on_message =
       [this, name, take](const boost::shared_ptr<const Message>& message) {
+        if (node::is_of_forgotten(message)) return;
         try {
           (this->*take)(*message);
           setStatus(StatusProperty::Ok, name, text(words::of_scan(message->scan_id)));
@@ -136,6 +142,19 @@ void BodyMeshDisplay::reset() {
   rviz::Display::reset();
   place_.clear();
   change_topics();
+}
+
+bool BodyMeshDisplay::forget(const std::string& scan_id) {
+  const bool had_overlays = overlays_.forget(scan_id), had_body = body_.forget(scan_id);
+  if (warnings_.scan_id == scan_id) warnings_ = {};
+  if (had_body && body_.empty()) {
+    new_body_ = false;
+    second_->close();
+    properties_->show_pointed(nullptr);
+    make_scene();  // with nothing in it
+  }
+  changed_ = true;
+  return had_body || had_overlays;
 }
 
 void BodyMeshDisplay::take_body(const TriangleMesh& message) {

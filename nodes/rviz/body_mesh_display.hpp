@@ -17,6 +17,7 @@
 #include <tensegric_fit/TriangleMesh.h>
 
 #include "rviz/body_scene.hpp"
+#include "rviz/forgetting.hpp"
 #include "rviz/look_properties.hpp"
 #include "rviz/second_view.hpp"
 #endif
@@ -58,6 +59,9 @@ class BodyMeshDisplay : public rviz::Display {
   void take_warnings(const FitWarnings& message);
   void take_members(const MemberForces& message);
 
+  bool forget(const std::string& scan_id);
+
+  void make_scene();
   void place();
   void part_view(const Look& look);
   std::vector<int> unheld_skin() const;
@@ -70,7 +74,8 @@ class BodyMeshDisplay : public rviz::Display {
   Overlays overlays_;
   std::unique_ptr<BodyScene> scene_;
   std::unique_ptr<SecondView> second_;
-  std::uint32_t view_bits_ = 0;
+  std::unique_ptr<Forgetting> forgetting_;
+  BodyScene::Parts parts_{};
   FitWarnings warnings_;
   std::string frame_;
   std::string place_;  // what the status says of it

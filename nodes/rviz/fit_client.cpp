@@ -10,12 +10,17 @@
 #include <utility>
 
 #include "inspect/panel_words.hpp"
+#include "ros/held_scan.hpp"
 
 namespace tensegric_fit::inspect {
 
 namespace {
 
 constexpr char kGarmentCall[] = "garment", kExportCall[] = "export";
+
+ros::Publisher advertise_labels(ros::NodeHandle& node) {
+  return node.advertise<ScanLabel>("scan/label", 4, true);
+}
 
 }  // namespace
 
@@ -67,14 +72,14 @@ void FitClient::Calls::report(Answer FitClient::*answer, bool done, const std::s
 template <typename Message>
 void FitClient::listen(const char* topic, std::function<void(const Message&)> FitClient::*callback) {
   const boost::function<void(const boost::shared_ptr<const Message>&)> on_message =
-      [this, callback](const boost::shared_ptr<const Message>& message) { (this->*callback)(*message); };
+      [this, callback](const boost::shared_ptr<const Message>& message) {
+        if (!node::is_of_forgotten(message)) (this->*callback)(*message);
+      };
   subscribers_.push_back(
       node_.subscribe<Message>(topic, 4, on_message, {}, ros::TransportHints().tcpNoDelay()));
 }
 
-FitClient::FitClient()
-    : labels_(node_.advertise<ScanLabel>("scan/label", 4, true)),
-      calls_(std::make_shared<Calls>(node_, this)) {
+FitClient::FitClient() : labels_(advertise_labels(node_)), calls_(std::make_shared<Calls>(node_, this)) {
   listen("garment", &FitClient::on_garment);
   listen("control/deformed", &FitClient::on_fit);
   listen("control/forces", &FitClient::on_forces);
@@ -133,6 +138,14 @@ void FitClient::wear(const SetGarment::Request& request) {
 
 void FitClient::label(const ScanLabel& label) {
   labels_.publish(label);
+  labelled_ = label.scan_id;
+}
+
+void FitClient::forget_label(const std::string& scan_id) {
+  if (labelled_ != scan_id) return;
+  labels_.shutdown();  // else whoever comes, as nodes that let go of the scan do, is given it again
+  labels_ = advertise_labels(node_);
+  labelled_.clear();
 }
 
 void FitClient::reset() {

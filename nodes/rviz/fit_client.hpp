@@ -42,6 +42,8 @@ class FitClient : public QObject {
   void export_to(const std::string& folder, const std::string& scan_id);
   /// Whose the scan is.
   void label(const ScanLabel& label);
+  /// A label of that scan is latched no longer.
+  void forget_label(const std::string& scan_id);
   /// Whether a garment or a reset waits for its answer.
   bool is_asking();
 
@@ -70,6 +72,7 @@ class FitClient : public QObject {
   ros::NodeHandle node_;
   std::vector<ros::Subscriber> subscribers_;
   ros::Publisher labels_;
+  std::string labelled_;  // the scan that a label is latched of
   const std::shared_ptr<Calls> calls_;
   std::map<std::string, std::thread> workers_;  // by kind of call
 };

@@ -73,6 +73,8 @@ void FitPanel::onInitialize() {
     allow_name_and_export();
     answer(done ? words : words::not_exported(words), done);
   };
+  forgetting_ =
+      std::make_unique<Forgetting>(*vis_manager_, [this](const std::string& id) { return forget(id); });
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, [this] {
     show_state();
@@ -188,6 +190,41 @@ void FitPanel::forget_customer() {
     known = lies_on_skin(known->second) ? known_.erase(known) : std::next(known);
 }
 
+bool FitPanel::forget(const std::string& scan_id) {
+  bool held = !labels_.of(scan_id).customer.empty() || !labels_.of(scan_id).source.empty();
+  labels_.drop(scan_id);
+  client_->forget_label(scan_id);
+  if (fitted_ && fitted_->scan_id == scan_id) {
+    held = true;
+    fitted_.reset();
+    courses_.clear();
+  }
+  if (forces_.scan_id == scan_id) forces_ = {};
+  if (warnings_.scan_id == scan_id) warnings_ = {};
+  if (control_.scan_id == scan_id) control_ = {};
+  if (measured_scan_ == scan_id) {
+    held = true;
+    measured_scan_.clear();
+    measures_ = {};
+  }
+  held |= body_.forget(scan_id);
+  if (!held || !body_.empty()) return held;
+  clear_figures();
+  forget_customer();
+  if (worn_ && lies_on_skin(*worn_)) worn_.reset();
+  answer("");  // it may name where an export lies
+  show_whose();
+  return held;
+}
+
+// They are of the body that was shown.
+void FitPanel::clear_figures() {
+  customer_->setModified(false);
+  customer_->clearFocus();
+  table_->setRowCount(0);
+  forget_outcome();
+}
+
 // True where something changed.
 bool FitPanel::adopt_worn() {
   const bool is_known = known_.count(session_.now().garment) != 0;
@@ -268,11 +305,8 @@ void FitPanel::take_body(const TriangleMesh& body) {
     body_.take_body(body.scan_id, node::mesh_in(body));
     new_girths_ = true;
     if (another) {
-      customer_->setModified(false);  // what is typed is of the body that was shown
-      customer_->clearFocus();
-      table_->setRowCount(0);
       if (had_one) forget_customer();
-      forget_outcome();
+      clear_figures();
     }
     show_whose();
     show_outcome();

@@ -24,6 +24,7 @@
 #include "inspect/pipeline_watch.hpp"
 #include "ros/scan_labels.hpp"
 #include "rviz/fit_client.hpp"
+#include "rviz/forgetting.hpp"
 #include "rviz/girth_table.hpp"
 #include "rviz/line_row.hpp"
 #include "rviz/sentence.hpp"
@@ -89,6 +90,8 @@ class FitPanel : public rviz::Panel {
   bool adopt_worn();
   void remember(const Garment& garment);
   void forget_customer();
+  bool forget(const std::string& scan_id);
+  void clear_figures();
   void show_outcome();
   void forget_outcome();
   void say_warnings(std::string& which, const std::string& words);  // of folds_ and tightness_
@@ -144,7 +147,8 @@ class FitPanel : public rviz::Panel {
   ViewRow* view_;
   GirthTable* table_;
   QLineEdit *customer_, *folder_;
-  std::unique_ptr<FitClient> client_;  // last: it calls all of the above
+  std::unique_ptr<FitClient> client_;       // after all of the above, which it calls
+  std::unique_ptr<Forgetting> forgetting_;  // as this does
 };
 
 }  // namespace tensegric_fit::inspect

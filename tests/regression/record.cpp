@@ -14,6 +14,7 @@
 #include "geometry/shipped_files.hpp"
 #include "geometry/status.hpp"
 #include "golden_shape.hpp"
+#include "ros/bag_check.hpp"
 #include "stamp.hpp"
 #include "tensegric/fit_messages.hpp"
 #include "yaml_values.hpp"
@@ -67,6 +68,10 @@ Content content_of(const std::string& path) {
   std::size_t number = 0;
   const rosbag::Bag bag(path, rosbag::bagmode::Read);
   rosbag::View view(bag);
+  if (const std::set<std::string> booths = node::booths_in(view); !booths.empty())
+    throw Refusal(geometry::refusal::kBrokenFile,
+                  fmt::format("{}: is of more than one booth: {}; check_bag says how to take one out", path,
+                              fmt::join(booths, ", ")));
   for (const rosbag::MessageInstance& message : view) {
     ++number;
     if (const auto cloud = message.instantiate<PointCloud2>()) {

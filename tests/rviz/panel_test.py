@@ -18,7 +18,7 @@ import numpy as np
 
 sys.dont_write_bytecode = True  # not into the sources
 from rviz_test import view_of
-from session import HERE, LAUNCH, Session, pixels_of, run_test, wait_for
+from session import BACKGROUND, HERE, LAUNCH, Session, pixels_of, run_test, wait_for
 
 LEAST, MOST = 0.5, 1.2  # ratios that the panel's sliders end at
 
@@ -305,6 +305,51 @@ def a_body_that_is_not_the_newest(shop):
     listener.unregister()
 
 
+def a_scan_that_is_forgotten(shop):
+    """It is gone from the view, and the label that the panel latched of it; the next customer is shown as before."""
+    import rosbag
+    import rospy
+    from sensor_msgs.msg import PointCloud2
+    from tensegric_fit.msg import ScanLabel
+    from tensegric_fit.srv import Forget
+
+    shop.press("alt+m", "ctrl+a")
+    shop.write("4712")
+    shop.press("Return", "alt+1")
+    scan_id = shop.message["body/mesh"].scan_id
+    labels = []
+    listener = rospy.Subscriber("scan/label", ScanLabel, labels.append)
+    wait_for("latched label", lambda: any((label.scan_id, label.customer) == (scan_id, "4712") for label in list(labels)), 20)
+    listener.unregister()
+
+    def background(name):
+        path = os.path.join(shop.out, name + ".png")
+        shop.picture(path, "840x600+0+62")  # above the scale of colours
+        return (np.abs(pixels_of(path) - BACKGROUND).max(axis=2) <= 1).mean()
+
+    shown = background("before_forget")
+    done = rospy.ServiceProxy("forget", Forget)(scan_id=scan_id)
+    assert any(line.startswith("/rviz") and line.endswith(": what it showed") for line in done.removed), done
+    assert not any(line.startswith("/rviz") for line in done.not_reached if "session" not in line), done
+    wait_for("empty view", lambda: background("forgotten") > max(0.9, shown), 20)
+    shop.picture(os.path.join(shop.out, "forgotten_panel.png"))
+    del labels[:]
+    listener = rospy.Subscriber("scan/label", ScanLabel, labels.append)
+    time.sleep(2)
+    assert not any(label.scan_id == scan_id for label in labels), "the label is latched still"
+    listener.unregister()
+
+    publisher = rospy.Publisher("scan/points", PointCloud2, queue_size=2)
+    wait_for("reconstruction and capture", lambda: publisher.get_num_connections() >= 2)
+    with rosbag.Bag(shop.scan) as bag:
+        _, scan, _ = next(bag.read_messages(topics=["/scan/points"]))
+    scan.header.stamp = rospy.Time.now()
+    publisher.publish(scan)
+    wait_for("fit of the next customer", lambda: shop.message["body/deformed"].scan_id == shop.message["body/mesh"].scan_id != scan_id)
+    wait_for("her picture", lambda: background("next") < 0.9, 20)
+    publisher.unregister()
+
+
 def warnings_of_another_garment_are_not_said(shop):
     import rospy
     from tensegric_fit.msg import FitWarning, FitWarnings
@@ -372,7 +417,7 @@ def the_pipeline_gone_and_back(shop):
 
 SCENES = (sliders_at_their_ends_and_nonsense_typed, the_wheel_turns_what_was_chosen_only, a_garment_file_spoilt_while_it_is_worn,
           the_scan_over_beside_and_wiped_against_the_garment, messages_that_are_no_good,
-          exports_are_of_the_scan_that_is_shown, exports_that_cannot_be_written, a_body_that_is_not_the_newest,
+          exports_are_of_the_scan_that_is_shown, exports_that_cannot_be_written, a_body_that_is_not_the_newest, a_scan_that_is_forgotten,
           warnings_of_another_garment_are_not_said, two_panels_at_once, the_pipeline_gone_and_back)
 
 

@@ -57,6 +57,26 @@ TEST(BodyView, NeverMixesTwoScans) {
   EXPECT_FALSE(view.is_worn());
 }
 
+TEST(BodyView, ForgetsOneScanAndNoOther) {
+  BodyView view;
+  view.take_body("one", kTetrahedron);
+  view.take_worn(worn("one", {2, 1, 1}));
+  view.take_worn(worn("two", {2, 2, 2}));  // waits
+  EXPECT_FALSE(view.forget("three"));
+  EXPECT_TRUE(view.is_worn());
+  const int revision = view.revision();
+  EXPECT_TRUE(view.forget("one"));
+  EXPECT_TRUE(view.empty());
+  EXPECT_FALSE(view.is_worn());
+  EXPECT_EQ(view.scan_id(), "");
+  EXPECT_TRUE(view.mesh().vertices.empty());
+  EXPECT_NE(view.revision(), revision);
+  EXPECT_FALSE(view.forget("one"));
+  EXPECT_TRUE(view.forget("two"));
+  view.take_body("two", kTetrahedron);
+  EXPECT_FALSE(view.is_worn());  // what waited for it is gone
+}
+
 TEST(BodyView, RefusesWhatDoesNotFitAndKeepsWhatWasThere) {
   BodyView view;
   view.take_body("one", kTetrahedron);

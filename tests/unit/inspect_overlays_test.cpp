@@ -83,6 +83,22 @@ TEST_F(OverlaysTest, NothingOfAnotherScanIsDrawn) {
   EXPECT_EQ(overlays_.measures(body_), nullptr);
 }
 
+TEST_F(OverlaysTest, NothingOfAForgottenScanIsLeft) {
+  overlays_.dots(body_, 1);
+  overlays_.model(body_, 1);
+  EXPECT_FALSE(overlays_.forget("two"));
+  EXPECT_FALSE(overlays_.dots(body_, 1).empty());
+  EXPECT_TRUE(overlays_.forget("one"));
+  EXPECT_EQ(overlays_.measures(body_), nullptr);
+  EXPECT_TRUE(overlays_.dots(body_, 1).empty());
+  EXPECT_TRUE(overlays_.tapes(body_, 1).empty());
+  EXPECT_TRUE(overlays_.model(body_, 1).empty());
+  EXPECT_TRUE(overlays_.edges(body_, 1).empty());
+  EXPECT_TRUE(overlays_.lines(body_, 1).empty());
+  EXPECT_TRUE(overlays_.members(body_, 1).empty());
+  EXPECT_FALSE(overlays_.forget("one"));
+}
+
 TEST_F(OverlaysTest, AnotherMeshOfTheSameScanIsDrawnOver) {
   EXPECT_EQ(overlays_.dots(body_, 0).size(), 2u);
   EXPECT_EQ(overlays_.model(body_, 0).size(), 4u);

@@ -71,6 +71,21 @@ void write_scan(rosbag::Bag& bag, double time, const sensor_msgs::PointCloud2& s
   bag.write(topic, ros::Time(time), scan);
 }
 
+TEST_F(CheckBagTest, TwoBoothsInOneBagAreNamed) {
+  const auto fill = [](const std::string& second_scans, const std::string& second_garments) {
+    return [=](rosbag::Bag& bag) {
+      write_scan(bag, 10, scan_at(10), "/left/scan/points");
+      write_scan(bag, 11, scan_at(11), second_scans);
+      bag.write("/left/garment", ros::Time(12), Garment());
+      bag.write(second_garments, ros::Time(13), Garment());
+    };
+  };
+  EXPECT_EQ(found_in(fill("left/scan/points", "left/garment")), Names{});  // the same topics
+  EXPECT_EQ(found_in(fill("/right/scan/points", "/left/garment")), Names{"many_booths"});
+  EXPECT_NE(check_.findings[0].what.find("left/scan/points, right/scan/points"), std::string::npos);
+  EXPECT_EQ(found_in(fill("/left/scan/points", "/right/garment")), Names{"many_booths"});
+}
+
 TEST_F(CheckBagTest, AGoodBagIsDescribed) {
   EXPECT_EQ(found_in([](rosbag::Bag& bag) {
               for (int second : {10, 11, 12, 13}) write_scan(bag, second, scan_at(second, 6000, 300));
