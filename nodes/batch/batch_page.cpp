@@ -33,6 +33,10 @@ std::string number(double value) {
   return "<td class=n>" + fmt::format("{:.4g}", value) + "</td>";
 }
 
+std::string whole_number(std::size_t value) {
+  return fmt::format("<td class=n>{}</td>", value);
+}
+
 /// Empty where it is not there.
 Json part_of(const Json& whole, const char* path) {
   const Json::json_pointer place(path);
@@ -80,11 +84,11 @@ std::string summary(const Table& table) {
     text += rows.size() > kListed ? " ...</p>\n" : "</p>\n";
   };
   list("Missing", table.missing);
-  list("Conflicts, where two folders have different results", table.conflicts);
+  list("Conflicts, where folders or shards have different results", table.conflicts);
   for (const auto& [key, rows] : table.doubles) list("The same scan and settings", rows);
   text += "<h2>Without a result, by reason</h2>\n<table><tr><th>reason<th>scans</tr>\n";
   for (const auto& [reason, count] : reasons)
-    text += "<tr><td>" + html_escaped(reason) + "</td>" + number(static_cast<double>(count)) + "</tr>\n";
+    text += "<tr><td>" + html_escaped(reason) + "</td>" + whole_number(count) + "</tr>\n";
   return text + "</table>\n";
 }
 
@@ -170,9 +174,8 @@ std::string drift(const Comparison& comparison) {
       "old<th>deviation<th>largest<th>row</tr>\n",
       comparison.common, comparison.changes.size(), figures.size());
   for (const Drift& one : comparison.drifts)
-    text += "<tr><td>" + html_escaped(one.figure) + "</td>" + number(static_cast<double>(one.count)) +
-            number(one.mean) + number(one.deviation) + number(one.largest) +
-            number(static_cast<double>(one.row)) + "</tr>\n";
+    text += "<tr><td>" + html_escaped(one.figure) + "</td>" + whole_number(one.count) + number(one.mean) +
+            number(one.deviation) + number(one.largest) + whole_number(one.row) + "</tr>\n";
   text += "</table></div>\n";
   for (const auto& [figure, other] : comparison.others)
     text += fmt::format("<p>{}: another text in {} scans, new in {}, gone in {}</p>\n", html_escaped(figure),

@@ -65,6 +65,7 @@ void add(const std::string& name, const Json& value, std::vector<Figure>& figure
 struct Folder {
   Json description;
   std::map<std::size_t, Json> lines;
+  std::set<std::size_t> conflicts;  ///< rows that files of other numbers of shards have other scans of
 };
 
 /// Whether a line stays although one of the same row comes after it.
@@ -87,7 +88,7 @@ std::optional<Folder> read_folder(const std::string& path) {
   if (!fs::exists(description)) return std::nullopt;
   constexpr std::size_t kLargest = 1 << 20;                       // bytes; it has some hundred
   const std::string place = fs::canonical(description).string();  // it may be a link
-  Folder folder{geometry::json_in<Json>(files::bytes_of_plain_file(place, kLargest).value_or("")), {}};
+  Folder folder{geometry::json_in<Json>(files::bytes_of_plain_file(place, kLargest).value_or("")), {}, {}};
   if (!is_description(folder.description))
     throw Refusal(kBroken, description.string() + " is not of fit_batch");
   const std::size_t rows = folder.description["rows"];
@@ -97,6 +98,7 @@ std::optional<Folder> read_folder(const std::string& path) {
   for (const auto& entry : fs::directory_iterator(path))
     if (fnmatch("shard-*-of-*.jsonl", entry.path().filename().c_str(), 0) == 0) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
+  std::map<std::size_t, std::string> settled_in;  // the file of a row's settled line
   for (const std::string& file : files) {
     for_each_line(file, [&](Json&& line, std::size_t) {
       const std::size_t row = line.at("row");
@@ -104,6 +106,13 @@ std::optional<Folder> read_folder(const std::string& path) {
       if (!has_all_parts(line))
         throw Refusal(kBroken, file + ": row " + std::to_string(row) + " lacks a part that each line has");
       const auto known = folder.lines.find(row);
+      if (is_settled(line)) {
+        const std::string& before = settled_in[row];
+        if (!before.empty() && before != file && is_settled(known->second) &&
+            known->second.at("key") != line.at("key"))
+          folder.conflicts.insert(row);
+        settled_in[row] = file;
+      }
       if (known == folder.lines.end() || !stays(known->second, line)) folder.lines[row] = std::move(line);
     });
   }
@@ -167,6 +176,7 @@ Table read_table(std::vector<std::string> folders) {
     if (its_build != build)
       throw Refusal(kBroken,
                     fmt::format("{} is of another build than {}: run both with the same", path, first));
+    table.conflicts.insert(table.conflicts.end(), folder->conflicts.begin(), folder->conflicts.end());
     for (const auto& [row, line] : folder->lines) {
       const auto [kept, fresh] = table.lines.try_emplace(row, line);
       if (!fresh && without_cost(kept->second) != without_cost(line)) table.conflicts.push_back(row);

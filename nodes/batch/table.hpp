@@ -23,7 +23,8 @@ struct Table {
   std::vector<std::size_t> missing;                         ///< rows without a line
   std::map<std::string, std::vector<std::size_t>> doubles;  ///< rows of one key, where they are several
   /// Rows that two folders have with another result: not the same scan, or a result that differs from run to
-  /// run. The first folder's line is taken.
+  /// run. The first folder's line is taken. And rows that shards of one folder, of other numbers of shards,
+  /// have of different scans: nothing says which is the newer.
   std::vector<std::size_t> conflicts;
   std::vector<std::string> not_begun;  ///< folders without batch.json
 };

@@ -49,8 +49,44 @@ void take_header(const Json& header, const Check& check, Model& model) {
   }
 }
 
+/// Skin at rest, and the bones that carry it.
+void take_skin(const ArrayFile& file, const Check& check, Model& model) {
+  model.mean = geometry::points(file.numbers("mean", {0, 3}));
+  const std::size_t count = model.mean.size();
+  const std::vector<double> step = file.numbers("step", {0}),
+                            basis = file.numbers("basis", {step.size(), count, 3});
+  model.basis.resize(static_cast<Eigen::Index>(step.size()), static_cast<Eigen::Index>(3 * count));
+  for (std::size_t i = 0; i < 3 * count; ++i)
+    for (std::size_t k = 0; k < step.size(); ++k)
+      model.basis(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
+          static_cast<float>(step[k] * basis[k * 3 * count + i]);
+  const std::vector<double> carriers = file.numbers("bones", {count, Model::kWeights}),
+                            weights = file.numbers("weights", {count, Model::kWeights});
+  model.carriers.resize(count);
+  model.weights.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    double sum = 0;
+    for (std::size_t j = 0; j < Model::kWeights; ++j) {
+      const std::size_t at = i * Model::kWeights + j;
+      check(is_index(carriers[at], model.bones.size()), "a vertex' bone");
+      model.carriers[i][j] = static_cast<unsigned char>(carriers[at]);
+      model.weights[i][j] = static_cast<float>(weights[at] / kByte);
+      sum += weights[at];
+    }
+    check(sum == kByte, "weights of a vertex that do not sum to 1");
+  }
+  const std::vector<double> quads = file.numbers("quads", {0, 4});
+  for (const double corner : quads) check(is_index(corner, count), "a quad's vertex");
+  for (std::size_t q = 0; q < quads.size(); q += 4) {
+    const Eigen::Vector4i k = Eigen::Map<const Eigen::Vector4d>(&quads[q]).cast<int>();
+    model.quads.push_back({k[0], k[1], k[2], k[3]});
+    model.triangles.emplace_back(k[0], k[1], k[2]);
+    model.triangles.emplace_back(k[0], k[2], k[3]);
+  }
+}
+
 void take_arrays(const ArrayFile& file, const Check& check, Model& model) {
-  static_cast<Skinned&>(model) = skinned_in(file, "", model.bones.size(), check);
+  take_skin(file, check, model);
   const std::size_t vertices = model.mean.size(), components = static_cast<std::size_t>(model.components());
   const std::size_t inner = model.bones.size() + model.bone_points.size();
   model.inner_mean = geometry::points(file.numbers("extra_mean", {inner, 3}));
@@ -136,43 +172,6 @@ int Model::group_named(const std::string& name) const {
   const auto found =
       std::find_if(groups.begin(), groups.end(), [&](const PoseGroup& g) { return g.name == name; });
   return found == groups.end() ? -1 : static_cast<int>(found - groups.begin());
-}
-
-Skinned skinned_in(const ArrayFile& file, const std::string& prefix, std::size_t bones, const Check& check) {
-  Skinned skinned;
-  skinned.mean = geometry::points(file.numbers(prefix + "mean", {0, 3}));
-  const std::size_t count = skinned.mean.size();
-  const std::vector<double> step = file.numbers(prefix + "step", {0}),
-                            basis = file.numbers(prefix + "basis", {step.size(), count, 3});
-  skinned.basis.resize(static_cast<Eigen::Index>(step.size()), static_cast<Eigen::Index>(3 * count));
-  for (std::size_t i = 0; i < 3 * count; ++i)
-    for (std::size_t k = 0; k < step.size(); ++k)
-      skinned.basis(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
-          static_cast<float>(step[k] * basis[k * 3 * count + i]);
-  const std::vector<double> carriers = file.numbers(prefix + "bones", {count, Skinned::kWeights}),
-                            weights = file.numbers(prefix + "weights", {count, Skinned::kWeights});
-  skinned.carriers.resize(count);
-  skinned.weights.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    double sum = 0;
-    for (std::size_t j = 0; j < Skinned::kWeights; ++j) {
-      const std::size_t at = i * Skinned::kWeights + j;
-      check(is_index(carriers[at], bones), "a point's bone");
-      skinned.carriers[i][j] = static_cast<unsigned char>(carriers[at]);
-      skinned.weights[i][j] = static_cast<float>(weights[at] / kByte);
-      sum += weights[at];
-    }
-    check(sum == kByte, "weights of a point that do not sum to 1");
-  }
-  const std::vector<double> quads = file.numbers(prefix + "quads", {0, 4});
-  for (const double corner : quads) check(is_index(corner, count), "a quad's point");
-  for (std::size_t q = 0; q < quads.size(); q += 4) {
-    const Eigen::Vector4i k = Eigen::Map<const Eigen::Vector4d>(&quads[q]).cast<int>();
-    skinned.quads.push_back({k[0], k[1], k[2], k[3]});
-    skinned.triangles.emplace_back(k[0], k[1], k[2]);
-    skinned.triangles.emplace_back(k[0], k[2], k[3]);
-  }
-  return skinned;
 }
 
 Model load_model(const std::string& path) {

@@ -6,11 +6,6 @@
 #include <string>
 #include <vector>
 
-namespace tensegric_fit::geometry {
-class ArrayFile;
-struct Check;
-}  // namespace tensegric_fit::geometry
-
 namespace tensegric_fit::body_model {
 
 struct Bone {
@@ -38,22 +33,18 @@ struct SkinPoint {
   std::vector<std::pair<int, double>> vertices;  ///< vertex, share; shares sum to 1
 };
 
-/// Points of every shape at rest, and the bones that carry them.
-struct Skinned {
-  static constexpr int kWeights = 4;  ///< bones that carry a point, at most
-
-  std::vector<Eigen::Vector3d> mean;  ///< of the mean shape, m
-  Eigen::MatrixXf basis;              ///< components x 3 points: what one standard deviation adds, m
-  std::vector<std::array<unsigned char, kWeights>> carriers;  ///< bones of a point
-  std::vector<std::array<float, kWeights>> weights;           ///< their shares, sum 1
-  std::vector<std::array<int, 4>> quads;                      ///< counter-clockwise from outside
-  std::vector<Eigen::Vector3i> triangles;                     ///< two per quad
-};
-
 /// The skin and what lies in it. Read from a file that tests/body_model/train.py makes (format: README). At
 /// rest she stands in metres, z up, facing -y, her left at +x, the pelvis joint at the origin, with one
 /// stature for all shapes.
-struct Model : Skinned {
+struct Model {
+  static constexpr int kWeights = 4;  ///< bones that carry a vertex, at most
+
+  std::vector<Eigen::Vector3d> mean;  ///< vertices of the mean shape, m
+  Eigen::MatrixXf basis;              ///< components x 3 vertices: what one standard deviation adds, m
+  std::vector<std::array<unsigned char, kWeights>> carriers;  ///< bones of a vertex
+  std::vector<std::array<float, kWeights>> weights;           ///< their shares, sum 1
+  std::vector<std::array<int, 4>> quads;                      ///< counter-clockwise from outside
+  std::vector<Eigen::Vector3i> triangles;                     ///< two per quad
   std::string checksum;  ///< of the file's bytes, FNV-1a of 64 bits in hexadecimal: which model it is
   double stature;        ///< m, of every shape at rest
   std::vector<Bone> bones;
@@ -72,10 +63,6 @@ struct Model : Skinned {
   int part_named(const std::string& name) const;   ///< index into parts, or -1
   int group_named(const std::string& name) const;  ///< index into groups, or -1
 };
-
-/// The arrays of a file whose names begin with `prefix`. \throw Refusal broken_file
-Skinned skinned_in(const geometry::ArrayFile& file, const std::string& prefix, std::size_t bones,
-                   const geometry::Check& check);
 
 /// \throw Refusal broken_file: not there, another format, or contents that do not fit each other
 Model load_model(const std::string& path);

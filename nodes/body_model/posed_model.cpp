@@ -103,15 +103,15 @@ Vector3d PosedModel::vertex(int v) const {
   return sum;
 }
 
-std::vector<Vector3d> PosedModel::carried(const Skinned& points) const {
+std::vector<Vector3d> PosedModel::vertices() const {
   const Eigen::VectorXf shape = parameters_.shape.cast<float>();
-  const Eigen::VectorXf offset = points.basis.transpose() * shape;
-  std::vector<Vector3d> result(points.mean.size());
+  const Eigen::VectorXf offset = model_.basis.transpose() * shape;
+  std::vector<Vector3d> result(model_.mean.size());
   for (std::size_t v = 0; v < result.size(); ++v) {
-    const Vector3d rest = points.mean[v] + offset.segment<3>(3 * static_cast<Eigen::Index>(v)).cast<double>();
+    const Vector3d rest = model_.mean[v] + offset.segment<3>(3 * static_cast<Eigen::Index>(v)).cast<double>();
     Vector3d sum = Vector3d::Zero();
     for (int j = 0; j < Model::kWeights; ++j)
-      if (points.weights[v][j] > 0) sum += points.weights[v][j] * (bones_[points.carriers[v][j]] * rest);
+      if (model_.weights[v][j] > 0) sum += model_.weights[v][j] * (bones_[model_.carriers[v][j]] * rest);
     result[v] = sum;
   }
   return result;

@@ -39,9 +39,7 @@ class PosedModel {
   /// A vertex of the skin, m, scan frame.
   Eigen::Vector3d vertex(int v) const;
   /// All of them.
-  std::vector<Eigen::Vector3d> vertices() const { return carried(model_); }
-  /// Points that the model's bones carry, m, scan frame.
-  std::vector<Eigen::Vector3d> carried(const Skinned& points) const;
+  std::vector<Eigen::Vector3d> vertices() const;
   /// A vertex at rest, m.
   Eigen::Vector3d rest_vertex(int v) const;
   /// What turns and stretches the skin round a vertex.

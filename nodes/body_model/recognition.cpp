@@ -29,10 +29,8 @@ constexpr double kShortest = 1.2, kTallest = 2.2;  // m, of grown-up people
 // clearly above gets a word and is measured all the same, so the limit need not be sharp.
 constexpr double kOfItsKind = 1.25, kUnusual = 1.6;
 
-constexpr double kOff = 0.035;         // m from the skin: more than the model misses women by
-constexpr int kJudgedSamples = 6000;   // that are asked: 17 mm apart on a woman
-constexpr double kTogether = 0.06;     // m; nearer ones are one thing
-constexpr double kLeastThing = 0.004;  // of the surface, 70 cm^2: more than fingers that are bent otherwise
+constexpr int kJudgedSamples = 6000;  // that are asked: 17 mm apart on a woman
+constexpr double kTogether = 0.06;    // m; nearer ones are one thing
 
 std::size_t asked(const Samples& samples) {
   return std::min<std::size_t>(kJudgedSamples, samples.points.size());

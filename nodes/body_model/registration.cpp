@@ -75,6 +75,26 @@ Parameters start_at(const Model& model, const Samples& samples, const Stand& sta
   return p;
 }
 
+/// The same with breasts that hang lower than all but one of a thousand women's.
+Parameters with_hanging_breasts(const Model& model, Parameters p) {
+  constexpr double kLow = -3;  // deviations
+  Eigen::VectorXd up = Eigen::VectorXd::Zero(model.components());
+  for (const SkinPoint& point : model.skin_points)
+    if (point.name == "bust_point_L" || point.name == "bust_point_R")
+      for (const auto& [vertex, share] : point.vertices)
+        up += share * model.basis.col(3 * vertex + 2).cast<double>();
+  up.normalize();
+  p.shape += (kLow - p.shape.dot(up)) * up;
+  return p;
+}
+
+/// Whether there is surface that the model is nowhere near: a thing, or a part of her that the fit went past.
+bool leaves_things(const Matching& matching) {
+  const auto off = std::count_if(matching.unexplained.begin(), matching.unexplained.end(),
+                                 [](double distance) { return distance > kOff; });
+  return static_cast<double>(off) >= kLeastThing * static_cast<double>(matching.unexplained.size());
+}
+
 /// Of a whole person, or of one whose feet, head, or both are missing. \throw Refusal not_a_body
 std::vector<Stand> stands_of(const Samples& samples) {
   const auto box = geometry::bounding_box(samples.points);
@@ -163,7 +183,12 @@ RegisteredBody Registrar::operator()(const Samples& samples) const {
       tried[i] = fit_stage(model, matcher, with_arms_placed(model, matcher, tried[i].parameters), kSecond);
   });
   Fitted fitted = *std::min_element(tried.begin(), tried.end(), likelier);
-  for (const Stage& stage : {kThird, kFine}) fitted = fit_stage(model, matcher, fitted.parameters, stage);
+  std::vector<Fitted> ways{fit_stage(model, matcher, fitted.parameters, kThird)};
+  if (leaves_things(ways.front().matching)) {  // breasts that lie on the belly may have been taken for it
+    ways.push_back(fit_stage(model, matcher, with_hanging_breasts(model, fitted.parameters), kSecond));
+    ways.back() = fit_stage(model, matcher, ways.back().parameters, kThird);
+  }
+  fitted = fit_stage(model, matcher, std::min_element(ways.begin(), ways.end(), likelier)->parameters, kFine);
   const PosedModel posed(model, fitted.parameters);
   RegisteredBody body;
   body.model = model_;

@@ -66,19 +66,6 @@ std::vector<char> liftable(const Template& pattern, const geometry::ControlMesh&
   return may_move;
 }
 
-/// All nodes but those at landmarks.
-std::vector<Slide> slidable(const Template& pattern, const geometry::ControlMesh& control) {
-  std::vector<Slide> slides(control.outer.size(), Slide::either_way);
-  for (int row = 0; row < pattern.rows; ++row)
-    if (const int node = node_at(pattern, row, pattern.middle(), Side::left); node >= 0)
-      slides[node] = Slide::along_column;
-  for (const Side side : {Side::left, Side::right})
-    for (const TemplateNode& node : pattern.nodes)
-      if (node.placing == TemplateNode::Placing::at_landmark)
-        slides[node_at(pattern, node.row, node.column, side)] = Slide::none;
-  return slides;
-}
-
 std::vector<GridNeighbours> grid_neighbours(const Template& pattern) {
   std::vector<GridNeighbours> around;
   for (int row = 0; row < pattern.rows; ++row)
@@ -91,6 +78,29 @@ std::vector<GridNeighbours> grid_neighbours(const Template& pattern) {
                         at(column + 1 < pattern.columns, place + 1)});
     }
   return around;
+}
+
+/// All nodes but those at landmarks, each for itself.
+Slides slidable(const Template& pattern, const geometry::ControlMesh& control) {
+  std::vector<Slide> slides(control.outer.size(), Slide::either_way);
+  for (int row = 0; row < pattern.rows; ++row)
+    if (const int node = node_at(pattern, row, pattern.middle(), Side::left); node >= 0)
+      slides[node] = Slide::along_column;
+  for (const Side side : {Side::left, Side::right})
+    for (const TemplateNode& node : pattern.nodes)
+      if (node.placing == TemplateNode::Placing::at_landmark)
+        slides[node_at(pattern, node.row, node.column, side)] = Slide::none;
+  return {slides, grid_neighbours(pattern)};
+}
+
+std::vector<int> mirrored_nodes(const Template& pattern, std::size_t nodes) {
+  std::vector<int> mirrored(nodes);
+  for (const Side side : {Side::left, Side::right})
+    for (int row = 0; row < pattern.rows; ++row)
+      for (int column = 0; column <= pattern.middle(); ++column)
+        if (const int node = node_at(pattern, row, column, side); node >= 0)
+          mirrored[node] = node_at(pattern, row, column, side == Side::left ? Side::right : Side::left);
+  return mirrored;
 }
 
 /// Columns may go round the trunk either way (over the front or over the back): triangles face away from the
@@ -143,9 +153,14 @@ geometry::ControlMesh lay(const Template& pattern, const geometry::BodyMeasures&
   geometry::ControlMesh laid = grid_of(pattern);
   laid.outer = place_nodes(pattern, measures, skin, layout, model);
   face_outward(laid, trunk_axis(pattern, measures));
-  const auto around = grid_neighbours(pattern);
-  relax_on_skin(laid, spreadable(pattern, laid, layout), around, skin);
-  turn_back(laid, slidable(pattern, laid), around, skin);
+  relax_on_skin(laid, spreadable(pattern, laid, layout), grid_neighbours(pattern), skin);
+  // Both sides alike, so that a body whose sides are has a control mesh whose sides are; then each for
+  // itself.
+  Slides slides = slidable(pattern, laid);
+  slides.mirrored = mirrored_nodes(pattern, laid.outer.size());
+  turn_back(laid, slides, skin);
+  slides.mirrored.clear();
+  turn_back(laid, slides, skin);
   return laid;
 }
 
@@ -178,7 +193,7 @@ geometry::ControlMesh laid_best(const Template& pattern, const geometry::BodyMea
   std::vector<std::vector<Vector3d>> elsewhere;
   for (const geometry::ControlMesh& other : laid) elsewhere.push_back(other.outer);
   geometry::ControlMesh repaired = laid[best];
-  turn_back(repaired, slidable(pattern, repaired), grid_neighbours(pattern), skin, elsewhere);
+  turn_back(repaired, slidable(pattern, repaired), skin, elsewhere);
   return count_badly_laid(repaired, skin) < least ? repaired : laid[best];
 }
 

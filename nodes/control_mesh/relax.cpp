@@ -48,7 +48,7 @@ double along_skin(const std::array<Vector3d, 3>& corners, const Skin& skin) {
 /// Where a node could go, and how well the worst of its triangles lies there.
 struct Move {
   double before = 1, after = 1;
-  Vector3d place;
+  Vector3d place, mirrored;  ///< of the node, and of the one that moves with it
   bool better() const { return after > before; }
 };
 
@@ -105,9 +105,9 @@ Badly count_badly_laid(const geometry::ControlMesh& control, const Skin& skin) {
   return badly;
 }
 
-void turn_back(geometry::ControlMesh& control, const std::vector<Slide>& slides,
-               const std::vector<GridNeighbours>& around, const Skin& skin,
+void turn_back(geometry::ControlMesh& control, const Slides& slides, const Skin& skin,
                const std::vector<std::vector<Vector3d>>& elsewhere) {
+  const auto other_side = [&](int v) { return slides.mirrored.empty() ? v : slides.mirrored[v]; };
   std::vector<std::vector<int>> triangles(control.outer.size());
   for (int t = 0; t < static_cast<int>(control.triangles.size()); ++t)
     for (int i = 0; i < 3; ++i) triangles[control.triangles[t][i]].push_back(t);
@@ -126,17 +126,32 @@ void turn_back(geometry::ControlMesh& control, const std::vector<Slide>& slides,
       worst = std::min(worst, along_skin(round[i], skin));
     return worst;
   };
-  const auto best_move = [&](int v) {
-    Move move;
-    move.before = move.after = worst_at(v, control.outer[v], -1);
-    if (move.before > kLeast) return move;
-    std::vector<Vector3d> places = places_round(control, v, slides[v], around[v], skin);
+  const auto places_of = [&](int v, const GridNeighbours& around) {
+    std::vector<Vector3d> places = places_round(control, v, slides.of[v], around, skin);
     for (const std::vector<Vector3d>& other : elsewhere) places.push_back(other[v]);
-    for (const Vector3d& place : places) {
-      const double worst = worst_at(v, place, move.after);
+    return places;
+  };
+  const auto best_move = [&](int v) {
+    const int w = other_side(v);
+    Move move;
+    move.before = worst_at(v, control.outer[v], -1);
+    if (w != v) move.before = std::min(move.before, worst_at(w, control.outer[w], -1));
+    move.after = move.before;
+    if (move.before > kLeast) return move;
+    const std::vector<Vector3d> places = places_of(v, slides.around[v]);
+    std::vector<Vector3d> mirrored = places;
+    if (w != v) {
+      GridNeighbours around = slides.around[w];
+      std::swap(around[2], around[3]);  // left and right
+      mirrored = places_of(w, around);
+    }
+    for (std::size_t i = 0; i < std::min(places.size(), mirrored.size()); ++i) {
+      double worst = worst_at(v, places[i], move.after);
+      if (w != v && worst > move.after) worst = std::min(worst, worst_at(w, mirrored[i], move.after));
       if (worst <= move.after) continue;
       move.after = worst;
-      move.place = place;
+      move.place = places[i];
+      move.mirrored = mirrored[i];
     }
     return move;
   };
@@ -145,22 +160,30 @@ void turn_back(geometry::ControlMesh& control, const std::vector<Slide>& slides,
   std::vector<char> stale(moves.size(), 1);  // something near has moved since its move was looked for
   for (int round = 0; round < kTurnRounds; ++round) {
     for (int v = 0; v < static_cast<int>(moves.size()); ++v)
-      if (stale[v] && slides[v] != Slide::none) moves[v] = best_move(v);
+      if ((stale[v] || stale[other_side(v)]) && v <= other_side(v) && slides.of[v] != Slide::none)
+        moves[other_side(v)] = moves[v] = best_move(v);
     std::vector<int> moved;
     for (int v = 0; v < static_cast<int>(moves.size()); ++v) {
-      const bool first = std::all_of(beside[v].begin(), beside[v].end(), [&](int other) {
-        return !moves[other].better() || moves[v].before <= moves[other].before;
-      });
-      if (moves[v].better() && first) moved.push_back(v);
+      if (!moves[v].better() || v > other_side(v)) continue;
+      const auto is_first = [&](int node) {
+        return std::all_of(beside[node].begin(), beside[node].end(), [&](int other) {
+          return !moves[other].better() || moves[v].before <= moves[other].before;
+        });
+      };
+      if (is_first(v) && is_first(other_side(v))) moved.push_back(v);
     }
     if (moved.empty()) return;
     std::fill(stale.begin(), stale.end(), 0);
-    for (int v : moved) {
-      control.outer[v] = moves[v].place;
+    const auto move_to = [&](int v, const Vector3d& place) {
+      control.outer[v] = place;
       stale[v] = 1;
       for (int other : beside[v]) stale[other] = 1;
-      for (int other : around[v])
+      for (int other : slides.around[v])
         if (other >= 0) stale[other] = 1;
+    };
+    for (int v : moved) {
+      if (other_side(v) != v) move_to(other_side(v), moves[v].mirrored);
+      move_to(v, moves[v].place);
     }
   }
 }

@@ -77,7 +77,7 @@ geometry::ControlMesh subdivide(const geometry::ControlMesh& control, const Skin
     slides.push_back(edge.right < 0 ? Slide::none : Slide::along_column);
     ends.push_back({edge.first, edge.second, -1, -1});
   }
-  turn_back(fine, slides, ends, skin, {flat});
+  turn_back(fine, {slides, ends}, skin, {flat});
   // Once nodes go all the way back each round leaves fewer triangles to repair.
   const int rounds = kHalvings + static_cast<int>(control.triangles.size()) + 1;
   pull_back(fine.outer, flat, kHalvings, rounds,

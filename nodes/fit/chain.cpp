@@ -156,7 +156,8 @@ std::vector<geometry::FitWarning> warnings_of(const Body& body, const Fitting& f
   for (const tensegric::LineResult& line : fit.solution.lines)
     lines.push_back({line.name, line.course_at_rest, line.course, line.neutral, line.final, line.tension});
   const geometry::TriangleMesh& mesh = body.mesh.mesh;
-  return tffd::check_garment(mesh.vertices, {fitting.binding.vertices(), fit.deformed, mesh.triangles}, lines,
+  return tffd::check_garment({mesh.vertices, body.mesh.filled},
+                             {fitting.binding.vertices(), fit.deformed, mesh.triangles}, lines,
                              settings.hold);
 }
 

@@ -15,7 +15,9 @@
 #include "fit/picture_files.hpp"
 #include "fit/result_documents.hpp"
 #include "fit/result_folder.hpp"
+#include "geometry/fit_warning.hpp"
 #include "geometry/ply.hpp"
+#include "inspect/warning_words.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -59,14 +61,21 @@ class Run {
 
   const Source& source() const { return done_.source; }
 
-  /// What the garment does, where it does anything.
-  void say_effects() const {
+  /// What the garment does, where it does anything, and what is to be known of that.
+  void say_outcome() const {
     if (!done_.fit) return;
     std::vector<std::string> words;
     for (const Effect& effect : effects_of(done_.body, *done_.fit))
       if (const double mm = 1e3 * (effect.after - effect.before); std::abs(mm) >= kLeastEffect)
         words.push_back(fmt::format("{} {:+.1f} mm", effect.name, mm));
     if (!words.empty()) fmt::print(stderr, "effects: {}\n", fmt::join(words, ", "));
+    const tensegric::Solution& solution = done_.fit->solution;
+    if (solution.status != tensegric::Status::converged)
+      fmt::print(stderr, "warning: the solver ended {}{}{}\n", to_string(solution.status),
+                 solution.note.empty() ? "" : ": ", solution.note);
+    for (const geometry::FitWarning& warning : done_.warnings)
+      if (warning.is_warning() || warning.code == geometry::notice::kNotScanned)
+        fmt::print(stderr, "warning: {}\n", inspect::words::warning(warning, done_.body.measures));
   }
 
  private:
@@ -100,7 +109,7 @@ int run(const CommandLine& line) {
   const auto work = [&] {
     chain();
     if (line.quiet) return;
-    chain.say_effects();
+    chain.say_outcome();
     fmt::print(stderr, "results: {}\n", fs::absolute(line.out).lexically_normal().string());
   };
   return run_into_folder({"fit", line.out, kResults, inputs, work, [&](const geometry::Refusal& refusal) {

@@ -1,6 +1,7 @@
 #include "fit/fitted_folder.hpp"
 
 #include <filesystem>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 
 #include "fit/result_documents.hpp"
@@ -27,6 +28,14 @@ void add_lines(const json& lines, FittedFolder& fitted) {
                             line.at("ratio").get<double>()});
 }
 
+// The worn scan is aligned on skin that the garment leaves alone; a posture moves that, too.
+void check_posture(const json& posture, std::initializer_list<const char*> angles, const std::string& which) {
+  for (const char* angle : angles)
+    if (posture.at(angle).get<double>() != 0)
+      throw Refusal(refusal::kBadOption,
+                    which + ": its fit is in a posture, twisted or leaning: fit once more without one");
+}
+
 // What `fit` wrote.
 void read_report(const json& report, const std::string& folder, FittedFolder& fitted) {
   if (report.at("status") != "ok")
@@ -35,6 +44,7 @@ void read_report(const json& report, const std::string& folder, FittedFolder& fi
   if (!report.contains("lines"))
     throw Refusal(refusal::kNothingYet,
                   folder + ": fit measured a body without a garment: simulate one first");
+  check_posture(report.at("posture"), {"twist", "lean"}, folder);
   fitted.scan = report.at("scan").at("file").get<std::string>();
   add_lines(report.at("lines"), fitted);
 }
@@ -46,6 +56,7 @@ void read_export(const json& document, FittedFolder& fitted) {
         std::string(refusal::kMissingPart) + ":head",
         "this export has no head, without which its body cannot be measured again: export it with tffd's "
         "parameter with_head, or take a folder of fit");
+  check_posture(document.at("posture"), {"twist_rad", "side_lean_rad"}, "this export");
   fitted.scan = "scan " + document.at("scan").at("scan_id").get<std::string>();
   add_lines(document.at("garment").at("lines"), fitted);
 }

@@ -88,6 +88,8 @@ Json json_of(const geometry::FitWarning& warning, const geometry::BodyMeasures& 
     entry["stretch"] = warning.value;
   } else if (warning.code == warning::kSkinCrosses) {
     entry["depth_mm"] = 1e3 * warning.value;
+  } else if (warning.code == notice::kNotScanned) {
+    entry["share"] = warning.value;
   } else if (warning.code == notice::kUnderConstricted) {
     entry["lack"] = warning.lack;
     entry[warning.lack == lack::kLiftsOff ? "share" : "tension"] = warning.value;

@@ -14,7 +14,8 @@ inline constexpr char kShelf[] = "shelf", kTurnedOver[] = "turned_over", kSkinCr
 /// Codes of notices: the shape is sound, but something may need attention.
 namespace notice {
 inline constexpr char kSkinTurns[] = "skin_turns", kOverStretched[] = "over_stretched",
-                      kPressedTogether[] = "pressed_together", kUnderConstricted[] = "under_constricted";
+                      kPressedTogether[] = "pressed_together", kUnderConstricted[] = "under_constricted",
+                      kNotScanned[] = "not_scanned";
 }
 /// How a line is under-constricted.
 namespace lack {
@@ -30,7 +31,7 @@ struct FitWarning {
   double area = 0;                                    ///< of the skin concerned, at rest, m^2
   double shelf_area = 0;  ///< part of it that is turned by more than 60 degrees, m^2
   /// By code: largest turn (rad), depth (m), largest or least stretch, tension (pseudo force), or the share
-  /// of the line that came off the skin.
+  /// of the line that came off the skin, or lies over skin that was not scanned.
   double value = 0;
   std::vector<int> vertices{};  ///< of the body: the skin concerned, ascending
 

@@ -45,6 +45,10 @@ double peak_mebibytes() {
 Stage::Stage(std::string name, const ros::NodeHandle& node) : name_(std::move(name)) {
   ros::NodeHandle handle(node);
   diagnostics_ = handle.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 16);
+  // For all lives of the node: Python's subscribers do not always come back to a topic that ends and begins
+  // again. Never ended: ROS is gone when static objects are.
+  static auto* const kept = new ros::Publisher(diagnostics_);
+  static_cast<void>(kept);
   heartbeat_ = handle.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
     std::lock_guard<std::mutex> lock(report_mutex_);
     report();
@@ -78,17 +82,32 @@ void Stage::post_passing(const std::string& scan_id, Work work) {
 
 void Stage::put(Job job) {
   if (HeldScan::of_process().is_forgotten(job.scan_id)) return;
+  std::optional<Job> overtaken;
   {
     std::lock_guard<std::mutex> lock(mutex_);
     HeldScan::of_process().wait(job.scan_id);
+    if (waiting_ && waiting_->scan_id != job.scan_id) overtaken = std::move(waiting_);
     waiting_ = std::move(job);
   }
   wake_.notify_one();
+  if (overtaken) say_superseded(*overtaken);
+}
+
+// A scan that has no result is named, not only where something of it is wrong.
+void Stage::say_superseded(const Job& job) {
+  if (job.passing || HeldScan::of_process().is_forgotten(job.scan_id)) return;
+  drop(job.scan_id, geometry::Refusal(geometry::refusal::kSuperseded,
+                                      "a newer scan came before scan " + job.scan_id + " was done"));
 }
 
 bool Stage::outdated(const std::string& scan_id) const {
   std::lock_guard<std::mutex> lock(mutex_);
   return stopping_ || newest_scan_ != scan_id || waiting_.has_value();
+}
+
+bool Stage::is_stopping() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return stopping_;
 }
 
 bool Stage::is_unwanted(const std::string& scan_id) const {
@@ -127,7 +146,10 @@ void Stage::serve() {
 }
 
 void Stage::run(const Job& job) {
-  if (is_unwanted(job.scan_id)) return;
+  if (is_unwanted(job.scan_id)) {
+    if (!is_stopping()) say_superseded(job);
+    return;
+  }
   const auto start = std::chrono::steady_clock::now();
   if (!job.passing) {
     std::lock_guard<std::mutex> lock(report_mutex_);
@@ -151,7 +173,8 @@ void Stage::run(const Job& job) {
 }
 
 void Stage::finish(const Job& job, const Result& result, double milliseconds) {
-  const bool dropped = !result.publish || is_unwanted(job.scan_id);
+  const bool unwanted = is_unwanted(job.scan_id), dropped = !result.publish || unwanted,
+             superseded = unwanted && !is_stopping();
   if (!dropped) result.publish();
   if (job.passing) return;
   if (!dropped) HeldScan::of_process().publish(job.scan_id);
@@ -159,6 +182,9 @@ void Stage::finish(const Job& job, const Result& result, double milliseconds) {
   const State before = state_;  // another scan may have been refused meanwhile
   state_.scan_id = job.scan_id;
   state_.level = DiagnosticStatus::OK;
+  if (superseded)
+    state_.last_error = {geometry::refusal::kSuperseded,
+                         "a newer scan came before scan " + job.scan_id + " was done", job.scan_id};
   state_.word = dropped ? "superseded" : "done";
   state_.message = dropped ? "dropped work on scan " + job.scan_id + ": something newer came" : "done";
   if (!dropped && !result.warning.empty()) {

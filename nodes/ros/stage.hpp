@@ -82,7 +82,9 @@ class Stage {
 
   void put(Job job);
   void serve();
+  bool is_stopping() const;
   bool is_unwanted(const std::string& scan_id) const;
+  void say_superseded(const Job& job);
   void run(const Job& job);
   void fail(const std::string& scan_id, const std::string& word, const std::string& code,
             const std::string& message);

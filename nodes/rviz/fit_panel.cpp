@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <pluginlib/class_list_macros.hpp>
+#include <utility>
 
 #include "geometry/status.hpp"
 #include "inspect/panel_words.hpp"
@@ -211,6 +212,7 @@ bool FitPanel::forget(const std::string& scan_id) {
   if (!held || !body_.empty()) return held;
   clear_figures();
   forget_customer();
+  forgot_her_ = true;
   if (worn_ && lies_on_skin(*worn_)) worn_.reset();
   answer("");  // it may name where an export lies
   show_whose();
@@ -229,7 +231,8 @@ void FitPanel::clear_figures() {
 bool FitPanel::adopt_worn() {
   const bool is_known = known_.count(session_.now().garment) != 0;
   if (!session_.adopt(worn_->name, lines_in(*worn_))) return false;
-  if (!is_known) session_.forget_steps();  // the pipeline took off what lay on the last customer's skin
+  // The pipeline took off what lay on the last customer's skin, or what she wore who was forgotten.
+  if (std::exchange(forgot_her_, false) || !is_known) session_.forget_steps();
   return true;
 }
 

@@ -95,8 +95,9 @@ class FitPanel : public rviz::Panel {
   void show_outcome();
   void forget_outcome();
   void say_warnings(std::string& which, const std::string& words);  // of folds_ and tightness_
-  void show_warnings(std::vector<std::string> messages);            // those of lines, and of the skin
-  std::string lack_of(const LineResult& line) const;                // "" where the line holds
+  void show_warnings(const std::vector<std::string>& pressing,
+                     const std::vector<std::string>& lacking);  // of lines
+  std::string lack_of(const LineResult& line) const;            // "" where the line holds
   void show_lines();
   void show_girths();
   void show_whose();
@@ -124,7 +125,7 @@ class FitPanel : public rviz::Panel {
   BodyView body_;
   std::string measured_scan_, measured_frame_;
   geometry::BodyMeasures measures_;
-  bool new_girths_ = false;
+  bool new_girths_ = false, forgot_her_ = false;
   Clock::time_point asked_at_{};
   bool changed_here_ = false;                   // what was asked for last is on the panel already
   bool typing_ = false;                         // a garment's name

@@ -47,7 +47,7 @@ void FitPanel::show_outcome() {
   const std::string ended = words::fit_ended(fit.garment, fit.status, fit.note, fit.milliseconds);
   fit_->say(words::without_details(ended), ended);
   std::map<std::string, std::string> regions;
-  std::vector<std::string> messages;
+  std::vector<std::string> pressing, lacking;
   const std::string& asked = session_.now().garment;
   const bool is_of_asked = asked.empty() || fit.garment == asked;  // else that one's fit is on its way
   if (!is_of_asked)
@@ -59,11 +59,11 @@ void FitPanel::show_outcome() {
     const words::LineOutcome outcome{line.request, line.ratio, line.tension, line.reachable,
                                      fit.status == FitState::INFEASIBLE};
     std::string warning = words::line_warning(outcome);
-    if (!warning.empty()) messages.push_back("'" + line.name + "': " + warning);
+    if (!warning.empty()) lacking.push_back("'" + line.name + "': " + warning);
     if (warning.empty()) warning = lack_of(line);
     const auto force = node::force_of(forces_, fit, i);
     const std::string pressed = force ? words::pressure_warning(force->kilopascals) : "";
-    if (!pressed.empty()) messages.push_back("'" + line.name + "': " + pressed);
+    if (!pressed.empty()) pressing.push_back("'" + line.name + "': " + pressed);
     if (warning.empty()) warning = pressed;
     for (LineRow* row : rows_)
       if (row->line() == line.name) {
@@ -77,7 +77,7 @@ void FitPanel::show_outcome() {
   }
   session_.place(regions);
   if (is_of_asked)
-    show_warnings(messages);
+    show_warnings(pressing, lacking);
   else
     say_warnings(folds_, "");
   QStringList volumes;
@@ -93,18 +93,22 @@ void FitPanel::say_warnings(std::string& which, const std::string& words) {
   warned_->say(folds_ + (folds_.empty() || tightness_.empty() ? "" : " ") + tightness_);
 }
 
-void FitPanel::show_warnings(std::vector<std::string> messages) {
+// What presses comes before skin that folds, and that before lines that do not hold: few are shown.
+void FitPanel::show_warnings(const std::vector<std::string>& pressing,
+                             const std::vector<std::string>& lacking) {
+  std::vector<std::string> messages = pressing;
   const FitWarnings none;
   const bool are_of_it = warnings_.scan_id == fitted_->scan_id && warnings_.garment == fitted_->garment;
   const FitWarnings& known = are_of_it ? warnings_ : none;
   for (const FitWarning& warning : known.warnings) messages.push_back(warning.message);
+  messages.insert(messages.end(), lacking.begin(), lacking.end());
   const auto is_said = [messages](const std::string& line) {  // of the line, by its figures
     return std::any_of(messages.begin(), messages.end(),
                        [&](const std::string& message) { return message.rfind("'" + line + "': ", 0) == 0; });
   };
   for (const FitWarning& notice : known.notices)
     if (notice.code == geometry::notice::kOverStretched ||
-        notice.code == geometry::notice::kPressedTogether ||
+        notice.code == geometry::notice::kPressedTogether || notice.code == geometry::notice::kNotScanned ||
         (notice.code == geometry::notice::kUnderConstricted && !is_said(notice.line)))
       messages.push_back(notice.message);
   const std::string words = words::warnings(messages);

@@ -12,6 +12,7 @@
 #include "geometry/ply.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/point_fields.hpp"
+#include "geometry/points.hpp"
 #include "geometry/status.hpp"
 #include "mesh_files/read_mesh.hpp"
 #include "scan_files/pcd_file.hpp"
@@ -173,6 +174,10 @@ TriangleMesh read_body_mesh(const std::string& path, const mesh_files::Asked& as
         throw geometry::Refusal(geometry::refusal::kNonFinite,
                                 path + ": has a coordinate that is not finite in metres");
     }
+  // Inside out as a whole: a body's volume is no negative one.
+  if (!any_shape &&
+      geometry::cone_volume(mesh.vertices, mesh.triangles, geometry::mean_of(mesh.vertices)) < 0)
+    for (Eigen::Vector3i& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
 }
 

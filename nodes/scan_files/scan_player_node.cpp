@@ -279,9 +279,10 @@ class ScanPlayer {
       const std::vector<std::string> complete = folder_->poll(ros::SteadyTime::now().toSec());
       if (complete.empty()) return;
       for (const std::string& path : complete)
-        if (scan_files::is_scan_name(path))
-          files_.push_back(path);
-        else if (!scan_files::is_companion_name(path))
+        if (scan_files::is_scan_name(path)) {
+          const bool waits = std::find(files_.begin(), files_.end(), path) != files_.end();
+          if (!waits) files_.push_back(path);  // else it was written once more, and is read as it is then
+        } else if (!scan_files::is_companion_name(path))
           stage_.drop("", geometry::Refusal(geometry::refusal::kBrokenFile,
                                             "a file of type '" + fs::path(path).extension().string() +
                                                 "' is there: scans are not read from it"));

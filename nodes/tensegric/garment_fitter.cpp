@@ -4,6 +4,11 @@
 
 namespace tensegric_fit::tensegric {
 
+bool GarmentFitter::knows(const std::string& scan_id) const {
+  const auto known = wearer();
+  return known && known->scan_id == scan_id;
+}
+
 void GarmentFitter::check(const Garment& garment, const std::string& scan_id) const {
   SolverOptions options = options_.solver;
   options.volume = KeptVolume::control;  // which volume is kept makes no garment good or bad

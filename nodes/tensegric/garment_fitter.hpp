@@ -31,6 +31,8 @@ class GarmentFitter {
   GarmentFitter(const FitterOptions& options, BindBody bind_body)
       : options_(options), bind_body_(std::move(bind_body)) {}
 
+  /// Whether that body was taken last. For any thread.
+  bool knows(const std::string& scan_id) const;
   /// Whether the garment can be laid on that body; nothing is checked where another was taken last. For any
   /// thread. \throw Refusal unknown_line, bad_garment
   void check(const Garment& garment, const std::string& scan_id) const;

@@ -168,7 +168,11 @@ std::optional<TensegricHandler::Input> TensegricHandler::reset() {
 
 // Not on the body of the customer before.
 void TensegricHandler::check(const tensegric::Garment& garment) const {
-  if (complete()) fitter_.check(garment, control_->scan_id);
+  if (!complete()) return;
+  if (fitter_.knows(control_->scan_id))
+    fitter_.check(garment, control_->scan_id);
+  else  // it is still to be made ready
+    tensegric::check_names(control_in(*control_), garment);
 }
 
 // The body says which scan is the newest: one that was refused later on has no control mesh.

@@ -73,6 +73,7 @@ class TensegricNode {
     } catch (const geometry::Refusal& refusal) {
       keep();                    // that it was heard
       stage_.drop("", refusal);  // the fit of the garment before stands
+      announce();                // else `garment` says that the other is worn
     }
   }
 

@@ -9,11 +9,16 @@
 
 namespace tensegric_fit::tffd {
 
-/// check_skin, check_crossings, then under_constricted. `scanned`: the skin's places in the scan's posture,
-/// where the lines' courses at rest and the warnings' places before are; `skin.rest` may be posed. \throw
-/// Refusal as both
-std::vector<geometry::FitWarning> check_garment(const std::vector<Eigen::Vector3d>& scanned,
-                                                const WornSkin& skin, const std::vector<WornLine>& lines,
+/// A body's skin as it was scanned. Only borrowed.
+struct ScannedSkin {
+  const std::vector<Eigen::Vector3d>& vertices;  ///< in the scan's posture
+  std::vector<char> filled = {};  ///< empty, or one flag per vertex: 1 where the scan saw nothing
+};
+
+/// check_skin, check_crossings, under_constricted, then not_scanned. Where `scanned` is the lines' courses at
+/// rest and the warnings' places before are; `skin.rest` may be posed. \throw Refusal as these
+std::vector<geometry::FitWarning> check_garment(const ScannedSkin& scanned, const WornSkin& skin,
+                                                const std::vector<WornLine>& lines,
                                                 const HoldOptions& options);
 
 }  // namespace tensegric_fit::tffd

@@ -45,8 +45,8 @@ std::vector<geometry::FitWarning> warnings_of(const FitState& fit, const BoundBo
   for (const LineResult& line : fit.lines)
     lines.push_back({line.name, points_in(line.course_at_rest), points_in(line.course), line.neutral,
                      line.final, line.tension});
-  return tffd::check_garment(bound.mesh.vertices, {bound.binding.vertices(), worn, bound.mesh.triangles},
-                             lines, hold);
+  return tffd::check_garment({bound.mesh.vertices, filled_in(*bound.body)},
+                             {bound.binding.vertices(), worn, bound.mesh.triangles}, lines, hold);
 }
 
 std::string codes_of(const std::vector<FitWarning>& warnings) {

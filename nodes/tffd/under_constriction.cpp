@@ -1,12 +1,9 @@
 #include "tffd/under_constriction.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
-#include "geometry/section.hpp"
 #include "geometry/status.hpp"
-#include "geometry/surface_tree.hpp"
+#include "tffd/line_over_skin.hpp"
 
 namespace tensegric_fit::tffd {
 namespace {
@@ -14,92 +11,25 @@ namespace {
 using Eigen::Vector3d;
 using geometry::FitWarning;
 
-constexpr double kStep = 0.01;       // m, along a line
-constexpr double kMostSteps = 1000;  // between two points of a line: no body is larger
-constexpr double kAround = 0.05;     // m, of skin about a line that is looked at
 constexpr double kShorter = 1e-3;    // of the neutral length
 constexpr double kNoTension = 1e-6;  // pseudo force: below what solvers settle to
 
-std::vector<Vector3d> stepped(const std::vector<Vector3d>& course) {
-  std::vector<Vector3d> points;
-  for (std::size_t i = 1; i < course.size(); ++i) {
-    const Vector3d way = course[i] - course[i - 1];
-    const int steps = static_cast<int>(std::clamp(std::ceil(way.norm() / kStep), 1.0, kMostSteps));
-    for (int k = 0; k < steps; ++k) points.push_back(course[i - 1] + (k + 0.5) / steps * way);
-  }
-  return points;
+bool is_off(const LineOverSkin& line, std::size_t i) {
+  return line.heights[i] > kOffSkin;
 }
 
-// The triangles about a course.
-std::vector<int> triangles_about(const std::vector<Vector3d>& course, const WornSkin& skin,
-                                 const std::vector<Vector3d>& vertices) {
-  auto [low, high] = geometry::bounding_box(course);
-  low.array() -= kAround;
-  high.array() += kAround;
-  std::vector<int> triangles;
-  for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
-    const Eigen::Vector3i& t = skin.triangles[i];
-    const Vector3d& corner = vertices[t[0]];
-    if ((corner.array() < low.array()).any() || (corner.array() > high.array()).any()) continue;
-    if (geometry::distance_to_line(corner, course) < kAround) triangles.push_back(static_cast<int>(i));
-  }
-  return triangles;
+double share_off(const LineOverSkin& line) {
+  double count = 0;
+  for (std::size_t i = 0; i < line.heights.size(); ++i) count += is_off(line, i) ? 1 : 0;
+  return line.heights.empty() ? 0 : count / static_cast<double>(line.heights.size());
 }
 
-// A course over skin: where its points are above it, and how high. m.
-struct Lie {
-  std::vector<Vector3d> points, feet;
-  std::vector<double> heights;
-  std::vector<int> triangles;
-
-  bool off(std::size_t i) const { return heights[i] > kOffSkin; }
-  double share_off() const {
-    double count = 0;
-    for (std::size_t i = 0; i < heights.size(); ++i) count += off(i) ? 1 : 0;
-    return heights.empty() ? 0 : count / static_cast<double>(heights.size());
-  }
-};
-
-Lie lie_of(const std::vector<Vector3d>& course, const WornSkin& skin, const std::vector<Vector3d>& vertices) {
-  Lie lie;
-  if (course.empty()) return lie;
-  lie.triangles = triangles_about(course, skin, vertices);
-  if (lie.triangles.empty()) return lie;
-  geometry::TriangleMesh about{{}, {}};
-  for (const int t : lie.triangles) {
-    const int first = static_cast<int>(about.vertices.size());
-    for (const int v : skin.triangles[t]) about.vertices.push_back(vertices[v]);
-    about.triangles.emplace_back(first, first + 1, first + 2);
-  }
-  const geometry::SurfaceTree tree(about);
-  lie.points = stepped(course);
-  for (const Vector3d& point : lie.points) {
-    const geometry::SurfacePoint foot = tree.nearest(point);
-    const Eigen::Vector3i& t = about.triangles[foot.triangle];
-    const Vector3d normal =
-        geometry::area_vector(about.vertices[t[0]], about.vertices[t[1]], about.vertices[t[2]]).normalized();
-    lie.feet.push_back(foot.position);
-    const Vector3d way = point - foot.position;
-    lie.heights.push_back(way.norm() > kAround ? kAround : normal.dot(way));
-  }
-  return lie;
-}
-
-void take_skin(const Lie& lie, const WornSkin& skin, FitWarning& warning) {
+void take_skin(const LineOverSkin& line, const WornSkin& skin, FitWarning& warning) {
   const bool parts = warning.lack == geometry::lack::kLiftsOff;
   std::vector<Vector3d> feet;
-  for (std::size_t i = 0; i < lie.feet.size(); ++i)
-    if (!parts || lie.off(i)) feet.push_back(lie.feet[i]);
-  std::vector<int> triangles;
-  for (const int i : lie.triangles) {
-    const Eigen::Vector3i& t = skin.triangles[i];
-    const Vector3d middle = (skin.worn[t[0]] + skin.worn[t[1]] + skin.worn[t[2]]) / 3;
-    if (std::any_of(feet.begin(), feet.end(), [&](const Vector3d& foot) {
-          return (foot - middle).squaredNorm() < kHeldSkin * kHeldSkin;
-        }))
-      triangles.push_back(i);
-  }
-  take_place(triangles, skin, warning);
+  for (std::size_t i = 0; i < line.feet.size(); ++i)
+    if (!parts || is_off(line, i)) feet.push_back(line.feet[i]);
+  take_place(triangles_below(line, feet, skin.triangles, skin.worn, kHeldSkin), skin, warning);
 }
 
 }  // namespace
@@ -114,13 +44,14 @@ std::vector<FitWarning> under_constricted(const WornSkin& skin, const std::vecto
     warning.code = geometry::notice::kUnderConstricted;
     warning.line = line.name;
     warning.value = line.tension;
-    const Lie worn = lie_of(line.worn, skin, skin.worn);
+    const LineOverSkin worn = line_over_skin(line.worn, skin.triangles, skin.worn);
     if (line.tension <= kNoTension || line.final < (1 - kShorter) * line.neutral) {
       warning.lack = geometry::lack::kSlack;
     } else if (line.tension < options.least_pull) {
       warning.lack = geometry::lack::kWeak;
-    } else if (worn.share_off() > kLiftedShare) {
-      const double lifted = worn.share_off() - lie_of(line.at_rest, skin, skin.rest).share_off();
+    } else if (share_off(worn) > kLiftedShare) {
+      const double lifted =
+          share_off(worn) - share_off(line_over_skin(line.at_rest, skin.triangles, skin.rest));
       if (lifted <= kLiftedShare) continue;
       warning.lack = geometry::lack::kLiftsOff;
       warning.value = lifted;

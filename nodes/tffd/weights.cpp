@@ -19,6 +19,7 @@ constexpr double kGlobalFrom = 0.5;
 // Of a vertex over the middle of well shaped triangles the absolute weights sum to 1 + 2 height / thickness,
 // of one at the rim to some more; more than this only by extrapolation from slivers.
 constexpr double kMostFrameStretch = 3;
+constexpr double kOverLeast = 1.1;  // tolerance: room for more than one triangle to share a vertex
 constexpr double kFirstPower = 0.5, kMostPower = 64;
 constexpr int kBisections = 30;
 
@@ -147,14 +148,20 @@ void favour_near(const std::vector<Near>& before, double power, std::vector<Near
 
 // Where the absolute weights of a vertex sum to more than kMostFrameStretch, by slivers that would carry it
 // far beyond themselves: the least power that brings them down to it, so that rows change smoothly over the
-// skin and none changes that need not. Any shares keep the mapping affine-exact.
+// skin and none changes that need not. Where no triangle by itself comes down to it, down to kOverLeast of
+// the one that comes lowest: else that one takes all, and beside it another does, and the skin between them
+// tears. Any shares keep the mapping affine-exact.
 template <typename Absolute>
 void limit_stretch(std::vector<Near>& near, const Absolute& absolute) {
-  if (absolute(near) <= kMostFrameStretch) return;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Near& triangle : near)
+    if (triangle.k > 0) least = std::min(least, triangle.stretch);
+  const double most = std::max(kMostFrameStretch, kOverLeast * least);
+  if (absolute(near) <= most) return;
   const std::vector<Near> before = near;
   double low = 0, high = kFirstPower;
   favour_near(before, high, near);
-  while (absolute(near) > kMostFrameStretch && high < kMostPower) {
+  while (absolute(near) > most && high < kMostPower) {
     low = high;
     high *= 2;
     favour_near(before, high, near);
@@ -162,7 +169,7 @@ void limit_stretch(std::vector<Near>& near, const Absolute& absolute) {
   for (int step = 0; step < kBisections; ++step) {
     const double middle = 0.5 * (low + high);
     favour_near(before, middle, near);
-    (absolute(near) > kMostFrameStretch ? low : high) = middle;
+    (absolute(near) > most ? low : high) = middle;
   }
   favour_near(before, high, near);
 }

@@ -359,6 +359,18 @@ class FitBatch(unittest.TestCase):
             (folder / f"shard-1-of-{shards}.jsonl").write_text(json.dumps(line) + "\n")
         self.assertEqual(self.merged(folder), (0, self.table))
 
+    def test_results_of_different_scans_in_files_of_other_shards_are_a_conflict(self):
+        folder = self.folder / "changed_scan"
+        shutil.copytree(self.whole, folder)
+        line = next(line for line in lines_of(folder) if line["row"] == 1)
+        line["key"] = "another"
+        for shards in (0, 2):  # by name before and behind the other
+            path = folder / f"shard-1-of-{shards}.jsonl"
+            path.write_text(json.dumps(line) + "\n")
+            self.assertEqual(self.merged(folder)[0], 4)
+            path.unlink()
+        self.assertEqual(self.merged(folder), (0, self.table))
+
     def test_results_stay_where_their_scans_were_moved(self):
         place, folder, out = self.folder / "moved", self.folder / "moved/results", self.folder / "moved/table"
         place.mkdir()

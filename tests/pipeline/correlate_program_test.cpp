@@ -107,7 +107,21 @@ TEST_F(CorrelateProgram, WritesEveryFieldAndFile) {
   EXPECT_EQ(rows, coloured.vertices.size() + 1);
 }
 
+TEST_F(CorrelateProgram, KnowsTheSameScanMeshedOtherwise) {
+  ASSERT_EQ(correlate("--fit " + file("fit") + " --worn " + kScans + "/a/scan.ply --body-triangles 30000"), 0)
+      << read_file(file("log"));
+  EXPECT_TRUE(report()["worn"]["same_scan"].get<bool>());
+  ASSERT_EQ(correlate("--fit " + file("fit") + " --mesh " + file("fit/deformed.ply")), 0)
+      << read_file(file("log"));
+  EXPECT_FALSE(report()["worn"]["same_scan"].get<bool>());  // what is simulated, and no scan
+}
+
 TEST_F(CorrelateProgram, RefusesByName) {
+  const std::string twisted = copied();
+  json fit = json::parse(read_file(twisted + "/report.json"));
+  fit["posture"]["twist"] = 3;
+  std::ofstream(twisted + "/report.json") << fit;
+  expect_refused("--fit " + twisted + " --worn " + kScans + "/a/scan.ply", "bad_option");
   const std::string good = "--fit " + file("fit");
   expect_refused(good + " --mesh " + kScans + "/b/body.ply", "other_person");
   expect_refused(good + " --mesh " + kScans + "/a/body.ply --thickness 0.5", "bad_option");

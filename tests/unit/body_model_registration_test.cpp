@@ -10,6 +10,7 @@
 
 #include "body_model/registration.hpp"
 #include "geometry/decimate.hpp"
+#include "geometry/ply.hpp"
 #include "geometry/status.hpp"
 #include "refusal_of.hpp"
 #include "shipped_model.hpp"
@@ -282,6 +283,20 @@ TEST(Samples, WhereNoScanPointIsThereAreNone) {
   const Samples seen = sample_surface(mesh, filled, 5000);
   ASSERT_GT(seen.points.size(), 1000u);
   for (const Vector3d& p : seen.points) EXPECT_GT(p.z(), 0.78);  // as far as its triangle reaches
+}
+
+/// They were taken for the belly, with small breasts 26 cm above.
+TEST(Registration, BreastsThatLieOnTheBellyAreFound) {
+  const TriangleMesh woman =
+      geometry::read_ply_mesh(TENSEGRIC_FIT_SOURCE_DIR "/tests/data/hanging_breasts.ply");
+  const RegisteredBody body = register_mesh(shipped_registrar(), woman);
+  for (const SkinPoint& point : model().skin_points) {
+    if (point.name != "bust_point_L" && point.name != "bust_point_R") continue;
+    double height = 0;
+    for (const auto& [vertex, share] : point.vertices) height += share * body.skin[vertex].z();
+    EXPECT_NEAR(height, 1.133, 0.030)
+        << point.name;  // as the data set has it, to what local finders look round
+  }
 }
 
 }  // namespace

@@ -142,6 +142,12 @@ TEST(Words, WarningsSayWhereAndWhatToDo) {
   slack.line = "strap_L";
   EXPECT_EQ(warning(slack, measures), "'strap_L' is slack: it does not pull. Shorten it.");
 
+  slack.code = geometry::notice::kNotScanned;
+  slack.value = 0.83;
+  EXPECT_EQ(
+      warning(slack, measures),
+      "The scan did not see the skin under 'strap_L' (83 % of its length): what is shown there is made up.");
+
   EXPECT_EQ(warnings({}), "");
   EXPECT_EQ(warnings({"One.", "Two."}), "One. Two.");
   EXPECT_EQ(warnings({"One.", "Two.", "Three."}), "One. Two. And 1 more place.");

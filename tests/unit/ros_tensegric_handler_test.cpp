@@ -89,6 +89,19 @@ TEST_F(TensegricHandlerTest, FitsOnceEverythingOfOneScanIsThere) {
   EXPECT_TRUE(stage.add(control_of("A")));
 }
 
+TEST_F(TensegricHandlerTest, AnUnknownLineIsRefusedWhileTheBodyIsMadeReady) {
+  TensegricHandler stage = handler();
+  stage.put_on(chest_at(0.95));
+  stage.add(body_of("A"));
+  const auto input = stage.add(control_of("A"));  // which nobody has worked on so far
+  ASSERT_TRUE(input);
+  Garment unknown = chest_at(0.9);
+  unknown.lines[0].name = "nowhere";
+  EXPECT_NE(said_of([&] { stage.put_on(unknown); }), "accepted");
+  EXPECT_EQ(stage.worn().garment.lines[0].ratio, 0.95);
+  EXPECT_EQ(fit_of(stage, input)->status, FitState::CONVERGED);
+}
+
 TEST_F(TensegricHandlerTest, AGarmentForARefusedScanIsKeptAndNotPromised) {
   TensegricHandler stage = handler();
   stage.put_on(chest_at(0.95));

@@ -93,6 +93,19 @@ TEST_F(ScanFileTest, EveryKindIsReadAsItWasWritten) {
   expect_cloud(file("a.bag"));
 }
 
+TEST_F(ScanFileTest, AMeshThatIsInsideOutIsTurned) {
+  geometry::TriangleMesh box{{{0, 0, 0}, {0.4, 0, 0}, {0, 0.3, 0}, {0, 0, 1.7}},
+                             {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  const auto triangles = box.triangles;
+  for (const bool turned : {false, true}) {
+    if (turned)
+      for (Eigen::Vector3i& t : box.triangles) std::swap(t[1], t[2]);
+    geometry::write_ply_mesh(file("body.ply"), box);
+    mesh_files::Reading reading;
+    EXPECT_EQ(scan_files::read_body_mesh(file("body.ply"), {"m", "z"}, false, reading).triangles, triangles);
+  }
+}
+
 TEST_F(ScanFileTest, BagsOfOneCloudAreTheSameBytes) {
   const auto bytes = [](const std::string& path) {
     std::ifstream in(path, std::ios::binary);

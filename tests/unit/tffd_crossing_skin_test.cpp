@@ -115,7 +115,7 @@ TEST(CrossingSkin, StandsAmongAGarmentsWarnings) {
   const std::vector<Vector3d> worn = ridged(both, kHeight);
   int crossings = 0;
   for (const geometry::FitWarning& warning :
-       check_garment(both.vertices, {both.vertices, worn, both.triangles}, kLine, HoldOptions()))
+       check_garment({both.vertices}, {both.vertices, worn, both.triangles}, kLine, HoldOptions()))
     crossings += warning.code == geometry::warning::kSkinCrosses;
   EXPECT_EQ(crossings, 2);
 }

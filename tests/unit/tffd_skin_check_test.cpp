@@ -10,6 +10,7 @@
 #include "geometry/status.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "tffd/garment_check.hpp"
+#include "tffd/not_scanned.hpp"
 #include "tffd/under_constriction.hpp"
 
 namespace tensegric_fit::tffd {
@@ -218,12 +219,12 @@ TEST(GarmentCheck, PlacesAreThoseOfTheScanWhateverThePosture) {
       Eigen::Translation3d(0.1, -0.2, 0.3) * Eigen::AngleAxisd(0.5, Vector3d::UnitZ());
   std::vector<Vector3d> posed = mesh.vertices, worn = stepped(mesh, 10, 14, 70 * kDegree);
   const auto expected = with_code(
-      check_garment(mesh.vertices, {mesh.vertices, worn, mesh.triangles}, line_at(0.05), HoldOptions()),
+      check_garment({mesh.vertices}, {mesh.vertices, worn, mesh.triangles}, line_at(0.05), HoldOptions()),
       geometry::warning::kShelf);
   for (Vector3d& p : posed) p = turn * p;
   for (Vector3d& p : worn) p = turn * p;
   const auto found =
-      with_code(check_garment(mesh.vertices, {posed, worn, mesh.triangles}, line_at(0.05), HoldOptions()),
+      with_code(check_garment({mesh.vertices}, {posed, worn, mesh.triangles}, line_at(0.05), HoldOptions()),
                 geometry::warning::kShelf);
   ASSERT_EQ(expected.size(), 1u);
   ASSERT_EQ(found.size(), 1u);
@@ -237,9 +238,42 @@ TEST(GarmentCheck, NamesSkinThatFoldsAndLinesThatDoNotHold) {
   slack.tension = 0;
   const std::vector<Vector3d> worn = stepped(mesh, 10, 14, 70 * kDegree);
   const auto all =
-      check_garment(mesh.vertices, {mesh.vertices, worn, mesh.triangles}, {slack}, HoldOptions());
+      check_garment({mesh.vertices}, {mesh.vertices, worn, mesh.triangles}, {slack}, HoldOptions());
   EXPECT_EQ(with_code(all, geometry::warning::kShelf).size(), 1u);
   EXPECT_EQ(with_code(all, geometry::notice::kUnderConstricted).size(), 1u);
+}
+
+TEST(NotScanned, ALineMostlyOverSkinThatNobodySaw) {
+  const geometry::TriangleMesh mesh = sheet();
+  const std::vector<WornLine> lines = line_at(0.1);  // along y
+  double low = 1e9, high = -1e9;
+  for (const Vector3d& p : lines[0].at_rest) {
+    low = std::min(low, p.y());
+    high = std::max(high, p.y());
+  }
+  const auto found = [&](double share) {  // unseen up to there
+    std::vector<char> filled;
+    for (const Vector3d& p : mesh.vertices) filled.push_back(p.y() < low + share * (high - low) ? 1 : 0);
+    return not_scanned({mesh.vertices, mesh.vertices, mesh.triangles}, filled, lines);
+  };
+  EXPECT_TRUE(found(0).empty());
+  EXPECT_TRUE(found(0.4).empty());
+  for (const double share : {0.6, 0.8}) {
+    const auto notices = found(share);
+    ASSERT_EQ(notices.size(), 1u);
+    EXPECT_EQ(notices[0].code, geometry::notice::kNotScanned);
+    EXPECT_FALSE(notices[0].is_warning());
+    EXPECT_EQ(notices[0].line, lines[0].name);
+    EXPECT_NEAR(notices[0].value, share, 0.1);  // points of the line are 10 mm apart
+    EXPECT_FALSE(notices[0].vertices.empty());
+    for (const int v : notices[0].vertices) {
+      EXPECT_LT(std::abs(mesh.vertices[v].x() - 0.1), kHeldSkin + kSide);
+      EXPECT_LT(mesh.vertices[v].y(), low + share * (high - low) + kHeldSkin + kSide);
+    }
+  }
+  const WornSkin skin{mesh.vertices, mesh.vertices, mesh.triangles};
+  EXPECT_TRUE(not_scanned(skin, {}, lines).empty());
+  EXPECT_THROW(not_scanned(skin, {1}, lines), geometry::Refusal);
 }
 
 TEST(UnderConstriction, SkinUnderTheLine) {
