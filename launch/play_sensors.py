@@ -17,9 +17,9 @@ TRANSFORMS = ("/tf", "/tf_static")
 
 
 def main(bag, remappings):
-    namespace = get_ros_namespace(argv=remappings)
+    node = get_ros_namespace(argv=remappings) + "sensors"
     try:
-        sensors = rosgraph.Master("/play_sensors").getParam(resolve_name("assembler/sensors", namespace))
+        sensors = rosgraph.Master(node).getParam(resolve_name("assembler/sensors", node))
     except (rosgraph.MasterException, OSError):
         return "play_sensors: the parameter 'sensors' of the assembler is not set, or there is no ROS master"
     try:
@@ -29,7 +29,7 @@ def main(bag, remappings):
         return "play_sensors: %s: %s" % (bag, error)
     asked, missing = {}, []
     for sensor in sensors:
-        heard = resolve_name(sensor, namespace)
+        heard = resolve_name(sensor, node)
         names = [name for name in (heard, resolve_name(sensor, "/"), sensor) if name in there]
         if names:
             asked[names[0]] = heard

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 const ResultNames kCorrelateResults(std::begin(kCorrelateFiles), std::end(kCorrelateFiles));
 const ResultNames kFitted = {kFitReport, kExportDocument, "body.ply", "deformed.ply", "control.ply"};
 
-// m; skin that the garment moves by more is looked at.
+// m; skin that the garment moves by more is looked at, or all where it moves none.
 constexpr double kMoved = 1e-3;
 // m; of one scan, meshed with other options, half of that skin is so near (0.01 at a third of the triangles);
 // noise alone keeps two scans ten times as far apart.
@@ -34,7 +34,7 @@ bool is_same_scan(const FittedFolder& fitted, const geometry::TriangleMesh& worn
   for (std::size_t v = 0; v < fitted.deformed.size(); ++v)
     if ((fitted.deformed[v] - fitted.rest.vertices[v]).norm() > kMoved)
       moved.push_back(fitted.rest.vertices[v]);
-  if (moved.empty()) return false;
+  if (moved.empty()) moved = fitted.rest.vertices;
   const geometry::SurfaceTree tree(worn);
   std::vector<double> distances;
   for (const Eigen::Vector3d& p : moved) distances.push_back((tree.nearest(p).position - p).norm());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "geometry/status.hpp"
 #include "inspect/panel_words.hpp"
 
 namespace tensegric_fit::inspect {
@@ -24,7 +25,9 @@ bool is_of_booth(const std::string& stage) {
 void PipelineWatch::hear(const StageReport& report, double now) {
   const auto before = stages_.find(report.stage);
   const bool first = before == stages_.end();
-  if (!first && !report.refused() && !report.last_error.empty() &&
+  // That a newer scan overtook another within the chain is no news: the newer one is shown.
+  const bool is_overtaken = report.code == geometry::refusal::kSuperseded && !is_of_booth(report.stage);
+  if (!first && !report.refused() && !is_overtaken && !report.last_error.empty() &&
       report.last_error != before->second.report.last_error) {
     dropped_ = report;
     dropped_at_ = now;

@@ -167,14 +167,20 @@ bool BagCheck::can_be_replayed() const {
 }
 
 std::set<std::string> booths_in(rosbag::View& bag) {
-  std::set<std::string> scans, garments;
+  std::set<std::string> scans, garments, booths;
   for (const rosbag::ConnectionInfo* connection : bag.getConnections()) {
     const std::string topic = connection->topic.substr(
         std::min(connection->topic.find_first_not_of('/'), connection->topic.size()));
-    if (files::is_scan_topic(topic)) scans.insert(topic);
-    if (connection->datatype == ros::message_traits::datatype<Garment>()) garments.insert(topic);
+    const bool is_scan = files::is_scan_topic(topic),
+               is_garment = connection->datatype == ros::message_traits::datatype<Garment>();
+    if (is_scan) scans.insert(topic);
+    if (is_garment) garments.insert(topic);
+    const std::size_t name = is_scan ? sizeof "scan/points" - 1 : topic.size() - (topic.rfind('/') + 1);
+    if (is_scan || is_garment) booths.insert(topic.substr(0, topic.size() - name));
   }
-  return scans.size() > 1 ? scans : garments.size() > 1 ? garments : std::set<std::string>();
+  if (scans.size() < 2 && garments.size() < 2 && (scans.empty() || booths.size() < 2)) return {};
+  scans.merge(garments);
+  return scans;
 }
 
 BagCheck check_bag(const std::string& path) {

@@ -47,7 +47,7 @@ struct BagCheck {
 /// no_frame, many_frames, sensors, no_tf, not_finite, no_model. Never throws for what is in the bag.
 BagCheck check_bag(const std::string& path);
 
-/// The topics of scans, or of garments, where there are several: what came from two booths is no one's.
+/// The topics of scans and garments, where they are of several booths: what came from two is no one's.
 /// Empty: one booth's bag.
 std::set<std::string> booths_in(rosbag::View& bag);
 

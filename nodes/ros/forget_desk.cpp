@@ -100,12 +100,7 @@ ForgetDesk::ForgetDesk(ros::NodeHandle node, const ros::NodeHandle& private_node
   answers_in_ =
       node.subscribe<ForgetAnswer>("forget/answer", 64, [this](const ForgetAnswer::ConstPtr& answer) {
         const std::lock_guard<std::mutex> lock(mutex_);
-        // Of a node with several, as rviz's panel and displays, those that come in time.
-        ForgetAnswer& all = answers_[answer->node];
-        if (all.scan_id != answer->scan_id) all = ForgetAnswer();
-        all.scan_id = answer->scan_id;
-        all.removed.insert(all.removed.end(), answer->removed.begin(), answer->removed.end());
-        all.failed.insert(all.failed.end(), answer->failed.begin(), answer->failed.end());
+        answers_[answer->node] = *answer;
         answered_.notify_all();
       });
   if (options_.retention_days > 0) {

@@ -48,7 +48,12 @@ int run_node(int argc, char** argv, const std::string& name) {
   files::owner_only();
   limit_memory();
   ros::init(argc, argv, name);
-  const ros::NodeHandle running;  // ROS shuts down with the last one, and prints nothing from then on
+  const ros::NodeHandle running;
+  // At the end of this function, not among static objects: stages keep a handle for as long as the process
+  // lives.
+  const struct Shutdown {
+    ~Shutdown() { ros::shutdown(); }
+  } at_end{};
   try {
     close_log_folder();
     Forgetter forgetter{ros::NodeHandle{}};

@@ -211,6 +211,7 @@ bool FitPanel::forget(const std::string& scan_id) {
   held |= body_.forget(scan_id);
   if (!held || !body_.empty()) return held;
   clear_figures();
+  view_->clear();
   forget_customer();
   forgot_her_ = true;
   if (worn_ && lies_on_skin(*worn_)) worn_.reset();
@@ -305,6 +306,7 @@ void FitPanel::show_whose() {
 void FitPanel::take_body(const TriangleMesh& body) {
   try {
     const bool another = body.scan_id != body_.scan_id(), had_one = !body_.empty();
+    forgot_her_ = false;
     body_.take_body(body.scan_id, node::mesh_in(body));
     new_girths_ = true;
     if (another) {

@@ -59,6 +59,14 @@ void ViewRow::set_body(const std::string& frame, const Eigen::Isometry3d& body_f
   look(From::front, false);
 }
 
+void ViewRow::clear() {
+  frame_.clear();
+  garment_.clear();
+  body_from_scan_.reset();
+  skin_.clear();
+  lines_.clear();
+}
+
 void ViewRow::set_garment(const std::string& garment, std::vector<Eigen::Vector3d> lines) {
   const bool other = garment != garment_;
   lines_ = std::move(lines);

@@ -28,6 +28,8 @@ class ViewRow : public QWidget {
   /// Frame, in which she stands so; her skin, m.
   void set_body(const std::string& frame, const Eigen::Isometry3d& body_from_scan,
                 std::vector<Eigen::Vector3d> skin);
+  /// Nobody is there any more.
+  void clear();
   /// Where the lines of the garment run, m, in the same frame.
   void set_garment(const std::string& garment, std::vector<Eigen::Vector3d> lines);
 

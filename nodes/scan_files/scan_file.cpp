@@ -174,9 +174,11 @@ TriangleMesh read_body_mesh(const std::string& path, const mesh_files::Asked& as
         throw geometry::Refusal(geometry::refusal::kNonFinite,
                                 path + ": has a coordinate that is not finite in metres");
     }
-  // Inside out as a whole: a body's volume is no negative one.
-  if (!any_shape &&
-      geometry::cone_volume(mesh.vertices, mesh.triangles, geometry::mean_of(mesh.vertices)) < 0)
+  // Inside out as a whole: a body's volume is no negative one. The apex lies in the floor, which may be there
+  // in a single layer, and open at the soles.
+  Eigen::Vector3d apex = geometry::mean_of(mesh.vertices);
+  for (const Eigen::Vector3d& p : mesh.vertices) apex.z() = std::min(apex.z(), p.z());
+  if (!any_shape && geometry::cone_volume(mesh.vertices, mesh.triangles, apex) < 0)
     for (Eigen::Vector3i& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
 }

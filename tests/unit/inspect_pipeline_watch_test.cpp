@@ -114,6 +114,17 @@ TEST(PipelineWatch, WhatIsDroppedIsNewsForAWhile) {
   EXPECT_EQ(watch.state(1.1 + PipelineWatch::kNews).words, words::kReady);
 }
 
+TEST(PipelineWatch, AScanThatANewerOneOvertookIsNoNews) {
+  PipelineWatch watch;
+  all_say(watch, "done", 0);
+  StageReport report{"reconstruction", "working", "", "three"};
+  report.last_error = "a newer scan came before scan two was done";
+  report.code = "superseded";
+  watch.hear(report, 1);
+  EXPECT_FALSE(watch.state(1.1).trouble);
+  EXPECT_TRUE(watch.state(1.1).working);
+}
+
 TEST(PipelineWatch, WhatTheBoothRefusedIsShownUntilTheNextScan) {
   PipelineWatch watch;
   const StageReport refused{"scan_player", "refused", "b.ply: broken", "b.ply"};

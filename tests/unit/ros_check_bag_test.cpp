@@ -84,6 +84,11 @@ TEST_F(CheckBagTest, TwoBoothsInOneBagAreNamed) {
   EXPECT_EQ(found_in(fill("/right/scan/points", "/left/garment")), Names{"many_booths"});
   EXPECT_NE(check_.findings[0].what.find("left/scan/points, right/scan/points"), std::string::npos);
   EXPECT_EQ(found_in(fill("/left/scan/points", "/right/garment")), Names{"many_booths"});
+  EXPECT_EQ(found_in([](rosbag::Bag& bag) {  // one of each
+              write_scan(bag, 10, scan_at(10), "/left/scan/points");
+              bag.write("/right/garment", ros::Time(12), Garment());
+            }),
+            Names{"many_booths"});
 }
 
 TEST_F(CheckBagTest, AGoodBagIsDescribed) {
