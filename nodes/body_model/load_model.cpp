@@ -2,14 +2,12 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "body_model/array_file.hpp"
 #include "body_model/model.hpp"
-#include "geometry/array_file.hpp"
 
 namespace tensegric_fit::body_model {
 namespace {
 
-using geometry::ArrayFile;
-using geometry::Check;
 using Json = nlohmann::json;
 
 constexpr char kModelMagic[] = "tensegric_fit body model 1";
@@ -51,7 +49,7 @@ void take_header(const Json& header, const Check& check, Model& model) {
 
 /// Skin at rest, and the bones that carry it.
 void take_skin(const ArrayFile& file, const Check& check, Model& model) {
-  model.mean = geometry::points(file.numbers("mean", {0, 3}));
+  model.mean = points(file.numbers("mean", {0, 3}));
   const std::size_t count = model.mean.size();
   const std::vector<double> step = file.numbers("step", {0}),
                             basis = file.numbers("basis", {step.size(), count, 3});
@@ -89,7 +87,7 @@ void take_arrays(const ArrayFile& file, const Check& check, Model& model) {
   take_skin(file, check, model);
   const std::size_t vertices = model.mean.size(), components = static_cast<std::size_t>(model.components());
   const std::size_t inner = model.bones.size() + model.bone_points.size();
-  model.inner_mean = geometry::points(file.numbers("extra_mean", {inner, 3}));
+  model.inner_mean = points(file.numbers("extra_mean", {inner, 3}));
   const std::vector<double> inner_basis = file.numbers("extra_basis", {components, inner, 3});
   model.inner_basis =
       Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(

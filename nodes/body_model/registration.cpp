@@ -75,9 +75,9 @@ Parameters start_at(const Model& model, const Samples& samples, const Stand& sta
   return p;
 }
 
-/// The same with breasts that hang lower than all but one of a thousand women's.
+/// The same with breasts that hang lower than nearly all women's.
 Parameters with_hanging_breasts(const Model& model, Parameters p) {
-  constexpr double kLow = -3;  // deviations
+  constexpr double kLow = -3;  // deviations: one woman of 740 has less. A start, no limit; no other was tried
   Eigen::VectorXd up = Eigen::VectorXd::Zero(model.components());
   for (const SkinPoint& point : model.skin_points)
     if (point.name == "bust_point_L" || point.name == "bust_point_R")

@@ -95,11 +95,9 @@ Slides slidable(const Template& pattern, const geometry::ControlMesh& control) {
 
 std::vector<int> mirrored_nodes(const Template& pattern, std::size_t nodes) {
   std::vector<int> mirrored(nodes);
-  for (const Side side : {Side::left, Side::right})
-    for (int row = 0; row < pattern.rows; ++row)
-      for (int column = 0; column <= pattern.middle(); ++column)
-        if (const int node = node_at(pattern, row, column, side); node >= 0)
-          mirrored[node] = node_at(pattern, row, column, side == Side::left ? Side::right : Side::left);
+  for (auto row = pattern.numbers.begin(); row != pattern.numbers.end(); row += pattern.columns)
+    for (int column = 0; column < pattern.columns; ++column)
+      if (row[column] >= 0) mirrored[row[column]] = row[pattern.columns - 1 - column];
   return mirrored;
 }
 

@@ -167,20 +167,17 @@ bool BagCheck::can_be_replayed() const {
 }
 
 std::set<std::string> booths_in(rosbag::View& bag) {
-  std::set<std::string> scans, garments, booths;
+  std::set<std::string> topics, namespaces;
   for (const rosbag::ConnectionInfo* connection : bag.getConnections()) {
     const std::string topic = connection->topic.substr(
         std::min(connection->topic.find_first_not_of('/'), connection->topic.size()));
-    const bool is_scan = files::is_scan_topic(topic),
-               is_garment = connection->datatype == ros::message_traits::datatype<Garment>();
-    if (is_scan) scans.insert(topic);
-    if (is_garment) garments.insert(topic);
+    const bool is_scan = files::is_scan_topic(topic);
+    if (!is_scan && connection->datatype != ros::message_traits::datatype<Garment>()) continue;
+    topics.insert(topic);
     const std::size_t name = is_scan ? sizeof "scan/points" - 1 : topic.size() - (topic.rfind('/') + 1);
-    if (is_scan || is_garment) booths.insert(topic.substr(0, topic.size() - name));
+    namespaces.insert(topic.substr(0, topic.size() - name));
   }
-  if (scans.size() < 2 && garments.size() < 2 && (scans.empty() || booths.size() < 2)) return {};
-  scans.merge(garments);
-  return scans;
+  return namespaces.size() > 1 ? topics : std::set<std::string>();
 }
 
 BagCheck check_bag(const std::string& path) {

@@ -40,6 +40,10 @@ double peak_mebibytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+geometry::Refusal superseded_by_newer(const std::string& scan_id) {
+  return {geometry::refusal::kSuperseded, "a newer scan came before scan " + scan_id + " was done"};
+}
+
 }  // namespace
 
 Stage::Stage(std::string name, const ros::NodeHandle& node) : name_(std::move(name)) {
@@ -96,8 +100,7 @@ void Stage::put(Job job) {
 // A scan that has no result is named, not only where something of it is wrong.
 void Stage::say_superseded(const Job& job) {
   if (job.passing || HeldScan::of_process().is_forgotten(job.scan_id)) return;
-  drop(job.scan_id, geometry::Refusal(geometry::refusal::kSuperseded,
-                                      "a newer scan came before scan " + job.scan_id + " was done"));
+  drop(job.scan_id, superseded_by_newer(job.scan_id));
 }
 
 bool Stage::outdated(const std::string& scan_id) const {
@@ -182,9 +185,10 @@ void Stage::finish(const Job& job, const Result& result, double milliseconds) {
   const State before = state_;  // another scan may have been refused meanwhile
   state_.scan_id = job.scan_id;
   state_.level = DiagnosticStatus::OK;
-  if (superseded)
-    state_.last_error = {geometry::refusal::kSuperseded,
-                         "a newer scan came before scan " + job.scan_id + " was done", job.scan_id};
+  if (superseded) {
+    const geometry::Refusal why = superseded_by_newer(job.scan_id);
+    state_.last_error = {why.code(), why.what(), job.scan_id};
+  }
   state_.word = dropped ? "superseded" : "done";
   state_.message = dropped ? "dropped work on scan " + job.scan_id + ": something newer came" : "done";
   if (!dropped && !result.warning.empty()) {

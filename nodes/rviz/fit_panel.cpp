@@ -192,7 +192,8 @@ void FitPanel::forget_customer() {
 }
 
 bool FitPanel::forget(const std::string& scan_id) {
-  bool held = !labels_.of(scan_id).customer.empty() || !labels_.of(scan_id).source.empty();
+  const ScanLabel label = labels_.of(scan_id);
+  bool held = !label.customer.empty() || !label.source.empty();
   labels_.drop(scan_id);
   client_->forget_label(scan_id);
   if (fitted_ && fitted_->scan_id == scan_id) {

@@ -19,7 +19,8 @@ constexpr double kGlobalFrom = 0.5;
 // Of a vertex over the middle of well shaped triangles the absolute weights sum to 1 + 2 height / thickness,
 // of one at the rim to some more; more than this only by extrapolation from slivers.
 constexpr double kMostFrameStretch = 3;
-constexpr double kOverLeast = 1.1;  // tolerance: room for more than one triangle to share a vertex
+constexpr double kOverLeast =
+    1.1;  // tolerance: room for more than one triangle to share a vertex; only this was tried
 constexpr double kFirstPower = 0.5, kMostPower = 64;
 constexpr int kBisections = 30;
 
@@ -133,12 +134,18 @@ class Row {
   std::vector<int> columns_;
 };
 
+double least_stretch(const std::vector<Near>& near) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Near& triangle : near)
+    if (triangle.k > 0) least = std::min(least, triangle.stretch);
+  return least;
+}
+
 // Multiplies each triangle's share by (least stretch / its stretch)^power: those that extrapolate far count
 // less.
 void favour_near(const std::vector<Near>& before, double power, std::vector<Near>& near) {
-  double least = std::numeric_limits<double>::infinity(), sum = 0;
-  for (const Near& triangle : before)
-    if (triangle.k > 0) least = std::min(least, triangle.stretch);
+  const double least = least_stretch(before);
+  double sum = 0;
   for (std::size_t i = 0; i < near.size(); ++i) {
     near[i].k = before[i].k > 0 ? before[i].k * std::pow(least / before[i].stretch, power) : 0;
     sum += near[i].k;
@@ -153,10 +160,7 @@ void favour_near(const std::vector<Near>& before, double power, std::vector<Near
 // tears. Any shares keep the mapping affine-exact.
 template <typename Absolute>
 void limit_stretch(std::vector<Near>& near, const Absolute& absolute) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Near& triangle : near)
-    if (triangle.k > 0) least = std::min(least, triangle.stretch);
-  const double most = std::max(kMostFrameStretch, kOverLeast * least);
+  const double most = std::max(kMostFrameStretch, kOverLeast * least_stretch(near));
   if (absolute(near) <= most) return;
   const std::vector<Near> before = near;
   double low = 0, high = kFirstPower;

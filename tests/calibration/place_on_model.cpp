@@ -45,9 +45,8 @@ Vector3d median_of(const Places& places) {
 }
 
 /// Pairs of a vertex and its share, as templates have them.
-std::string text_of(const geometry::TriangleMesh& mean, const Vector3d& place) {
-  const geometry::SurfacePoint foot = geometry::SurfaceTree(mean).nearest(place);
-  const Eigen::Vector3i& corners = mean.triangles[foot.triangle];
+std::string text_of(const body_model::Model& model, const geometry::SurfacePoint& foot) {
+  const Eigen::Vector3i& corners = model.triangles[foot.triangle];
   std::vector<std::string> pairs;
   int left = 100;  // hundredths
   for (int k = 0; k < 3; ++k) {
@@ -107,6 +106,7 @@ int main(int argc, char** argv) {
     }
     if (bodies == 0) throw std::runtime_error("none of the bodies can be laid as the template draws it");
     const geometry::TriangleMesh mean{model->mean, model->triangles};
+    const geometry::SurfaceTree tree(mean);
     std::stringstream file;
     file << std::ifstream(argv[1]).rdbuf();
     std::string text = file.str();
@@ -114,7 +114,7 @@ int main(int argc, char** argv) {
     for (std::size_t n = 0; n < pattern.nodes.size(); ++n) {
       if (pattern.nodes[n].or_on_model.empty()) continue;
       at = text.find(kKey, at) + sizeof kKey - 1;
-      const std::string place = text_of(mean, median_of(places[n]));
+      const std::string place = text_of(*model, tree.nearest(median_of(places[n])));
       text.replace(at, text.find("]]", at) + 2 - at, place);
     }
     std::cout << text;

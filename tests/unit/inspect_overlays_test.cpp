@@ -34,6 +34,16 @@ class OverlaysTest : public testing::Test {
     overlays_.take_members("one", {std::vector<Eigen::Vector3d>(8, {0, 0, 2}), {0, 1, 2, 7}, {1, -1}});
   }
 
+  void expect_nothing_drawn() {
+    EXPECT_TRUE(overlays_.dots(body_, 1).empty());
+    EXPECT_TRUE(overlays_.tapes(body_, 1).empty());
+    EXPECT_TRUE(overlays_.model(body_, 1).empty());
+    EXPECT_TRUE(overlays_.edges(body_, 1).empty());
+    EXPECT_TRUE(overlays_.lines(body_, 1).empty());
+    EXPECT_TRUE(overlays_.members(body_, 1).empty());
+    EXPECT_EQ(overlays_.measures(body_), nullptr);
+  }
+
   static ModelSkin model() { return {kCorners, {{0, 1, 2, 3}}, {0, 0, 1, 1}, {"breast_L", "breast_R"}}; }
 
   static inline const std::vector<Eigen::Vector3d> kCorners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -74,13 +84,7 @@ TEST_F(OverlaysTest, ColoursTellUnsureFromSureAndPullFromPress) {
 
 TEST_F(OverlaysTest, NothingOfAnotherScanIsDrawn) {
   body_.take_body("two", {kCorners, kTriangles});
-  EXPECT_TRUE(overlays_.dots(body_, 1).empty());
-  EXPECT_TRUE(overlays_.tapes(body_, 1).empty());
-  EXPECT_TRUE(overlays_.model(body_, 1).empty());
-  EXPECT_TRUE(overlays_.edges(body_, 1).empty());
-  EXPECT_TRUE(overlays_.lines(body_, 1).empty());
-  EXPECT_TRUE(overlays_.members(body_, 1).empty());
-  EXPECT_EQ(overlays_.measures(body_), nullptr);
+  expect_nothing_drawn();
 }
 
 TEST_F(OverlaysTest, NothingOfAForgottenScanIsLeft) {
@@ -89,13 +93,7 @@ TEST_F(OverlaysTest, NothingOfAForgottenScanIsLeft) {
   EXPECT_FALSE(overlays_.forget("two"));
   EXPECT_FALSE(overlays_.dots(body_, 1).empty());
   EXPECT_TRUE(overlays_.forget("one"));
-  EXPECT_EQ(overlays_.measures(body_), nullptr);
-  EXPECT_TRUE(overlays_.dots(body_, 1).empty());
-  EXPECT_TRUE(overlays_.tapes(body_, 1).empty());
-  EXPECT_TRUE(overlays_.model(body_, 1).empty());
-  EXPECT_TRUE(overlays_.edges(body_, 1).empty());
-  EXPECT_TRUE(overlays_.lines(body_, 1).empty());
-  EXPECT_TRUE(overlays_.members(body_, 1).empty());
+  expect_nothing_drawn();
   EXPECT_FALSE(overlays_.forget("one"));
 }
 

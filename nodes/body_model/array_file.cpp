@@ -1,4 +1,4 @@
-#include "geometry/array_file.hpp"
+#include "body_model/array_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "geometry/checksum.hpp"
 
-namespace tensegric_fit::geometry {
+namespace tensegric_fit::body_model {
 namespace {
 
 using Json = nlohmann::json;
@@ -38,10 +38,10 @@ std::vector<double> as_doubles(const std::string& type, const std::string& bytes
 
 /// Of all bytes of the file, which is read to its end.
 std::string checksum_of(std::istream& file) {
-  std::uint64_t value = kEmptyChecksum;
+  std::uint64_t value = geometry::kEmptyChecksum;
   std::vector<char> bytes(1 << 16);
   while (file.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || file.gcount() > 0)
-    value = checksum(value, bytes.data(), static_cast<std::size_t>(file.gcount()));
+    value = geometry::checksum(value, bytes.data(), static_cast<std::size_t>(file.gcount()));
   std::ostringstream text;
   text << std::hex << std::setw(16) << std::setfill('0') << value;
   return text.str();
@@ -112,4 +112,4 @@ std::vector<Eigen::Vector3d> points(const std::vector<double>& xyz) {
   return result;
 }
 
-}  // namespace tensegric_fit::geometry
+}  // namespace tensegric_fit::body_model

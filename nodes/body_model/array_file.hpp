@@ -9,13 +9,13 @@
 
 #include "geometry/status.hpp"
 
-namespace tensegric_fit::geometry {
+namespace tensegric_fit::body_model {
 
 /// Refuses the file with `what`.
 struct Check {
   const std::string& path;
   void operator()(bool holds, const std::string& what) const {
-    if (!holds) throw Refusal(refusal::kBrokenFile, path + ": " + what);
+    if (!holds) throw geometry::Refusal(geometry::refusal::kBrokenFile, path + ": " + what);
   }
 };
 
@@ -48,4 +48,4 @@ class ArrayFile {
 /// Three numbers per point.
 std::vector<Eigen::Vector3d> points(const std::vector<double>& xyz);
 
-}  // namespace tensegric_fit::geometry
+}  // namespace tensegric_fit::body_model
