@@ -88,6 +88,14 @@ Parameters with_hanging_breasts(const Model& model, Parameters p) {
   return p;
 }
 
+/// The same with spine and legs straight, as its pelvis stands: of a tilted scan both legs may have been laid
+/// on one.
+Parameters standing_straight(const Model& model, Parameters p) {
+  for (std::size_t g = 0; g < model.groups.size(); ++g)
+    if (model.groups[g].name.find("arm_") == std::string::npos) p.turns[g].setZero();
+  return p;
+}
+
 /// Whether there is surface that the model is nowhere near: a thing, or a part of her that the fit went past.
 bool leaves_things(const Matching& matching) {
   const auto off = std::count_if(matching.unexplained.begin(), matching.unexplained.end(),
@@ -182,13 +190,17 @@ RegisteredBody Registrar::operator()(const Samples& samples) const {
     for (std::size_t i = begin; i < end; ++i)
       tried[i] = fit_stage(model, matcher, with_arms_placed(model, matcher, tried[i].parameters), kSecond);
   });
-  Fitted fitted = *std::min_element(tried.begin(), tried.end(), likelier);
-  std::vector<Fitted> ways{fit_stage(model, matcher, fitted.parameters, kThird)};
-  if (leaves_things(ways.front().matching)) {  // breasts that lie on the belly may have been taken for it
-    ways.push_back(fit_stage(model, matcher, with_hanging_breasts(model, fitted.parameters), kSecond));
-    ways.back() = fit_stage(model, matcher, ways.back().parameters, kThird);
+  const Parameters first = std::min_element(tried.begin(), tried.end(), likelier)->parameters;
+  std::vector<Fitted> ways{fit_stage(model, matcher, first, kThird)};
+  if (leaves_things(ways.front().matching)) {
+    // Breasts that lie on the belly may have been taken for it, one leg for both.
+    for (const Parameters& start : {with_hanging_breasts(model, first), standing_straight(model, first)}) {
+      const Fitted other = fit_stage(model, matcher, start, kSecond);
+      ways.push_back(fit_stage(model, matcher, other.parameters, kThird));
+    }
   }
-  fitted = fit_stage(model, matcher, std::min_element(ways.begin(), ways.end(), likelier)->parameters, kFine);
+  const Fitted fitted =
+      fit_stage(model, matcher, std::min_element(ways.begin(), ways.end(), likelier)->parameters, kFine);
   const PosedModel posed(model, fitted.parameters);
   RegisteredBody body;
   body.model = model_;
@@ -226,12 +238,15 @@ RegisteredBody register_mesh(const Registrar& registrar, const geometry::Triangl
   const Ground ground = settled_ground(body, body.ground, body.ground_deviation, registrar.standing());
   body.ground = ground.height;
   body.ground_deviation = ground.deviation;
+  // The lowest place is that of one foot, which may be the one that was lifted.
+  if (const auto [left, right] = sides_there(body, "foot"); !(left && right))
+    body.ground_deviation = std::max(body.ground_deviation, registrar.standing().ground);
   return body;
 }
 
 const Registrar& shipped_registrar() {
   static const Registrar registrar(load_model(geometry::shipped_folder("body_model") + "/women.tfb"),
-                                   load_standing(geometry::shipped_folder("body_model") + "/standing.yaml"));
+                                   shipped_standing());
   return registrar;
 }
 

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <numeric>
 #include <random>
+#include <tuple>
 #include <utility>
 
 #include "geometry/parallel_for.hpp"
+#include "geometry/points.hpp"
 
 namespace tensegric_fit::body_model {
 namespace {
@@ -22,16 +24,88 @@ double radical_inverse(unsigned i, unsigned base) {
   return result;
 }
 
-/// The samples from number `begin` to `end` over a mesh whose triangles up to each have that area.
-void add_samples(const geometry::TriangleMesh& mesh, const std::vector<Vector3d>& normals,
-                 const std::vector<char>& filled, const std::vector<double>& area_up_to, unsigned begin,
-                 unsigned end, Samples& samples) {
+/// Every third bit of the result is one of the lowest 21 bits of `number`.
+std::uint64_t spread_bits(std::uint64_t number) {
+  std::uint64_t result = 0;
+  for (int bit = 0; bit < 21; ++bit) result |= (number >> bit & 1) << 3 * bit;
+  return result;
+}
+
+/// The vertices in a frame of their own that turns about the vertical along with the surface, and is mirrored
+/// with it: the level axes along which it spreads most and least, each towards where it reaches farther.
+std::vector<Vector3d> seen_from_itself(const geometry::TriangleMesh& mesh) {
+  std::vector<std::pair<Eigen::Vector2d, double>> pieces;  // middle and area
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  double sum = 0;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    pieces.emplace_back((a + b + c).head<2>() / 3, geometry::area_vector(a, b, c).norm());
+    mean += pieces.back().second * pieces.back().first;
+    sum += pieces.back().second;
+  }
+  if (sum > 0) mean /= sum;
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+  for (const auto& [middle, area] : pieces) squares += area * (middle - mean) * (middle - mean).transpose();
+  const double turn = std::atan2(2 * squares(0, 1), squares(0, 0) - squares(1, 1)) / 2;
+  Eigen::Matrix2d axes;
+  axes << std::cos(turn), std::sin(turn), -std::sin(turn), std::cos(turn);
+  Eigen::Array2d skew = Eigen::Array2d::Zero();
+  for (const auto& [middle, area] : pieces) skew += area * (axes * (middle - mean)).array().cube();
+  for (int axis = 0; axis < 2; ++axis)
+    if (skew[axis] < 0) axes.row(axis) = -axes.row(axis);
+  std::vector<Vector3d> places;
+  places.reserve(mesh.vertices.size());
+  for (const Vector3d& p : mesh.vertices) {
+    const Eigen::Vector2d level = axes * (p.head<2>() - mean);
+    places.emplace_back(level.x(), level.y(), p.z());
+  }
+  return places;
+}
+
+/// Triangles that are near each other one after the other (Morton's order of their middles), each from its
+/// lowest corner to its highest: the same in whatever order a file has them, and however it is turned about
+/// the vertical, but for rounding.
+std::vector<Eigen::Vector3i> in_order_of_place(const geometry::TriangleMesh& mesh) {
+  constexpr double kCell = 0.001;              // m: triangles are larger
+  constexpr double kMost = (1 << 20) * kCell;  // m each way: farther out all are in one cell
+  const std::vector<Vector3d> places = seen_from_itself(mesh);
+  const auto place = [&](int v) { return std::array{places[v].z(), places[v].y(), places[v].x()}; };
+  double lowest = HUGE_VAL;
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    for (const int v : t) lowest = std::min(lowest, places[v].z());
+  using Order =
+      std::tuple<std::uint64_t, std::array<double, 3>, std::size_t>;  // cell, lowest corner, triangle
+  std::vector<Eigen::Vector3i> triangles = mesh.triangles;
+  std::vector<Order> order;
+  order.reserve(triangles.size());
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    Eigen::Vector3i& t = triangles[f];
+    std::sort(t.data(), t.data() + 3, [&](int i, int j) { return place(i) < place(j); });
+    const Vector3d middle = (places[t[0]] + places[t[1]] + places[t[2]]) / 3 - lowest * Vector3d::UnitZ();
+    std::uint64_t cell = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      cell |= spread_bits(static_cast<std::uint64_t>(
+                  (std::clamp(middle[axis], -kMost, kMost - kCell) + kMost) / kCell))
+              << axis;
+    order.emplace_back(cell, place(t[0]), f);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<Eigen::Vector3i> result;
+  result.reserve(order.size());
+  for (const Order& next : order) result.push_back(triangles[std::get<2>(next)]);
+  return result;
+}
+
+/// The samples from number `begin` to `end` over triangles that up to each have that area.
+void add_samples(const geometry::TriangleMesh& mesh, const std::vector<Eigen::Vector3i>& triangles,
+                 const std::vector<Vector3d>& normals, const std::vector<char>& filled,
+                 const std::vector<double>& area_up_to, unsigned begin, unsigned end, Samples& samples) {
   for (unsigned i = begin; i < end; ++i) {
     const double at =
         area_up_to.back() * radical_inverse(i, 5);  // any first n of them are spread over the whole
     const auto found = std::lower_bound(area_up_to.begin(), area_up_to.end(), at);
     const Eigen::Vector3i& t =
-        mesh.triangles[std::min<std::size_t>(found - area_up_to.begin(), mesh.triangles.size() - 1)];
+        triangles[std::min<std::size_t>(found - area_up_to.begin(), triangles.size() - 1)];
     const double s = std::sqrt(radical_inverse(i, 2)), r = radical_inverse(i, 3);
     const Vector3d share(1 - s, s * (1 - r), s * r);
     Eigen::Index nearest;
@@ -102,17 +176,18 @@ Samples shuffled_by_place(const Samples& samples) {
 
 Samples sample_surface(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, int count) {
   const std::vector<Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
+  const std::vector<Eigen::Vector3i> triangles = in_order_of_place(mesh);
   std::vector<double> area_up_to;
   double sum = 0;
-  for (const Eigen::Vector3i& t : mesh.triangles) {
+  for (const Eigen::Vector3i& t : triangles) {
     sum += geometry::area_vector(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]).norm();
     area_up_to.push_back(sum);
   }
   std::array<Samples, 2> of_half;
   if (!(sum > 0)) return {};
   geometry::parallel_for(count, [&](std::size_t begin, std::size_t end, int half) {
-    add_samples(mesh, normals, filled, area_up_to, static_cast<unsigned>(begin), static_cast<unsigned>(end),
-                of_half[half]);
+    add_samples(mesh, triangles, normals, filled, area_up_to, static_cast<unsigned>(begin),
+                static_cast<unsigned>(end), of_half[half]);
   });
   Samples& samples = of_half[0];
   samples.points.insert(samples.points.end(), of_half[1].points.begin(), of_half[1].points.end());

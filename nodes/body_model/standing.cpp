@@ -10,6 +10,7 @@
 #include "body_model/missing_parts.hpp"
 #include "geometry/checked_yaml.hpp"
 #include "geometry/points.hpp"
+#include "geometry/shipped_files.hpp"
 
 namespace tensegric_fit::body_model {
 namespace {
@@ -61,6 +62,12 @@ double height_of_soles(const RegisteredBody& body, const std::array<bool, 2>& si
   return (left + right - raised * std::abs(left - right)) / 2;
 }
 
+// From the right one to the left one, level.
+Vector3d between(const RegisteredBody& body, const std::string& joint) {
+  const Vector3d way = body.joint(joint + ".L") - body.joint(joint + ".R");
+  return way - body.vertical.dot(way) * body.vertical;
+}
+
 Vector3d normal_of(const std::vector<Vector3d>& points, const Vector3d& up) {
   const Vector3d mean = mean_of(points);
   Matrix3d squares = Matrix3d::Zero();
@@ -76,7 +83,7 @@ Standing load_standing(const std::string& path) {
   const YAML::Node root = geometry::load_yaml_map(path, kCode);
   geometry::check_keys(root,
                        {"made", "bodies", "error", "forwards", "legs_forwards", "sideways", "along", "seen",
-                        "soles", "without_feet", "without_thighs"},
+                        "soles", "without_feet", "without_thighs", "facing"},
                        path, kCode);
   const auto degrees = [&](const char* key, double least) {
     return geometry::number_in(root, key, least, 5, path, kCode) * M_PI / 180;
@@ -90,7 +97,13 @@ Standing load_standing(const std::string& path) {
           metres("soles"),
           metres("error"),
           metres("without_feet"),
-          metres("without_thighs")};
+          metres("without_thighs"),
+          degrees("facing", kLeastDeviation)};
+}
+
+const Standing& shipped_standing() {
+  static const Standing standing = load_standing(geometry::shipped_folder("body_model") + "/standing.yaml");
+  return standing;
 }
 
 Stance stance_of(const RegisteredBody& body) {
@@ -123,6 +136,19 @@ Vector3d upright(const RegisteredBody& body, const Standing& standing) {
         doubt_at(std::hypot(differ.dot(left) / standing.sideways, differ.dot(forward) / standing.along) / 2);
   }
   return (body.vertical + leaning * (up - body.vertical)).normalized();
+}
+
+double turn_of_feet(const RegisteredBody& body) {
+  const Vector3d hips = between(body, "upperleg01"), feet = between(body, "foot");
+  return std::atan2(body.vertical.dot(hips.cross(feet)), hips.dot(feet));
+}
+
+Vector3d across(const RegisteredBody& body, const Standing& standing) {
+  Vector3d left = between(body, "upperleg01");
+  // One foot ahead of the other turns their line, not her.
+  if (has_both(body, "foot"))
+    left += (1 - doubt_at(std::abs(turn_of_feet(body)) / standing.facing)) * between(body, "foot");
+  return left.normalized();
 }
 
 Ground ground_by_soles(const RegisteredBody& body, const Standing& standing) {

@@ -16,10 +16,15 @@ struct Standing {
   double ground;           ///< m: deviation of the ground that these two give
   /// m: the same where no foot is there, and where no thigh is either, and the model's soles alone say it
   double without_feet, without_thighs;
+  double
+      facing;  ///< rad: deviation of the line across the feet from that across the hips, about the vertical
 };
 
 /// \throw Refusal broken_file: not there, unknown keys, values out of range
 Standing load_standing(const std::string& path);
+
+/// The shipped one, loaded once. \throw Refusal broken_file
+const Standing& shipped_standing();
 
 /// How legs and soles stand: before what is known of other women is taken off.
 struct Stance {
@@ -32,6 +37,13 @@ Stance stance_of(const RegisteredBody& body);
 /// Up, a unit vector: body.vertical, the booth's own, unless legs and soles clearly stand on another. Only
 /// where both thighs and both shanks are there; where a foot is not, the legs alone say it.
 Eigen::Vector3d upright(const RegisteredBody& body, const Standing& standing);
+
+/// To her left, level, a unit vector: across her hips, and her feet as far as they stand side by side.
+/// Shoulders turn with the arms.
+Eigen::Vector3d across(const RegisteredBody& body, const Standing& standing);
+
+/// From the line across her hips to that across her feet, about body.vertical, rad.
+double turn_of_feet(const RegisteredBody& body);
 
 /// The ground along body.vertical.
 struct Ground {

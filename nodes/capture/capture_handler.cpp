@@ -22,10 +22,10 @@ const geometry::Range kTimeout{0.1, 3600};  // s
 
 }  // namespace
 
-CaptureHandler::Setup CaptureHandler::setup_from(Parameters& parameters) {
+CaptureHandler::Setup CaptureHandler::setup_from(Parameters& parameters, double slop) {
   Setup setup;
   setup.timeout = parameters.number("timeout", setup.timeout, kTimeout);
-  setup.slop = parameters.number("slop", setup.slop, geometry::kSlop);
+  setup.slop = parameters.number("slop", slop, geometry::kSlop);
   setup.trigger = parameters.text("trigger", setup.trigger);
   std::string error;
   if (!setup.trigger.empty() && (setup.trigger.front() == '~' || setup.trigger.back() == '/'))
@@ -36,8 +36,8 @@ CaptureHandler::Setup CaptureHandler::setup_from(Parameters& parameters) {
   return setup;
 }
 
-CaptureHandler::CaptureHandler(Parameters parameters, std::string name_space)
-    : setup_(setup_from(parameters)), name_space_(std::move(name_space)) {}
+CaptureHandler::CaptureHandler(Parameters parameters, std::string name_space, double slop)
+    : setup_(setup_from(parameters, slop)), name_space_(std::move(name_space)) {}
 
 void CaptureHandler::begin(const CaptureGoal& goal, double now) {
   landmarks_.clear();

@@ -25,8 +25,9 @@ namespace tensegric_fit::node {
 /// One goal at a time. Times are seconds of any steady clock. For one thread.
 class CaptureHandler {
  public:
-  /// `name_space`: of the booth. \throw Refusal bad_option
-  CaptureHandler(Parameters parameters, std::string name_space);
+  /// `name_space`: of the booth. `slop`: of the assembler that it follows, s, where its own parameter is not
+  /// set. \throw Refusal bad_option
+  CaptureHandler(Parameters parameters, std::string name_space, double slop = geometry::kUsualSlop);
 
   /// Service that makes the booth scan; empty where it scans by itself.
   const std::string& trigger() const { return setup_.trigger; }
@@ -69,7 +70,7 @@ class CaptureHandler {
     double timeout = 60, slop = geometry::kUsualSlop;  ///< s
     std::string trigger;
   };
-  static Setup setup_from(Parameters& parameters);
+  static Setup setup_from(Parameters& parameters, double slop);
   void watch(std::uint64_t not_before);
 
   const Setup setup_;

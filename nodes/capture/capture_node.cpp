@@ -74,7 +74,8 @@ class CaptureNode {
  public:
   CaptureNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
       : node_(node),
-        handler_(Parameters(private_node), node.getNamespace()),
+        handler_(Parameters(private_node), node.getNamespace(),
+                 node.param("assembler/slop", geometry::kUsualSlop)),  // which scans it lets be whole
         trigger_(node, handler_.trigger()) {
     subscribers_ = {node.subscribe("scan/points", 4, &CaptureNode::on_scan, this),
                     node.subscribe("body/landmarks", 4, &CaptureNode::on_landmarks, this),

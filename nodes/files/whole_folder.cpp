@@ -55,9 +55,7 @@ class LockedParent {
   explicit LockedParent(const fs::path& parent) : directory_(parent, O_RDONLY | O_DIRECTORY) {
     lock(parent);
     for (const fs::directory_entry& entry : fs::directory_iterator(parent)) {
-      const std::string name = entry.path().filename();
-      if (name.front() == '.' && entry.path().extension() == kUnfinished &&
-          entry.symlink_status().type() == fs::file_type::directory)
+      if (is_unfinished(entry.path().filename()) && entry.symlink_status().type() == fs::file_type::directory)
         try {
           remove_folder(directory_, entry.path());
         } catch (const fs::filesystem_error&) {  // another user's, or not ours: only a folder of its name
@@ -115,6 +113,10 @@ fs::path new_folder(const std::string& folder) {
 
 }  // namespace
 
+bool is_unfinished(const std::string& name) {
+  return name.front() == '.' && fs::path(name).extension() == kUnfinished;
+}
+
 void check_new_folder(const std::string& folder) {
   new_folder(folder);
 }
@@ -158,8 +160,7 @@ void delete_whole_folder(const std::string& folder) {
       // An unfinished one, which went with the lock, unless it was finished meanwhile.
       const std::string name = place.filename();
       const std::size_t suffix = sizeof(kUnfinished) - 1;
-      if (name.front() == '.' && place.extension() == kUnfinished &&
-          fs::exists(place.parent_path() / name.substr(1, name.size() - 1 - suffix))) {
+      if (is_unfinished(name) && fs::exists(place.parent_path() / name.substr(1, name.size() - 1 - suffix))) {
         errno = EBUSY;
         fail(folder);
       }

@@ -23,6 +23,9 @@ void check_new_folder(const std::string& folder);
 /// cannot_write, in words
 std::vector<std::string> write_whole_folder(const std::string& folder, const std::vector<FileContent>& files);
 
+/// Whether a folder's name is that of one that is being written or deleted, or was when that was cut off.
+bool is_unfinished(const std::string& name);
+
 /// Takes the folder away at once and deletes it with its files; a link in it goes, what it leads to stays.
 /// \pre an absolute path \throw Refusal cannot_write: a link, or a folder with folders in it
 void delete_whole_folder(const std::string& folder);

@@ -1,6 +1,5 @@
 #include "fit/history.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <sys/stat.h>
@@ -10,7 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "geometry/scan_stamp.hpp"
 #include "geometry/status.hpp"
+#include "inspect/words.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -18,16 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr double kClocksAreSet = 946684800;  // s, 2000-01-01: earlier stamps are of clocks that start at zero
-constexpr double kLatest = 253402300800;     // s, the year 10000: later ones have no date
-
 double time_of_change(const fs::path& file) {
   struct stat status {};
   return stat(file.c_str(), &status) == 0 ? static_cast<double>(status.st_mtime) : 0;
-}
-
-std::string day_of(double time) {
-  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(static_cast<std::time_t>(time)));
 }
 
 Eigen::Isometry3d pose_in(const json& rows) {
@@ -71,7 +65,7 @@ void read_export(const json& document, Visit& visit) {
   visit.source = scan.value("source", "");
   visit.body_from_scan = pose_in(scan.at("body_from_scan"));
   const double stamp = std::strtod(visit.scan.c_str(), nullptr);
-  if (stamp > kClocksAreSet && stamp < kLatest) visit.time = stamp;
+  if (!geometry::day_of(stamp).empty()) visit.time = stamp;  // else its clock was not set
   visit.garment = document.at("garment").at("name").get<std::string>();
   add_lines(document.at("garment").at("lines"), visit);
   visit.girths = exported(document.at("body").at("girths"));
@@ -116,7 +110,7 @@ std::optional<Visit> read_visit(const fs::path& folder) {
         read_export(document, visit);
       else if (!read_report(document, visit))
         return std::nullopt;
-      visit.day = day_of(visit.time);
+      visit.day = geometry::day_of(visit.time);
       return visit;
     }
   } catch (const json::exception&) {  // some other program's
@@ -191,8 +185,9 @@ std::string visits_text(const std::vector<Visit>& visits, std::size_t from, std:
   if (visits.size() < 2) return text;
   text += fmt::format("from {} to {}, cm:\n", from + 1, to + 1);
   for (const VisitChange& change : changes(visits[from], visits[to]))
-    text += fmt::format("  {:<7} {:<12} {:>6.1f} -> {:>6.1f}  {:+5.1f}{}{}\n", change.kind, change.name,
-                        100 * change.from, 100 * change.to, 100 * (change.to - change.from),
+    text += fmt::format("  {:<7} {:<12} {:>6.1f} -> {:>6.1f}  {:>5}{}{}\n", change.kind, change.name,
+                        100 * change.from, 100 * change.to,
+                        inspect::words::centimetre_change(change.to - change.from),
                         change.half_width > 0 ? fmt::format(" +- {:.1f}", 100 * change.half_width) : "",
                         change.beyond_doubt() ? "  changed" : "");
   return text;

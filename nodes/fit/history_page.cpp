@@ -8,6 +8,7 @@
 #include "inspect/composition.hpp"
 #include "inspect/picture.hpp"
 #include "inspect/pointing.hpp"
+#include "inspect/words.hpp"
 
 namespace tensegric_fit::fit {
 namespace {
@@ -111,16 +112,11 @@ std::string visits_table(const std::vector<Visit>& visits, const fs::path& page)
   return html + "</table></div>\n";
 }
 
-// cm to the tenth, and no minus before zero.
-double tenths(double metres) {
-  return std::round(1e3 * metres) / 10 + 0.0;
-}
-
 std::string changes_table(const Visit& from, const Visit& to) {
   std::string html =
       "<div class=wide><table><tr><th>cm<th>before<th>now<th>change<th>uncertain by, 95 %</tr>\n";
   for (const VisitChange& change : changes(from, to)) {
-    const std::string moved = fmt::format("{:+.1f}", tenths(change.to - change.from));
+    const std::string moved = inspect::words::centimetre_change(change.to - change.from);
     html += fmt::format("<tr><td>{} {}</td><td>{:.1f}</td><td>{:.1f}</td><td>{}</td><td>{}</td></tr>\n",
                         html_escaped(inspect::spoken(change.name)), change.kind, 100 * change.from,
                         100 * change.to, change.beyond_doubt() ? "<b>" + moved + "</b>" : moved,

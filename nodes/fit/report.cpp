@@ -204,9 +204,12 @@ Json report_of(const Source& source, const Body& body, const Fitting* fitting, c
 }
 
 Json report_of(const Source& source, const geometry::Refusal& refusal) {
-  return {{"scan", {{"file", source.file}, {"more_files", source.more}, {"points", source.points}}},
-          {"status", "refused"},
-          {"reason", {{"code", refusal.code()}, {"message", refusal.what()}}}};
+  Json report;
+  report["scan"] = {{"file", source.file}, {"more_files", source.more}, {"points", source.points}};
+  if (!source.customer.empty()) report["scan"]["customer"] = source.customer;
+  report["status"] = "refused";
+  report["reason"] = {{"code", refusal.code()}, {"message", refusal.what()}};
+  return report;
 }
 
 std::string history_csv(const Body& body, const Fitting& fitting, const tensegric::Solution& solution) {

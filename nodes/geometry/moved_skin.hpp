@@ -39,7 +39,7 @@ std::vector<Eigen::Vector3d> tape_after(const MovedSkin& skin, const std::vector
 struct ChangedMeasure {
   Measure before;
   std::optional<double> after;
-  /// m, the difference of the two values as displayed, each rounded to the millimetre. \pre after
+  /// m, for where both values stand beside it: their difference, each rounded to the millimetre. \pre after
   double change() const;
 };
 

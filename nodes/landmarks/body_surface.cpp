@@ -1,7 +1,7 @@
 #include "landmarks/body_surface.hpp"
 
-#include "body_model/missing_parts.hpp"
 #include "body_model/parts.hpp"
+#include "body_model/standing.hpp"
 #include "geometry/points.hpp"
 
 namespace tensegric_fit::landmarks {
@@ -9,11 +9,7 @@ namespace tensegric_fit::landmarks {
 using Eigen::Vector3d;
 
 Eigen::Isometry3d body_frame(const body_model::RegisteredBody& body) {
-  // Hips and feet say which way she faces: shoulders turn with the arms.
-  Vector3d across = body.joint("upperleg01.L") - body.joint("upperleg01.R");
-  if (const auto [left, right] = body_model::sides_there(body, "foot"); left && right)
-    across += body.joint("foot.L") - body.joint("foot.R");
-  const Vector3d up = body.vertical, left = (across - up.dot(across) * up).normalized();
+  const Vector3d up = body.vertical, left = body_model::across(body, body_model::shipped_standing());
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   frame.linear().row(0) = left.cross(up);
   frame.linear().row(1) = left;

@@ -124,7 +124,8 @@ Settled settle(const Figure& figure, const Precision& precision, bool scanned) {
     return Eigen::Vector3d(reading - spread.bias * Eigen::Vector3d::UnitX());
   };
   const auto half_width = [&](double spreads, double own, double distance) {
-    return std::hypot(spreads * std::hypot(own, p.disagreement * distance), kNormal * figure.ground);
+    return std::hypot(spreads * std::hypot(own, p.disagreement * distance),
+                      kNormal * std::hypot(figure.ground, figure.shared));
   };
   if (!figure.on_mesh)
     return {unbiased(*figure.on_model, p.model), half_width(p.half_width_of_model, model, 0), true};
@@ -162,6 +163,7 @@ double confidence_of(const Figure& figure, const Settled& settled) {
 }
 
 std::string reason_of(const Figure& figure, const Settled& settled) {
+  if (kNormal * figure.shared > kSure * limit_of(figure)) return figure.shared_reason;
   if (kNormal * figure.ground > kSure * limit_of(figure))
     return "where the ground is, is uncertain: no foot is there, or soles and lowest place do not agree";
   if (!settled.rests_on_model) return "surface and body model leave it open by more than ISO 20685 allows";

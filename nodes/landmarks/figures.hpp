@@ -60,6 +60,8 @@ struct Figure {
       false;  ///< the reading on the mesh lies on skin that the scan backs: it may be far from the model's
   double ground = 0;  ///< m: of heights, RegisteredBody::ground_deviation: both readings are off by the same
   double shift = 0;   ///< m: Nipple::shift; 0 of figures without
+  double shared = 0;  ///< m: a deviation that both readings have in common, and in words why
+  std::string shared_reason = {};
   std::vector<Eigen::Vector3d> loop_on_model = {};
 };
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
+#include "body_model/missing_parts.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
 #include "landmarks/body_surface.hpp"
@@ -33,8 +35,10 @@ constexpr double kUnderButtock = 0.13,
                  kFoldUnderButtock =
                      0.065;      // statures (definition): back of the thigh, and a fold that does not show
 constexpr double kSeen = 0.015;  // m round a place: skin that was seen there, or not
-constexpr double kPerineum = 0.015;   // m round the crotch
-constexpr double kFoldDepth = 0.003;  // m under the straight edge; less is noise
+constexpr double kPerineum = 0.015;      // m round the crotch
+constexpr double kFoldDepth = 0.003;     // m under the straight edge; less is noise
+constexpr double kBentThigh = M_PI / 4;  // rad from the vertical; who stands has none such (definition)
+constexpr double kThigh = 0.25;          // statures, a thigh's length: so much lower is who sits (definition)
 constexpr double kLevelArm =
     M_PI / 3;  // rad; an arm held out more has its axilla on a plane that rises with it (definition)
 
@@ -46,6 +50,17 @@ template <typename T>
 std::optional<Vector3d> as_figure(const std::optional<T>& value) {
   if (!value) return std::nullopt;
   return Vector3d(*value, 0, 0);
+}
+
+/// Whether an edge of the vertex has a single triangle.
+bool is_on_rim(const geometry::TriangleMesh& mesh, int vertex) {
+  std::map<int, int> triangles_at;  // by neighbour
+  for (const Eigen::Vector3i& t : mesh.triangles)
+    if ((t.array() == vertex).any())
+      for (int k = 0; k < 3; ++k)
+        if (t[k] != vertex) ++triangles_at[t[k]];
+  return std::any_of(triangles_at.begin(), triangles_at.end(),
+                     [](const auto& neighbour) { return neighbour.second == 1; });
 }
 
 class Reader {
@@ -85,6 +100,7 @@ class Reader {
     }
     neck();
     stature();
+    if (!stands()) doubt_standing();
     return {frame_, std::move(figures_), std::move(missing_)};
   }
 
@@ -115,6 +131,14 @@ class Reader {
                  const std::optional<Vector3d>& on_model, double support,
                  const std::string& what = "place of it") {
     add(Kind::point, name, on_mesh, on_model, support, is_seen(on_mesh), 0, what);
+  }
+  /// A deviation that both readings have in common; the largest counts.
+  void doubt(Kind kind, const std::string& name, double deviation, const std::string& reason) {
+    for (Figure& figure : figures_)
+      if (figure.kind == kind && figure.name == name && deviation > figure.shared) {
+        figure.shared = deviation;
+        figure.shared_reason = reason;
+      }
   }
   void lacks(const std::string& name, const std::string& reason) { missing_.push_back({name, reason}); }
   bool is_seen(const std::optional<Vector3d>& on_mesh) const {
@@ -264,22 +288,22 @@ class Reader {
   template <typename TapeOf>
   void girth(const std::string& name, const TapeOf& tape_of) {
     if (find(Kind::height, name) == nullptr) return;  // missing by that name
-    girth_of(name, tape_of(mesh_), tape_of(skin_), support_of_level(name));
+    girth_of(name, tape_of(mesh_), tape_of(skin_));
+    doubt(Kind::girth, name, doubt_of_level(name), "the level that it is measured on is uncertain");
   }
-  /// What is read on a level that nobody knows is as unsure as that.
-  double support_of_level(const std::string& name) const {
+  /// What is read on a level that nobody knows is as unsure as that, however well both surfaces show it.
+  double doubt_of_level(const std::string& name) const {
     return find(Kind::height, name)->support < kWorst ? 0 : kWorst;
   }
   /// Never taken for seen: what is taken for arms may be missing from a tape.
-  void girth_of(const std::string& name, const Tape& on_mesh, const Tape& on_model,
-                double least_support = 0) {
+  void girth_of(const std::string& name, const Tape& on_mesh, const Tape& on_model) {
     if (on_mesh.size() < 3 && on_model.size() < 3)
       return lacks(name, "no skin to lay the tape of its girth round was found");
     const auto value = [](const Tape& t) {
       return t.size() < 3 ? std::nullopt : std::optional<double>(geometry::length_of(t, true));
     };
-    const double support = std::max(support_along(on_model.size() < 3 ? on_mesh : on_model), least_support);
-    add(Kind::girth, name, as_figure(value(on_mesh)), as_figure(value(on_model)), support, false);
+    add(Kind::girth, name, as_figure(value(on_mesh)), as_figure(value(on_model)),
+        support_along(on_model.size() < 3 ? on_mesh : on_model), false);
     figures_.back().loop = on_mesh;
     figures_.back().loop_on_model = on_model;
   }
@@ -314,6 +338,8 @@ class Reader {
     const double down = along.dot(point(from) - shoulder) + kArmBelowAxilla * body_.stature();
     limb("upper_arm", side, shoulder + down * along, along, kArmReach,
          [](const Surface& s, const Eigen::Vector3i& t) { return s.is_arm(t); });
+    if (!arms_there_[side])
+      doubt(Kind::girth, sided("upper_arm", side), kArmReach * body_.stature(), "that arm is not there");
   }
 
   /// Of thighs that touch, what lies on this side of the plane between the hip joints.
@@ -360,8 +386,8 @@ class Reader {
     if (base_of(name, Kind::height, level) == nullptr) return;
     const auto on_model = find_side(skin_, side, height(level));
     if (!on_model) return lacks(name, "no skin on its level was found");
-    add_point(name, find_side(mesh_, side, height(level)), on_model,
-              std::max(support_at(*on_model), support_of_level(level)));
+    add_point(name, find_side(mesh_, side, height(level)), on_model, support_at(*on_model));
+    doubt(Kind::point, name, doubt_of_level(level), "the level that it lies on is uncertain");
   }
 
   void neck() {
@@ -383,13 +409,35 @@ class Reader {
         height(*on_model), support_at(*on_model), false);
   }
 
+  /// Whether no thigh that is there is bent, as of somebody who sits.
+  bool stands() const {
+    for (const Side side : kSides) {
+      const std::string leg = kSuffix[side] + 1;
+      const Vector3d thigh = body_.joint("lowerleg01." + leg) - body_.joint("upperleg01." + leg);
+      if (thighs_there_[side] && -body_.vertical.dot(thigh.normalized()) < std::cos(kBentThigh)) return false;
+    }
+    return true;
+  }
+  /// Heights and what lies at the hip are of a body that stands.
+  void doubt_standing() {
+    const std::string reason = "she does not stand: a thigh is bent by 45 degrees or more";
+    const double deviation = kThigh * body_.stature();
+    std::vector<std::pair<Kind, std::string>> doubted;
+    for (const Figure& figure : figures_)
+      if (figure.kind == Kind::height || figure.name == "hip" || figure.name.rfind("hip_side", 0) == 0)
+        doubted.emplace_back(figure.kind, figure.name);
+    for (const auto& [kind, name] : doubted) doubt(kind, name, deviation, reason);
+  }
+
   /// The highest skin but of arms, which may be raised.
+  /// Nothing where that is the rim of a hole.
   static std::optional<Vector3d> crown(const Surface& surface) {
-    std::optional<Vector3d> highest;
-    for (std::size_t v = 0; v < surface.mesh.vertices.size(); ++v)
-      if (surface.arm[v] < 0.5 && (!highest || surface.mesh.vertices[v].z() > highest->z()))
-        highest = surface.mesh.vertices[v];
-    return highest;
+    const std::vector<Vector3d>& vertices = surface.mesh.vertices;
+    int highest = -1;
+    for (int v = 0; v < static_cast<int>(vertices.size()); ++v)
+      if (surface.arm[v] < 0.5 && (highest < 0 || vertices[v].z() > vertices[highest].z())) highest = v;
+    if (highest < 0 || is_on_rim(surface.mesh, highest)) return std::nullopt;
+    return vertices[highest];
   }
 
   static constexpr double kWorst = 0.1;  // m; support is no worse than that
@@ -401,6 +449,8 @@ class Reader {
   Trunk shape_;  ///< for folds and the neck: what is displaced follows skin across a fold, and hair
   std::vector<Vector3d> normals_;
   geometry::PointTree tree_;
+  const std::array<bool, 2> arms_there_ = body_model::sides_there(body_, "upper_arm"),
+                            thighs_there_ = body_model::sides_there(body_, "thigh");
   std::vector<Figure> figures_;
   std::vector<geometry::Missing> missing_;
   std::array<std::array<std::optional<Vector3d>, 2>, 2>

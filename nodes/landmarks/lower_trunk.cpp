@@ -20,7 +20,7 @@ constexpr double kSeatReach = 0.040,
 constexpr double kLeastRound = 2;  // 1/m; flatter profiles have no apex
 constexpr double kBeside = 0.010, kProfile = 0.12;        // m to the sides; of a profile's length
 constexpr int kProfiles = 4;                              // on each side of the middle one
-constexpr double kFlatSide = 0.003;                       // m: skin that is as far to the side
+constexpr double kFlatSide = 0.003;                       // m: skin within it is as far to the side
 constexpr double kPerineumReach = 0.04, kMidline = 0.06;  // m round it, and along the midline
 
 /// Where a quadratic surface through the skin of a buttock is rearmost; `start` where it is so nowhere near.
@@ -104,19 +104,26 @@ std::optional<Vector3d> skin_under(const Trunk& trunk, const Vector3d& start, do
 }
 
 std::optional<Vector3d> find_side(const Trunk& trunk, Side side, double height) {
-  std::vector<Vector3d> points;
-  for (const geometry::SectionLoop& loop : trunk.level(height))
-    points.insert(points.end(), loop.points.begin(), loop.points.end());
-  double farthest = -1e9;
-  for (const Vector3d& p : points) farthest = std::max(farthest, kSign[side] * p.y());
-  points.erase(std::remove_if(points.begin(), points.end(),
-                              [&](const Vector3d& p) { return kSign[side] * p.y() < farthest - kFlatSide; }),
-               points.end());
-  if (points.empty()) return std::nullopt;
-  const auto middle = points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
-  std::nth_element(points.begin(), middle, points.end(),
-                   [](const Vector3d& a, const Vector3d& b) { return a.x() < b.x(); });
-  return *middle;
+  const std::vector<geometry::SectionLoop> loops = trunk.level(height);
+  const Vector3d* farthest = nullptr;
+  for (const geometry::SectionLoop& loop : loops)
+    for (const Vector3d& p : loop.points)
+      if (farthest == nullptr || kSign[side] * p.y() > kSign[side] * farthest->y()) farthest = &p;
+  if (farthest == nullptr) return std::nullopt;
+  // Where a side is flat one vertex or another is farthest: the middle of that skin, where it ends by
+  // degrees.
+  double sum = 0, weights = 0;
+  for (const geometry::SectionLoop& loop : loops)
+    for (std::size_t i = loop.closed ? 0 : 1; i < loop.points.size(); ++i) {
+      const Vector3d &from = loop.points[(i + loop.points.size() - 1) % loop.points.size()],
+                     &to = loop.points[i], middle = (from + to) / 2;
+      const double weight =
+          (to - from).norm() * std::max(0.0, 1 - kSign[side] * (farthest->y() - middle.y()) / kFlatSide);
+      sum += weight * middle.x();
+      weights += weight;
+    }
+  if (!(weights > 0)) return *farthest;  // a corner
+  return Vector3d(sum / weights, farthest->y(), farthest->z());
 }
 
 std::vector<Vector3d> round_limb(const Surface& surface, const Vector3d& origin, const Vector3d& along,

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geometry/even_steps.hpp"
 #include "geometry/points.hpp"
@@ -18,6 +19,8 @@ constexpr double kUnderShoulder = 0.04,
 // Mean share of an arm in an outline: arms of 24 training and 20 implicit surfaces have 0.77 and more, other
 // things none; any limit between does.
 constexpr double kLeastArm = 0.25;
+constexpr double kNearlyTouch =
+    0.002;  // m: skins this much farther apart than where they are nearest are not (definition)
 constexpr int kHalvings = 12;                            // of the search for the highest plane: 0.1 mm
 constexpr int kHarmonics = 8, kLoopPoints = 180;         // of a neck: waves of 40 mm
 constexpr double kNeckStep = 0.005, kNeckReach = 0.040;  // m (definition: README.md, neck)
@@ -32,8 +35,13 @@ double arm_share(const Surface& surface, const SectionLoop& loop) {
   return sum / static_cast<double>(loop.triangles.size());
 }
 
-/// Middle of the gap between arm and trunk in a plane; nothing where they are one.
-std::optional<Vector3d> gap(const Surface& surface, Side side, double height, double rise) {
+/// Outlines in a plane.
+struct ArmAndTrunk {
+  SectionLoop arm, trunk;
+};
+
+/// Nothing where they are one.
+std::optional<ArmAndTrunk> parted(const Surface& surface, Side side, double height, double rise) {
   const double tilt = kSign[side] * rise;
   const Vector3d normal(0, -std::sin(tilt), std::cos(tilt)), origin(0, kSign[side] * 0.15, height);
   const auto loops = cut(surface, origin, normal, [](const Eigen::Vector3i&) { return true; });
@@ -59,33 +67,59 @@ std::optional<Vector3d> gap(const Surface& surface, Side side, double height, do
       arm = &loop;
   }
   if (arm == nullptr) return std::nullopt;
-  Vector3d between = Vector3d::Zero();
-  double nearest = 1e9;
-  for (const Vector3d& a : arm->points)
-    for (const Vector3d& b : trunk->points)
-      if ((a - b).squaredNorm() < nearest) {
-        nearest = (a - b).squaredNorm();
-        between = (a + b) / 2;
-      }
-  return between;
+  return ArmAndTrunk{*arm, *trunk};
+}
+
+Vector3d nearest_on(const SectionLoop& loop, const Vector3d& point) {
+  Vector3d nearest = loop.points.front();
+  for (std::size_t i = 0; i < loop.points.size(); ++i) {
+    const Vector3d &from = loop.points[i], way = loop.points[(i + 1) % loop.points.size()] - from;
+    const double length = way.squaredNorm();
+    const Vector3d here =
+        from + (length > 0 ? std::clamp((point - from).dot(way) / length, 0.0, 1.0) : 0) * way;
+    if ((here - point).squaredNorm() < (nearest - point).squaredNorm()) nearest = here;
+  }
+  return nearest;
+}
+
+/// Middle of where the two are nearest. Skins that nearly touch along some centimetres are so all along them.
+Vector3d middle_of_gap(const ArmAndTrunk& outlines) {
+  const std::vector<Vector3d>& arm = outlines.arm.points;
+  std::vector<Vector3d> across;  // from the arm to the trunk
+  double narrowest = 1e9;
+  for (const Vector3d& p : arm) {
+    across.push_back(nearest_on(outlines.trunk, p) - p);
+    narrowest = std::min(narrowest, across.back().norm());
+  }
+  Vector3d sum = Vector3d::Zero();
+  double weights = 0;
+  for (std::size_t i = 0; i < arm.size(); ++i) {
+    const double length = ((arm[i] - arm[(i + 1) % arm.size()]).norm() +
+                           (arm[i] - arm[(i + arm.size() - 1) % arm.size()]).norm()) /
+                          2;
+    const double weight = length * std::max(0.0, 1 - (across[i].norm() - narrowest) / kNearlyTouch);
+    sum += weight * (arm[i] + across[i] / 2);
+    weights += weight;
+  }
+  return sum / weights;
 }
 
 }  // namespace
 
 std::optional<Vector3d> find_axilla(const Surface& surface, Side side, double lowest, double highest,
                                     double rise) {
-  std::optional<Vector3d> found = gap(surface, side, lowest, rise);
+  std::optional<ArmAndTrunk> found = parted(surface, side, lowest, rise);
   if (!found) return std::nullopt;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (lowest + highest) / 2;
-    if (const auto here = gap(surface, side, middle, rise)) {
-      found = here;
+    if (auto here = parted(surface, side, middle, rise)) {
+      found = std::move(here);
       lowest = middle;
     } else {
       highest = middle;
     }
   }
-  return found;
+  return middle_of_gap(*found);
 }
 
 std::optional<Vector3d> skin_above(const Surface& surface, const Vector3d& point) {

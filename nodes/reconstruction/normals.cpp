@@ -18,6 +18,11 @@ namespace {
 constexpr int kPlaneNeighbours = 16;  // of the plane through a point's surroundings
 constexpr int kLinks = 8;             // nearest neighbours whose signs are linked
 
+// Share of the normals that were given, by how clearly the points are seen. It is 0.002 to 0.007 where they
+// are right (four meshes, a scan), 0.05 where her chest alone is inside out, 0.4 where they are signed for
+// the scan's origin.
+constexpr double kContradicted = 0.03;
+
 struct Link {
   float agreement;  // |n_a . n_b|
   int a, b;
@@ -95,21 +100,19 @@ class SignedPatches {
   std::vector<double> evidence_;
 };
 
-double sum_of_products(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) sum += a[i].dot(b[i]);
-  return sum;
-}
-
 /// Directions out of the body, whatever was given: some clouds of a scan may have normals, and others none.
 std::vector<Eigen::Vector3d> outward_hints(const std::vector<Eigen::Vector3d>& points,
                                            const std::vector<Eigen::Vector3d>& hints) {
-  std::vector<Eigen::Vector3d> seen = seen_from(points);
-  for (Eigen::Vector3d& direction : seen) direction /= std::max(1.0, direction.norm());
-  const double agreement = sum_of_products(hints, seen);
-  if (agreement == 0) return seen;
-  const double sign = agreement < 0 ? -1 : 1;  // made for a viewpoint within the body, say
-  std::vector<Eigen::Vector3d> outwards = std::move(seen);
+  std::vector<Eigen::Vector3d> outwards = seen_from(points);
+  for (Eigen::Vector3d& direction : outwards) direction /= std::max(1.0, direction.norm());
+  double agree = 0, contradict = 0;
+  for (std::size_t i = 0; i < hints.size(); ++i) {
+    const double product = hints[i].dot(outwards[i]);
+    (product > 0 ? agree : contradict) += std::abs(product);
+  }
+  // Signed for another viewpoint, or not at all: what is seen says more.
+  if (std::min(agree, contradict) > kContradicted * (agree + contradict)) return outwards;
+  const double sign = agree < contradict ? -1 : 1;  // made for a viewpoint within the body, say
   for (std::size_t i = 0; i < hints.size(); ++i)
     if (!hints[i].isZero(0)) outwards[i] = sign * hints[i];
   return outwards;

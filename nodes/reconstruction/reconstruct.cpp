@@ -242,10 +242,17 @@ void leave_plate(Person& person, RegisteredBody& model, const body_model::Standi
   person.from_scan = down * person.from_scan;
 }
 
+constexpr double kCutOff =
+    3;  // deviations of the model's soles, of which a normal variable is one in 370 beyond
+
 /// Up and the ground, now that it is known where her feet are.
 void stand(Person& person, RegisteredBody& model, const body_model::Standing& standing) {
-  if (person.floor_at == 0.0) return leave_plate(person, model, standing);
   const body_model::Ground soles = body_model::ground_by_soles(model, standing);
+  // A level plane that feet which are not there would have to reach through is where she is cut off.
+  if (person.floor_at && body_model::lacks_feet(model) &&
+      soles.height < *person.floor_at - kCutOff * soles.deviation)
+    person.floor_at.reset();
+  if (person.floor_at == 0.0) return leave_plate(person, model, standing);
   if (person.floor_at && std::abs(soles.height - *person.floor_at) < kThinnestPlate) {
     model.ground = *person.floor_at;  // black shoes: her feet were not seen, the floor was
   } else {

@@ -85,8 +85,7 @@ geometry::PointCloud usable_points(const geometry::PointCloud& scan, const Optio
   std::vector<Eigen::Vector3d> finite;
   std::copy_if(scan.points.begin(), scan.points.end(), std::back_inserter(finite),
                [](const Eigen::Vector3d& p) { return p.allFinite(); });
-  if (finite.size() < (count + 1) / 2)
-    throw Refusal(refusal::kNonFinite, fmt::format("only {} of {} points are finite", finite.size(), count));
+  if (finite.empty()) throw Refusal(refusal::kNonFinite, fmt::format("none of {} points is finite", count));
   if (finite.size() < static_cast<std::size_t>(options.min_points))
     throw Refusal(refusal::kTooFewPoints, fmt::format("the scan has {} finite points, {} are needed",
                                                       finite.size(), options.min_points));

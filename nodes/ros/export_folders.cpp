@@ -45,22 +45,28 @@ bool is_of_an_export(const std::string& file) {
          std::find(kExportFiles.begin(), kExportFiles.end(), file) != kExportFiles.end();
 }
 
-void check_nothing_else_in(const fs::path& folder) {
+std::optional<fs::path> something_else_in(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (entry.symlink_status().type() != fs::file_type::regular ||
         !is_of_an_export(entry.path().filename().string()))
-      throw Refusal(
-          geometry::refusal::kBadOption,
-          fmt::format("'{}' is no part of an export: its folder was not deleted", entry.path().string()));
+      return entry.path();
+  return std::nullopt;
 }
 
 void delete_export(const fs::path& folder) {
-  check_nothing_else_in(folder);
+  if (const std::optional<fs::path> other = something_else_in(folder))
+    throw Refusal(geometry::refusal::kBadOption,
+                  fmt::format("'{}' is no part of an export: its folder was not deleted", other->string()));
   files::delete_whole_folder(folder);
 }
 
-/// Calls `take(folder, mark)` for each export in the folder, at any depth; links are not followed. `left`:
-/// what cannot be looked at.
+/// What is left where writing or deleting an export was cut off may not say whose it is any more.
+bool is_rest_of_an_export(const fs::path& folder) {
+  return files::is_unfinished(folder.filename()) && !something_else_in(folder);
+}
+
+/// Calls `take(folder, mark)` for each export in the folder, at any depth; links are not followed. Rests of
+/// exports go, whosever they are. `left`: what cannot be looked at.
 template <typename Take>
 void for_each_export(const fs::path& directory, std::vector<Refusal>& left, const Take& take) {
   std::vector<fs::path> entries;
@@ -71,6 +77,8 @@ void for_each_export(const fs::path& directory, std::vector<Refusal>& left, cons
       if (fs::symlink_status(entry).type() != fs::file_type::directory) continue;
       if (const std::optional<Mark> mark = mark_in(entry))
         take(entry, *mark);
+      else if (is_rest_of_an_export(entry))
+        files::delete_whole_folder(entry);
       else
         for_each_export(entry, left, take);
     } catch (const Refusal& refusal) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -13,6 +12,7 @@
 #include "files/html.hpp"
 #include "files/page_template.hpp"
 #include "geometry/carried_points.hpp"
+#include "geometry/scan_stamp.hpp"
 #include "geometry/shipped_files.hpp"
 #include "inspect/garment_titles.hpp"
 #include "inspect/page_view.hpp"
@@ -73,7 +73,8 @@ std::string first_rows(const FitFigures& figures) {
                      measure.after ? inspect::words::centimetre_change(measure.change()) : ""});
   for (const ChangedMeasure& measure : figures.heights)
     if (measure.before.name == "bust" && measure.after)
-      rows += row({"lift of the bust, mm", "", "", fmt::format("{:+.0f}", 1e3 * measure.change() + 0.0)});
+      rows += row({"lift of the bust, mm", "", "",
+                   fmt::format("{:+.0f}", std::round(1e3 * (*measure.after - measure.before.metres)) + 0.0)});
   if (const auto& apart = figures.bust_points)
     rows += row({"bust points apart, cm", centimetres(apart->before.metres), centimetres(*apart->after),
                  inspect::words::centimetre_change(apart->change())});
@@ -136,16 +137,6 @@ std::string notes_of(const FitFigures& figures) {
         fmt::format("<p>Missing: {}; {}.</p>\n", html_escaped(inspect::words::with_names_spoken(part.name)),
                     html_escaped(inspect::words::with_names_spoken(part.reason)));
   return notes;
-}
-
-/// The day of the scan by its stamp; of one whose clock started at zero, none.
-std::string day_of(const std_msgs::Header& header) {
-  constexpr std::uint32_t kClocksAreSet = 946684800;  // s, 2000-01-01
-  if (header.stamp.sec < kClocksAreSet) return "";
-  const std::time_t seconds = header.stamp.sec;
-  std::tm day{};
-  localtime_r(&seconds, &day);
-  return fmt::format(", {:04}-{:02}-{:02}", day.tm_year + 1900, day.tm_mon + 1, day.tm_mday);
 }
 
 /// Whose scan it is and where it came from, as far as that is known.
@@ -231,11 +222,12 @@ std::string fit_sheet(const FitFigures& figures, const std::vector<SheetPicture>
     drawn += fmt::format(
         "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
         html_escaped(picture.caption), files::base64(picture.png.bytes));
+  const std::string day = geometry::day_of(figures.scan.body->header.stamp.toSec());
   const std::string footer = fmt::format(
       "Scan {}{}.{} Made by tensegric_fit {}. Measurements after ISO 8559-1; they are those of a scan, not "
       "of a "
       "medical device.",
-      html_escaped(figures.scan.body->scan_id), day_of(figures.scan.body->header), whose(figures.scan.label),
+      html_escaped(figures.scan.body->scan_id), day.empty() ? "" : ", " + day, whose(figures.scan.label),
       TENSEGRIC_FIT_VERSION);
   return files::filled_in(
       files::bytes_of(geometry::shipped_folder("page") + "/fit.html"),

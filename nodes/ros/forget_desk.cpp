@@ -253,7 +253,8 @@ bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response)
   if (!request.scan_file && !file_is_known)
     response.not_reached.emplace_back("the file that it was played from, where it was");
   response.not_reached.emplace_back(
-      "bags, copies of exports, results of fit, other machines, backups, swap, blocks of the disk that are "
+      "bags, copies of exports, results of fit, pages of history, other machines, backups, swap, blocks of "
+      "the disk that are "
       "free");
   return true;
 }

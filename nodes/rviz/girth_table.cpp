@@ -77,7 +77,8 @@ void GirthTable::show_measures(const geometry::BodyMeasures& measures, const geo
   std::vector<std::array<std::string, 4>> rows;
   for (const geometry::ChangedMeasure& height : geometry::heights_after(measures, skin))
     if (height.before.name == "bust" && height.after) {
-      rows.push_back({words::kLift, "", "", is_worn ? words::rise(height.change()) : ""});
+      rows.push_back(
+          {words::kLift, "", "", is_worn ? words::rise(*height.after - height.before.metres) : ""});
       reasons.emplace_back();
     }
   if (const auto apart = geometry::bust_points_apart(measures, skin))

@@ -14,11 +14,14 @@ namespace {
 /// The topic of the scans. \throw Refusal broken_file: no clouds; bad_option: which of several topics is it?
 std::string scan_topic(const rosbag::Bag& bag) {
   rosbag::View view(bag, rosbag::TypeQuery("sensor_msgs/PointCloud2"));
-  std::set<std::string> topics;
-  for (const rosbag::MessageInstance& message : view) {
-    if (files::is_scan_topic(message.getTopic())) return message.getTopic();
-    topics.insert(message.getTopic());
-  }
+  std::set<std::string> topics, of_scans;
+  for (const rosbag::ConnectionInfo* connection : view.getConnections())
+    (files::is_scan_topic(connection->topic) ? of_scans : topics).insert(connection->topic);
+  if (of_scans.size() > 1)
+    throw geometry::Refusal(geometry::refusal::kBadOption,
+                            "has scans of several booths, on " + *of_scans.begin() + " and " +
+                                *of_scans.rbegin() + ": check_bag says how to take one out");
+  if (!of_scans.empty()) return *of_scans.begin();
   if (topics.empty())
     throw geometry::Refusal(geometry::refusal::kBrokenFile, "holds no sensor_msgs/PointCloud2 message");
   if (topics.size() > 1)

@@ -59,6 +59,9 @@ void write_scan(const virtual_body::VirtualBody& subject, const virtual_booth::S
                 const Extras& extras, const std::filesystem::path& out) {
   const virtual_booth::VirtualScan scan = virtual_booth::scan_body(subject.mesh, scanner);
   std::filesystem::create_directories(out);
+  for (const char* of_another :
+       {"sensors.bag", "cameras.bag", "cameras.yaml", "body.obj", "body.stl", "body.glb"})
+    std::filesystem::remove(out / of_another);
   geometry::write_ply_mesh(out / "body.ply", subject.mesh);
   geometry::write_ply_mesh(out / "scan.ply", {scan.cloud.points, {}});
   // Any fixed time will do, as long as no two seeds share one.

@@ -2,6 +2,7 @@
 """fit_precision.py --mesh READINGS TRUTHS [READINGS TRUTHS] --scan READINGS TRUTHS [READINGS TRUTHS] [--booth READINGS TRUTHS]
     [--earlier PRECISION] --out precision.yaml
 fit_precision.py --booth READINGS TRUTHS --earlier PRECISION --out precision.yaml
+fit_precision.py --only FIGURE --mesh READINGS TRUTHS --earlier PRECISION --out precision.yaml
 
 How far off each figure's readings on mesh and body model are, fitted to training bodies: READINGS as `readings` writes them (a line of
 JSON per body), TRUTHS a folder with NAME_truth.json. READINGS with the model cut to fewer components stand for bodies outside its span: how
@@ -13,7 +14,8 @@ python3-scipy, python3-yaml.
 Read on the true surface, a limb's girth still has the error of the tape's level and direction, which come from the registered model. Of women
 nobody knows it. --booth has virtual bodies (`virtual_booth`), whose truths have limbs by our definition: from them limbs on meshes get their
 errors, and their half-widths. How far off the model's own reading is stays as it is on women. With --booth, and without --mesh and --scan,
-only these lines are made again; all others of PRECISION stay as they are.
+only these lines are made again; all others of PRECISION stay as they are. --only makes the line of one figure ("point axilla") on meshes again, after its
+definition has changed.
 
 A reading's error has a Student-t distribution (4 degrees of freedom, so that a few gross errors do not rule) round a bias (of heights and
 girths; of points 0), with the scale sqrt(base^2 + (slope * support)^2 + (factor * shift)^2); the base grows with a power of the registration's residual (base: at 2 mm), on the mesh, too, as it is
@@ -290,9 +292,25 @@ def with_booth(path, booth):
         s = known[key]['model']
         line = booth_line(key, rows, known[key], np.array([s['base'], s['support'], s['bias'], s.get('shift', 0.)]))
         text = re.sub('^  %s: .*\n' % key, lambda m, line=line: line, text, count=1, flags=re.M)  # meshes come first
-    head = [p for p in re.search('^bodies: (.*)$', text, flags=re.M).group(1).split('; ') if not p.startswith(FROM_BOOTH)]
+    return with_part(text, FROM_BOOTH, booth_part(booth))
+
+
+def with_part(text, begins, part):
+    """With that part in its header, in place of the one that begins so."""
+    head = [p for p in re.search('^bodies: (.*)$', text, flags=re.M).group(1).split('; ') if not p.startswith(begins)]
     at = next((k for k, p in enumerate(head) if p.startswith(KEPT)), len(head))
-    return re.sub('^bodies: .*$', lambda m: 'bodies: ' + '; '.join(head[:at] + [booth_part(booth)] + head[at:]), text, count=1, flags=re.M)
+    return re.sub('^bodies: .*$', lambda m: 'bodies: ' + '; '.join(head[:at] + [part] + head[at:]), text, count=1, flags=re.M)
+
+
+def with_only(path, key, rows):
+    """The text of an earlier file with one figure's line on meshes made again."""
+    with open(path) as file:
+        text = file.read()
+    print_head('mesh')
+    line = line_of(key, rows, yaml.safe_load(text)['mesh'][key])
+    text = re.sub('^  %s: .*\n' % key, lambda m: line, text, count=1, flags=re.M)  # meshes come first
+    names, begins = {r.body for r in rows}, key + ' on meshes from '
+    return with_part(text, begins, '%s%d women (%s to %s), of %s' % (begins, len(names), min(names), max(names), datetime.date.today()))
 
 
 def main():
@@ -301,8 +319,16 @@ def main():
     a.add_argument('--scan', nargs='+')
     a.add_argument('--booth', nargs=2, metavar=('READINGS', 'TRUTHS'), help='virtual bodies whose truths have the own figures by our definition')
     a.add_argument('--earlier')
+    a.add_argument('--only', metavar='FIGURE')
     a.add_argument('--out', required=True)
     o = a.parse_args()
+    if o.only:
+        if not o.mesh or not o.earlier:
+            a.error('--only needs --mesh and --earlier')
+        text = with_only(o.earlier, o.only, samples(*o.mesh, read_on_surfaces(o.mesh[0]))[o.only])
+        with open(o.out, 'w') as out:
+            out.write(text)
+        return
     booth = {key: rows for key, rows in samples(*o.booth, None).items() if key.split(' ')[1] in OWN} if o.booth else {}
     if not o.mesh and not o.scan and o.booth and o.earlier:
         text = with_booth(o.earlier, booth)

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""fit_standing.py READINGS TRUTHS --standing standing.yaml [--legs] - how women stand in scans: launch/body_model/standing.yaml.
+"""fit_standing.py READINGS TRUTHS --standing standing.yaml [--legs | --facing] - how women stand in scans: launch/body_model/standing.yaml.
 
-READINGS: lines of JSON that `readings scan` wrote with that file; it is written anew, or, with --legs, only what it says of legs alone.
+READINGS: lines of JSON that `readings scan` wrote with that file; it is written anew, or, with --legs, only what it says of legs alone, with --facing
+only what it says of hips and feet (READINGS may be those of `readings mesh`, too).
 TRUTHS: a folder with NAME_truth.json. The error is that of half of the bodies by what was fitted to the other half. Needs python3-numpy.
 """
 import argparse
@@ -53,21 +54,32 @@ def line_of_legs(rows, names):
     return 'legs_forwards: %.2f    # degrees; %d training women (%s to %s)\n' % (legs['forwards'], len(names), min(names), max(names))
 
 
+def line_of_facing(turns, names):
+    deviation = max(np.std(turns), np.quantile(np.abs(turns), .99) / CLEARLY)
+    return 'facing: %.2f    # degrees; %d training women (%s to %s)\n' % (deviation, len(names), min(names), max(names))
+
+
 def main():
     a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     a.add_argument('readings')
     a.add_argument('truths')
     a.add_argument('--standing', required=True)
     a.add_argument('--legs', action='store_true')
+    a.add_argument('--facing', action='store_true')
     o = a.parse_args()
     old = {k: float(v.split('#')[0]) for k, v in (line.split(':') for line in open(o.standing)) if k in ('soles', 'seen', 'error')}
+    text = open(o.standing).read()
+    readings = [json.loads(line) for line in open(o.readings)]
+    facing = line_of_facing([np.degrees(r['turn_of_feet']) for r in readings], [r['name'] for r in readings])
+    if o.facing:
+        with open(o.standing, 'w') as out:
+            out.write(re.sub(r'^facing.*\n', '', text, flags=re.MULTILINE) + facing)
+        return print(open(o.standing).read())
     rows, names = [], []
-    for line in open(o.readings):
-        r = json.loads(line)
+    for r in readings:
         rows.append(of_body(r, json.load(open(os.path.join(o.truths, r['name'] + '_truth.json'))), old))
         names.append(r['name'])
     rows = np.array(rows)
-    text = open(o.standing).read()
     kept = ''.join(re.findall(r'^without_.*\n', text, re.MULTILINE))  # fit_without_feet.py
     if o.legs:
         with open(o.standing, 'w') as out:
@@ -83,7 +95,7 @@ def main():
         out.write(kept)
         out.write('forwards: %.2f    # degrees\nsideways: %.2f    # degrees\nalong: %.2f    # degrees\nseen: %.4f    # m\nsoles: %.4f    # m\n' %
                   tuple(f[k] for k in ('forwards', 'sideways', 'along', 'seen', 'soles')))
-        out.write(line_of_legs(rows, names))
+        out.write(line_of_legs(rows, names) + facing)
     print(open(o.standing).read())
 
 

@@ -38,6 +38,7 @@ Json readings_of(const landmarks::Reading& reading, const body_model::Registered
   Json result{{"residual", model.residual},
               {"scale", std::exp(model.parameters.log_scale)},
               {"stance", json_of(body_model::stance_of(model))},
+              {"turn_of_feet", body_model::turn_of_feet(model)},
               {"vertical", json_of(model.vertical)},
               {"ground", model.ground},
               {"ground_deviation", model.ground_deviation},
@@ -45,6 +46,7 @@ Json readings_of(const landmarks::Reading& reading, const body_model::Registered
   for (int i = 0; i < 16; ++i)
     result["body_from_scan"].push_back(reading.body_from_scan.matrix()(i / 4, i % 4));
   for (const landmarks::Figure& figure : reading.figures) {
+    if (figure.shared > 0) continue;  // unsure for a reason that is no precision of a reading
     Json entry{{"kind", static_cast<int>(figure.kind)},
                {"name", figure.name},
                {"support", figure.support},

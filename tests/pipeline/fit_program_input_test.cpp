@@ -148,6 +148,11 @@ TEST_F(FitProgram, WhatCorrelateWroteOfTheBodyBeforeIsRemoved) {
   EXPECT_FALSE(fs::exists(file("out/distance.csv")));
 }
 
+TEST_F(FitProgram, WhoseScanWasRefusedIsInTheReport) {
+  expect_refused("--mesh /nowhere.ply --customer 4711", "broken_file");
+  EXPECT_EQ(report()["scan"]["customer"], "4711");
+}
+
 TEST_F(FitProgram, AFolderThatAnotherProgramWritesIntoIsLeftAlone) {
   fs::create_directories(file("out"));
   write("out/report.json", "the other's");

@@ -208,6 +208,17 @@ TEST_F(RecordTest, ShippedGarmentsAreWrittenByName) {
   EXPECT_THROW(write_case_input(scan_and({})), geometry::Refusal) << "it is there already";
 }
 
+TEST_F(RecordTest, ABagThatLiesWhereTheCasesWouldIsLeftAsItIs) {
+  RecordRequest request = scan_and({});
+  const fs::path bags = folder_ / "cases" / "bags";
+  fs::create_directories(bags);
+  fs::rename(request.bag, bags / "mine.bag");
+  request.bag = bags / "mine.bag";
+  const auto size = fs::file_size(request.bag);
+  EXPECT_THROW(write_case_input(request), geometry::Refusal);
+  EXPECT_EQ(fs::file_size(request.bag), size);
+}
+
 TEST_F(RecordTest, OtherGarmentsStayInTheBag) {
   Garment own = shipped("H1");
   own.lines[0].width = 0.05;
@@ -253,7 +264,10 @@ TEST_F(RecordTest, ARefusedScanIsACaseToo) {
   const Case asked = written();
   EXPECT_TRUE(asked.measure_only());
   ASSERT_EQ(asked.expectations.size(), 2u);
+  const fs::path earlier = folder_ / "out" / "mine" / "replayed.bag";
+  std::ofstream(earlier) << "of an earlier run";
   EXPECT_TRUE(run_case(asked, options).holds());
+  EXPECT_FALSE(fs::exists(earlier)) << "compare would take it for this one's";
 }
 
 TEST_F(RecordTest, CloudsOfSensorsAreAssembled) {

@@ -30,7 +30,7 @@ std::string escaped(const std::string& text) {
 
 std::string with_golden(const std::string& text, const Row& row, const std::string& file) {
   const std::string& metric = row.expectation.metric;
-  const std::regex line("(\n +" + escaped(metric) + R"(: *\{ *golden: *)([^,}\n]*))");
+  const std::regex line("(\n +" + escaped(metric) + R"(: *\{(?:[^}\n]*,)? *golden: *)([^,}\n]*))");
   std::smatch match;
   if (!row.found) throw Refusal(kBadCase, file + ": " + metric + ": was not found in the run");
   if (!std::regex_search(text, match, line))

@@ -123,10 +123,14 @@ Metrics shape_metrics(const Case& asked, const Recording& recording) {
           {"shape/bits", then.hash == now.hash ? "same" : "other"}};
 }
 
-bool write_shape(const Case& asked, const Recording& recording) {
+bool has_moved(const Case& asked, const Recording& recording) {
+  const fs::path file = file_of(asked);
+  return !fs::exists(file) || read_shape(file).hash != shape_of(recording).hash;
+}
+
+void write_shape(const Case& asked, const Recording& recording) {
   const fs::path file = file_of(asked);
   const Shape shape = shape_of(recording);
-  if (fs::exists(file) && read_shape(file).hash == shape.hash) return false;
   const Stamp stamp = stamp_of(asked.file);
   std::string text = fmt::format(
       "# Skin by parts of the body, as `regression --update` recorded it: area in m^2, centre and spread\n"
@@ -141,7 +145,6 @@ bool write_shape(const Case& asked, const Recording& recording) {
   out << text;
   out.close();
   if (!out) throw std::runtime_error(file.string() + ": cannot be written");
-  return true;
 }
 
 }  // namespace tensegric_fit::regression

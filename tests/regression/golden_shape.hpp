@@ -21,7 +21,10 @@ bool wants_shape(const Case& asked);
 /// \throw Refusal bad_case: its file is broken
 Metrics shape_metrics(const Case& asked, const Recording& recording);
 
-/// Records the skin of now: cases/shapes/NAME.yaml. False where the same bits were recorded before.
-bool write_shape(const Case& asked, const Recording& recording);
+/// Whether the skin of now has other bits than the recorded one, or none was recorded.
+bool has_moved(const Case& asked, const Recording& recording);
+
+/// Records the skin of now: cases/shapes/NAME.yaml.
+void write_shape(const Case& asked, const Recording& recording);
 
 }  // namespace tensegric_fit::regression

@@ -66,6 +66,8 @@ class CaseRun {
       : options_(options), folder_(options.folder + "/" + asked.name), pipeline_(pipeline_of(asked)) {
     outcome_.asked = asked;
     fs::create_directories(folder_);
+    for (const char* result : {"result.bag", "assembled.bag", "assembled_scan.bag", "replayed.bag"})
+      fs::remove(folder_ + "/" + result);  // of an earlier run, which this one may not make again
     if (asked.bag.empty()) {
       customer_ = make_customer(asked.booth);
       if (asked.booth.sensors) {

@@ -5,6 +5,7 @@
 #include <rosbag/view.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -186,15 +187,20 @@ void write_bag(const fs::path& path, const Input& input, bool with_garments) {
   }
 }
 
-/// The files of a case that is being recorded; what of them is there is removed where it fails.
+std::array<fs::path, 3> files_of(const RecordRequest& request) {
+  const fs::path cases = request.cases;
+  return {cases / (request.name + ".yaml"), cases / "bags" / (request.name + ".bag"),
+          cases / "shapes" / (request.name + ".yaml")};
+}
+
+/// The files of a case that is being recorded, none of which was there; they are removed where it fails.
 class Unfinished {
  public:
-  explicit Unfinished(const RecordRequest& request) : cases_(request.cases), name_(request.name) {}
+  explicit Unfinished(const RecordRequest& request) : files_(files_of(request)) {}
   ~Unfinished() {
     std::error_code missing;
     if (!done_)
-      for (const fs::path& file : {file_of("bags", ".bag"), file_of("shapes", ".yaml"), file_of("", ".yaml")})
-        fs::remove(file, missing);
+      for (const fs::path& file : files_) fs::remove(file, missing);
   }
   Unfinished(const Unfinished&) = delete;
   Unfinished& operator=(const Unfinished&) = delete;
@@ -202,12 +208,7 @@ class Unfinished {
   void done() { done_ = true; }
 
  private:
-  fs::path file_of(const std::string& folder, const std::string& end) const {
-    return cases_ / folder / (name_ + end);
-  }
-
-  const fs::path cases_;
-  const std::string name_;
+  const std::array<fs::path, 3> files_;
   bool done_ = false;
 };
 
@@ -278,8 +279,9 @@ void write_case_input(const RecordRequest& request) {
   };
   if (request.name.empty() || std::any_of(request.name.begin(), request.name.end(), bad))
     throw Refusal(kBadCase, "'" + request.name + "' is no name for a case: letters, digits, _ and - only");
-  const fs::path file = fs::path(request.cases) / (request.name + ".yaml");
-  if (fs::exists(file)) throw Refusal(kBadCase, file.string() + " is there already");
+  for (const fs::path& file : files_of(request))  // the bag that is recorded from may lie there, too
+    if (fs::exists(file)) throw Refusal(kBadCase, file.string() + " is there already");
+  const fs::path file = files_of(request).front();
   Input input = read_input(request);
   take_wanted(request, input);
   std::vector<std::string> words;

@@ -131,6 +131,20 @@ TEST(Standing, StraightensATiltedScan) {
 }
 
 // A tilt by a hair more turns `up` by little more: between upright and leaning there is no step.
+TEST(Standing, OneFootAheadOfTheOtherTurnsNothing) {
+  const Standing& standing = shipped_registrar().standing();
+  const auto turned = [&](double ahead) {  // rad, by a foot that is so many m ahead
+    RegisteredBody body = tilted(0);
+    const Vector3d square = across(body, standing);
+    for (std::size_t bone = 0; bone < body.model->bones.size(); ++bone)
+      if (body.model->bones[bone].name == "foot.L") body.joints[bone] += ahead * square.cross(body.vertical);
+    return off(across(body, standing), square) * 180 / M_PI;
+  };
+  EXPECT_GT(turned(0.002), 0.05) << "as a woman's feet are: they count";
+  EXPECT_LT(turned(0.06), 1e-6);
+  EXPECT_LT(turned(0.20), 1e-6);
+}
+
 TEST(Standing, HasNoStep) {
   const double step = 4e-4;
   Vector3d before = upright(tilted(0), shipped_registrar().standing());

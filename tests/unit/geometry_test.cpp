@@ -2,7 +2,9 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -11,6 +13,7 @@
 #include "geometry/control_mesh.hpp"
 #include "geometry/ply.hpp"
 #include "geometry/point_cloud.hpp"
+#include "geometry/scan_stamp.hpp"
 #include "geometry/section.hpp"
 #include "geometry/shading_normals.hpp"
 #include "geometry/status.hpp"
@@ -318,6 +321,20 @@ TEST(CheckedYaml, NamesTheKey) {
   EXPECT_EQ(refusal_of([&] { number_in(map, "ratio", 0.95, 1, "line", "bad_garment"); }), "bad_garment");
   EXPECT_EQ(refusal_of([&] { number_in(map, "colour", 0, 1, "line", "bad_garment"); }), "bad_garment");
   EXPECT_EQ(refusal_of([&] { required<double>(map, "law", "line", "bad_garment"); }), "bad_garment");
+}
+
+TEST(Day, IsOfTheMachinesTimeZoneAndOfClocksThatAreSet) {
+  const char* const zone = std::getenv("TZ");
+  const std::string before = zone == nullptr ? "" : zone;
+  setenv("TZ", "JST-9", 1);
+  tzset();
+  EXPECT_EQ(geometry::day_of(1796050800), "2026-12-01");  // 15:00 of the day before, UTC
+  for (const double odd : {0.0, -5.0, 1e300, std::nan("")}) EXPECT_EQ(geometry::day_of(odd), "") << odd;
+  if (zone == nullptr)
+    unsetenv("TZ");
+  else
+    setenv("TZ", before.c_str(), 1);
+  tzset();
 }
 
 TEST(JoinedMeshes, KeepsPiecesApartAndNumbersOn) {

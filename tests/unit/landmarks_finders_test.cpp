@@ -214,6 +214,29 @@ TEST(AxillaFinder, OfALevelArmTheCornerUnderIt) {
   EXPECT_NEAR(axilla->y(), kTrunkRadius, 0.005);
 }
 
+// Flat sides that nearly touch all along: whichever two vertices are nearest, the middle is theirs.
+TEST(AxillaFinder, OfSkinsThatNearlyTouchTheMiddle) {
+  constexpr double kHalf = 0.05, kLean = 0.1;  // m before and behind; of the arm, sideways over down
+  const auto box = [](const Vector3d& p, const Vector3d& half) { return (p.cwiseAbs() - half).maxCoeff(); };
+  const auto trunk = [&](const Vector3d& p) { return box(p - Vector3d(0, 0, 1.15), {kHalf, 0.12, 0.25}); };
+  const auto arm = [&](const Vector3d& p) {
+    return box(p - Vector3d(0, 0.16 + kLean * (1.30 - p.z()), 1.15), {kHalf, 0.04, 0.2});
+  };
+  for (const double turn : {0.0, 0.004}) {  // rad, by which other vertices are nearest
+    const Eigen::Matrix3d to = Eigen::AngleAxisd(turn, Vector3d::UnitZ()).matrix();
+    Surface surface =
+        skin(test::surface_of([&](const Vector3d& p) { return std::min(trunk(to * p), arm(to * p)); },
+                              {-0.07, -0.13, 0.89}, {0.07, 0.26, 1.41}, 0.0041));
+    for (std::size_t v = 0; v < surface.arm.size(); ++v) {
+      const Vector3d p = to * surface.mesh.vertices[v];
+      surface.arm[v] = arm(p) < trunk(p) ? 1 : 0;
+    }
+    const auto axilla = find_axilla(surface, kLeft, 1.0, 1.4, 0);
+    ASSERT_TRUE(axilla);
+    EXPECT_NEAR((to * *axilla).x(), 0, turn > 0 ? 0.006 : 0.003) << turn;
+  }
+}
+
 TEST(AxillaFinder, AHollowInsideTheTrunkIsNoArm) {
   const Vector3d shoulder(0, 0.10, 1.35), hand(0, 0.40, 0.88);
   // Where a scan does not see into the armpit, its wedge may go on inside the mesh, up to the shoulder.

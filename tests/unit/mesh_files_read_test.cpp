@@ -417,6 +417,15 @@ TEST(SurfaceSamples, AreEvenAndHaveNormalsWhereTheMeshHasAnOutside) {
   for (std::size_t i = 0; i < 100; ++i) EXPECT_NEAR(mended.normals[i].dot(reversed.normals[i]), 1, 1e-9);
 }
 
+TEST(SurfaceSamples, DoNotDependOnTheOrderOfTriangles) {
+  geometry::TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0.1}, {0, 1, 0.2}, {0.2, 0.3, 1}},
+                              {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  const geometry::PointCloud before = surface_samples(mesh, 1000);
+  std::swap(mesh.triangles[0], mesh.triangles[3]);
+  mesh.triangles[1] = {3, 0, 1};
+  EXPECT_EQ(surface_samples(mesh, 1000).points, before.points);
+}
+
 TEST(SurfaceSamples, HaveNoNormalsWhereTheMeshHasNoOutside) {
   TriangleMesh mesh = corner(), soup;
   for (const Eigen::Vector3i& t : mesh.triangles)

@@ -103,6 +103,21 @@ TEST(ReconstructionSensors, NoSensorMovesByMoreThanTenMillimetres) {
   }
 }
 
+// They share the rims of what they see alone, which bend away from both.
+TEST(ReconstructionSensors, SensorsAcrossFromEachOtherStayWhereTheyAre) {
+  const Capture scan = capture();
+  std::vector<Vector3d> before;
+  std::vector<int> sensor;
+  for (std::size_t i = 0; i < scan.points.size(); ++i)
+    if (scan.sensor[i] % 2 == 0) {
+      before.push_back(scan.points[i]);
+      sensor.push_back(scan.sensor[i]);
+    }
+  std::vector<Vector3d> points = before;
+  register_sensors(points, sensor);
+  EXPECT_EQ(points, before);
+}
+
 TEST(ReconstructionSensors, OneSensorStaysWhereItIs) {
   const Capture scan = capture();
   std::vector<Vector3d> points = scan.points;

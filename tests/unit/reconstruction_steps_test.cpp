@@ -75,6 +75,12 @@ TEST(ReconstructionSteps, NormalsPointOutwardWhateverTheHints) {
   const geometry::PointCloud scan = figure::scan_body(30000, 0.0005, 4);
   std::vector<Eigen::Vector3d> inwards;  // of a driver that took the booth's origin for its viewpoint
   for (const Eigen::Vector3d& n : scan.normals) inwards.push_back(-n);
+  std::vector<Eigen::Vector3d> to_origin = scan.normals,
+                               chest_in = scan.normals;  // of one who did not know better
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    if (scan.normals[i].dot(scan.points[i]) > 0) to_origin[i] = -to_origin[i];
+    if (scan.points[i].x() > 0.03 && scan.points[i].z() > 1) chest_in[i] = -chest_in[i];
+  }
   const std::vector<Eigen::Vector3d> unknown(scan.points.size(), Eigen::Vector3d::Zero());
   std::vector<Eigen::Vector3d> of_one_cloud = scan.normals;  // the scan's other cloud, her trunk, has none
   for (std::size_t i = 0; i < scan.points.size(); ++i)
@@ -83,6 +89,8 @@ TEST(ReconstructionSteps, NormalsPointOutwardWhateverTheHints) {
                                                                   {"given", scan.normals},
                                                                   {"unknown", unknown},
                                                                   {"inwards", inwards},
+                                                                  {"towards the origin", to_origin},
+                                                                  {"chest inside out", chest_in},
                                                                   {"of one cloud", of_one_cloud}};
   for (const auto& [hinted, given] : hints) {
     const auto normals = outward_normals(scan.points, given);

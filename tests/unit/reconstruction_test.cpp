@@ -201,6 +201,19 @@ TEST(Reconstruction, AFloorThatWasSeenIsTheGroundThoughHerFeetWereNot) {
   EXPECT_EQ(model.ground_deviation, 0);
 }
 
+TEST(Reconstruction, AFlatCutThroughHerIsNoFloor) {
+  constexpr double kCut = 0.75;  // m, through her thighs
+  PointCloud scan;
+  for (const Eigen::Vector3d& p : scan_of(100000, kNoise, false).points)
+    if (p.z() > kCut) scan.points.push_back(p);
+  for (double x = -0.2; x < 0.2;
+       x += 0.005)  // as software that fills holes, or a table behind which she stands
+    for (double y = -0.25; y < 0.25; y += 0.005) scan.points.emplace_back(x, y, kCut);
+  const body_model::RegisteredBody model = test::reconstructed(scan, quick()).model;
+  EXPECT_NEAR(model.ground, 0, 0.07);  // three deviations of soles that nothing shows
+  EXPECT_GT(model.ground_deviation, 0.005);
+}
+
 TEST(Reconstruction, AFootThatIsLiftedIsNoPlate) {
   constexpr double kKnee = 0.45, kLift = 0.1;  // m
   PointCloud scan = booth_scan();
@@ -250,6 +263,9 @@ TEST(Reconstruction, GivenNormalsAndPointsThatAreNotFiniteAreCopedWith) {
     if (i % 7 == 0) scan.points[i].x() = std::numeric_limits<double>::infinity();
     if (i % 11 == 0) scan.points[i].setConstant(std::numeric_limits<double>::quiet_NaN());
   }
+  const Eigen::Vector3d nothing = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  scan.points.resize(3 * scan.points.size(), nothing);  // as a depth image that she fills a third of
+  scan.normals.resize(scan.points.size(), nothing);
   const BodyMesh body = reconstruct(scan, quick());
   expect_sound(body, kTriangles);
   EXPECT_LT(percentile(errors(body), 0.5), 0.0005);

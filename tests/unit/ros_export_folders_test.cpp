@@ -65,6 +65,25 @@ TEST_F(ExportFolders, AnAgeThatHangsOrFailsIsRefused) {
   EXPECT_EQ(refused("exit 3"), unsealed + "ended with exit code 3");
 }
 
+TEST_F(ExportFolders, WhatADeletionThatWasCutOffHasLeftGoesToo) {
+  for (const bool retention : {false, true}) {
+    for (const char* name : {".cut_off.unfinished", ".not_ours.unfinished"}) {
+      export_fit(scan_, root_ / name, kWhole);
+      fs::remove(root_ / name / "fit.json");  // by which exports are known
+    }
+    std::ofstream(root_ / ".not_ours.unfinished" / "precious") << "mine";
+    std::vector<geometry::Refusal> left;
+    std::vector<std::string> old_left;
+    if (retention)
+      delete_old_exports(root_, 1, old_left);
+    else
+      EXPECT_THROW(delete_exports(root_, scan_.body->scan_id, left), geometry::Refusal) << "no whole one";
+    EXPECT_FALSE(fs::exists(root_ / ".cut_off.unfinished"));
+    EXPECT_TRUE(fs::exists(root_ / ".not_ours.unfinished" / "precious"));
+    fs::remove_all(root_);
+  }
+}
+
 TEST_F(ExportFolders, OldExportsGoAndNothingElse) {
   for (const char* name : {"old", "new", "spoilt"}) export_fit(scan_, root_ / name, kWhole);
   std::ofstream(root_ / "spoilt" / "precious") << "mine";

@@ -43,6 +43,20 @@ TEST_F(ExportPage, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
             "girth,underbust,750.0,,0.40,,\"hair, <b>long</b>\"\r\n");
 }
 
+TEST_F(ExportPage, TheLiftIsRoundedAlone) {
+  const auto landmarks = boost::make_shared<Landmarks>(*scan_.landmarks);
+  for (Measure& height : landmarks->heights)
+    if (height.name == "bust") height.value = 1.2004;  // 0.2 mm more are 1201 in whole mm
+  const auto lifted = boost::make_shared<DeformedMesh>(*scan_.deformed);
+  for (std::size_t z = 2; z < lifted->vertices.size(); z += 3) lifted->vertices[z] += 0.0002F;
+  scan_.landmarks = landmarks;
+  scan_.deformed = lifted;
+  export_fit(scan_, root_ / "one", kWhole);
+  EXPECT_NE(
+      text_of(root_ / "one" / "fit.html").find("lift of the bust, mm</th><td></td><td></td><td>+0</td>"),
+      std::string::npos);
+}
+
 TEST_F(ExportPage, WhatOfTheBodyIsMissingStandsOnPageAndPictures) {
   export_fit(scan_, root_ / "whole", kWhole);
   const auto landmarks = boost::make_shared<Landmarks>(*scan_.landmarks);

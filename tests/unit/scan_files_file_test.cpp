@@ -123,6 +123,11 @@ TEST_F(ScanFileTest, ABagsScanTopicComesBeforeOtherClouds) {
     bag.write("/another/points", ros::Time(1), sensor_msgs::PointCloud2());  // earlier, and empty
   }
   expect_cloud(file("a.bag"));
+  {
+    rosbag::Bag bag(file("a.bag"), rosbag::bagmode::Append);
+    bag.write("/booth_2/scan/points", ros::Time(7), sensor_msgs::PointCloud2());
+  }
+  EXPECT_EQ(refusal_of(file("a.bag")), geometry::refusal::kBadOption) << "of which booth?";
 }
 
 TEST_F(ScanFileTest, ABagOfAllSensorsHasTheirClouds) {
