@@ -24,8 +24,9 @@ const geometry::Range kTimeout{0.1, 3600};  // s
 
 CaptureHandler::Setup CaptureHandler::setup_from(Parameters& parameters, double slop) {
   Setup setup;
+  setup.slop = slop;
   setup.timeout = parameters.number("timeout", setup.timeout, kTimeout);
-  setup.slop = parameters.number("slop", slop, geometry::kSlop);
+  setup.slop = parameters.number("slop", setup.slop, geometry::kSlop);
   setup.trigger = parameters.text("trigger", setup.trigger);
   std::string error;
   if (!setup.trigger.empty() && (setup.trigger.front() == '~' || setup.trigger.back() == '/'))
