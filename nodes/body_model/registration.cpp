@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -194,10 +195,13 @@ RegisteredBody Registrar::operator()(const Samples& samples) const {
   std::vector<Fitted> ways{fit_stage(model, matcher, first, kThird)};
   if (leaves_things(ways.front().matching)) {
     // Breasts that lie on the belly may have been taken for it, one leg for both.
-    for (const Parameters& start : {with_hanging_breasts(model, first), standing_straight(model, first)}) {
-      const Fitted other = fit_stage(model, matcher, start, kSecond);
-      ways.push_back(fit_stage(model, matcher, other.parameters, kThird));
-    }
+    const std::array starts{with_hanging_breasts(model, first), standing_straight(model, first)};
+    ways.resize(1 + starts.size());
+    geometry::parallel_for(starts.size(), [&](std::size_t begin, std::size_t end, int) {
+      for (std::size_t i = begin; i < end; ++i)
+        ways[1 + i] =
+            fit_stage(model, matcher, fit_stage(model, matcher, starts[i], kSecond).parameters, kThird);
+    });
   }
   const Fitted fitted =
       fit_stage(model, matcher, std::min_element(ways.begin(), ways.end(), likelier)->parameters, kFine);

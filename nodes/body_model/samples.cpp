@@ -6,11 +6,10 @@
 #include <cstdint>
 #include <numeric>
 #include <random>
-#include <tuple>
 #include <utility>
 
+#include "geometry/order_of_place.hpp"
 #include "geometry/parallel_for.hpp"
-#include "geometry/points.hpp"
 
 namespace tensegric_fit::body_model {
 namespace {
@@ -21,78 +20,6 @@ using Eigen::Vector3d;
 double radical_inverse(unsigned i, unsigned base) {
   double result = 0, digit = 1.0 / base;
   for (; i > 0; i /= base, digit /= base) result += digit * (i % base);
-  return result;
-}
-
-/// Every third bit of the result is one of the lowest 21 bits of `number`.
-std::uint64_t spread_bits(std::uint64_t number) {
-  std::uint64_t result = 0;
-  for (int bit = 0; bit < 21; ++bit) result |= (number >> bit & 1) << 3 * bit;
-  return result;
-}
-
-/// The vertices in a frame of their own that turns about the vertical along with the surface, and is mirrored
-/// with it: the level axes along which it spreads most and least, each towards where it reaches farther.
-std::vector<Vector3d> seen_from_itself(const geometry::TriangleMesh& mesh) {
-  std::vector<std::pair<Eigen::Vector2d, double>> pieces;  // middle and area
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  double sum = 0;
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    pieces.emplace_back((a + b + c).head<2>() / 3, geometry::area_vector(a, b, c).norm());
-    mean += pieces.back().second * pieces.back().first;
-    sum += pieces.back().second;
-  }
-  if (sum > 0) mean /= sum;
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
-  for (const auto& [middle, area] : pieces) squares += area * (middle - mean) * (middle - mean).transpose();
-  const double turn = std::atan2(2 * squares(0, 1), squares(0, 0) - squares(1, 1)) / 2;
-  Eigen::Matrix2d axes;
-  axes << std::cos(turn), std::sin(turn), -std::sin(turn), std::cos(turn);
-  Eigen::Array2d skew = Eigen::Array2d::Zero();
-  for (const auto& [middle, area] : pieces) skew += area * (axes * (middle - mean)).array().cube();
-  for (int axis = 0; axis < 2; ++axis)
-    if (skew[axis] < 0) axes.row(axis) = -axes.row(axis);
-  std::vector<Vector3d> places;
-  places.reserve(mesh.vertices.size());
-  for (const Vector3d& p : mesh.vertices) {
-    const Eigen::Vector2d level = axes * (p.head<2>() - mean);
-    places.emplace_back(level.x(), level.y(), p.z());
-  }
-  return places;
-}
-
-/// Triangles that are near each other one after the other (Morton's order of their middles), each from its
-/// lowest corner to its highest: the same in whatever order a file has them, and however it is turned about
-/// the vertical, but for rounding.
-std::vector<Eigen::Vector3i> in_order_of_place(const geometry::TriangleMesh& mesh) {
-  constexpr double kCell = 0.001;              // m: triangles are larger
-  constexpr double kMost = (1 << 20) * kCell;  // m each way: farther out all are in one cell
-  const std::vector<Vector3d> places = seen_from_itself(mesh);
-  const auto place = [&](int v) { return std::array{places[v].z(), places[v].y(), places[v].x()}; };
-  double lowest = HUGE_VAL;
-  for (const Eigen::Vector3i& t : mesh.triangles)
-    for (const int v : t) lowest = std::min(lowest, places[v].z());
-  using Order =
-      std::tuple<std::uint64_t, std::array<double, 3>, std::size_t>;  // cell, lowest corner, triangle
-  std::vector<Eigen::Vector3i> triangles = mesh.triangles;
-  std::vector<Order> order;
-  order.reserve(triangles.size());
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    Eigen::Vector3i& t = triangles[f];
-    std::sort(t.data(), t.data() + 3, [&](int i, int j) { return place(i) < place(j); });
-    const Vector3d middle = (places[t[0]] + places[t[1]] + places[t[2]]) / 3 - lowest * Vector3d::UnitZ();
-    std::uint64_t cell = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      cell |= spread_bits(static_cast<std::uint64_t>(
-                  (std::clamp(middle[axis], -kMost, kMost - kCell) + kMost) / kCell))
-              << axis;
-    order.emplace_back(cell, place(t[0]), f);
-  }
-  std::sort(order.begin(), order.end());
-  std::vector<Eigen::Vector3i> result;
-  result.reserve(order.size());
-  for (const Order& next : order) result.push_back(triangles[std::get<2>(next)]);
   return result;
 }
 
@@ -176,7 +103,7 @@ Samples shuffled_by_place(const Samples& samples) {
 
 Samples sample_surface(const geometry::TriangleMesh& mesh, const std::vector<char>& filled, int count) {
   const std::vector<Vector3d> normals = geometry::vertex_normals(mesh.vertices, mesh.triangles);
-  const std::vector<Eigen::Vector3i> triangles = in_order_of_place(mesh);
+  const std::vector<Eigen::Vector3i> triangles = geometry::in_order_of_place(mesh);
   std::vector<double> area_up_to;
   double sum = 0;
   for (const Eigen::Vector3i& t : triangles) {

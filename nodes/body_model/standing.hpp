@@ -16,8 +16,8 @@ struct Standing {
   double ground;           ///< m: deviation of the ground that these two give
   /// m: the same where no foot is there, and where no thigh is either, and the model's soles alone say it
   double without_feet, without_thighs;
-  double
-      facing;  ///< rad: deviation of the line across the feet from that across the hips, about the vertical
+  /// rad: deviation of the line across the feet from that across the hips, about the vertical
+  double facing;
 };
 
 /// \throw Refusal broken_file: not there, unknown keys, values out of range

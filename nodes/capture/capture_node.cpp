@@ -74,8 +74,10 @@ class CaptureNode {
  public:
   CaptureNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
       : node_(node),
-        handler_(Parameters(private_node), node.getNamespace(),
-                 node.param("assembler/slop", geometry::kUsualSlop)),  // which scans it lets be whole
+        handler_(
+            Parameters(private_node), node.getNamespace(),
+            Parameters(ros::NodeHandle(node, "assembler"))
+                .number("slop", geometry::kUsualSlop, geometry::kSlop)),  // clouds within it are one scan
         trigger_(node, handler_.trigger()) {
     subscribers_ = {node.subscribe("scan/points", 4, &CaptureNode::on_scan, this),
                     node.subscribe("body/landmarks", 4, &CaptureNode::on_landmarks, this),

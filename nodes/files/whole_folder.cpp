@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
+#include <set>
 #include <system_error>
 #include <thread>
 
@@ -49,15 +50,28 @@ void remove_folder(const Descriptor& parent, const fs::path& folder) {
   if (unlinkat(parent.number(), name.c_str(), AT_REMOVEDIR) != 0) fail(folder);
 }
 
-/// Held by one writer at a time; unfinished folders that exist when it is acquired were abandoned.
+using Names = std::set<std::string>;
+
+Names names_in(const fs::path& folder) {
+  Names names;
+  if (fs::symlink_status(folder).type() == fs::file_type::directory)
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      names.insert(entry.path().filename());
+  return names;
+}
+
+/// Held by one writer at a time; unfinished folders that exist when it is acquired were abandoned. Those that
+/// hold nothing but files of `names` are removed: others may be somebody else's.
 class LockedParent {
  public:
-  explicit LockedParent(const fs::path& parent) : directory_(parent, O_RDONLY | O_DIRECTORY) {
+  LockedParent(const fs::path& parent, const Names& names) : directory_(parent, O_RDONLY | O_DIRECTORY) {
     lock(parent);
     for (const fs::directory_entry& entry : fs::directory_iterator(parent)) {
       if (is_unfinished(entry.path().filename()) && entry.symlink_status().type() == fs::file_type::directory)
         try {
-          remove_folder(directory_, entry.path());
+          const Names there = names_in(entry.path());
+          if (std::includes(names.begin(), names.end(), there.begin(), there.end()))
+            remove_folder(directory_, entry.path());
         } catch (const fs::filesystem_error&) {  // another user's, or not ours: only a folder of its name
                                                  // cannot be written
         }
@@ -114,7 +128,7 @@ fs::path new_folder(const std::string& folder) {
 }  // namespace
 
 bool is_unfinished(const std::string& name) {
-  return name.front() == '.' && fs::path(name).extension() == kUnfinished;
+  return !name.empty() && name.front() == '.' && fs::path(name).extension() == kUnfinished;
 }
 
 void check_new_folder(const std::string& folder) {
@@ -126,7 +140,9 @@ std::vector<std::string> write_whole_folder(const std::string& folder,
   const fs::path wanted = new_folder(folder);
   try {
     fs::create_directories(wanted.parent_path());
-    const LockedParent parent(parent_of(wanted));
+    Names names;
+    for (const FileContent& file : files) names.insert(file.name);
+    const LockedParent parent(parent_of(wanted), names);
     const fs::path unfinished = hidden(parent_of(wanted) / wanted.filename());
     fs::path made = unfinished;
     try {
@@ -153,7 +169,7 @@ std::vector<std::string> write_whole_folder(const std::string& folder,
 
 void delete_whole_folder(const std::string& folder) {
   try {
-    const LockedParent parent(parent_of(folder));
+    const LockedParent parent(parent_of(folder), names_in(folder));
     const fs::path place = parent_of(folder) / fs::path(folder).filename();
     const fs::file_type there = fs::symlink_status(place).type();
     if (there == fs::file_type::not_found) {

@@ -18,9 +18,9 @@ struct FileContent {
 void check_new_folder(const std::string& folder);
 
 /// Writes the files into a hidden folder beside `folder` that takes its name when all are on the disk,
-/// whatever happens meanwhile; remains of one that was interrupted are removed by the next. Returns the
-/// files' paths. \throw Refusal bad_option: the path is relative, or there is something already;
-/// cannot_write, in words
+/// whatever happens meanwhile; remains of one that was interrupted are removed by the next with files of the
+/// same names. Returns the files' paths. \throw Refusal bad_option: the path is relative, or there is
+/// something already; cannot_write, in words
 std::vector<std::string> write_whole_folder(const std::string& folder, const std::vector<FileContent>& files);
 
 /// Whether a folder's name is that of one that is being written or deleted, or was when that was cut off.

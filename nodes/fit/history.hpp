@@ -22,9 +22,9 @@ struct VisitMeasure {
 /// One folder.
 struct Visit {
   std::filesystem::path folder;
-  std::string customer, scan, source;   ///< empty: not known; `scan` is the scan_id of an export
-  std::string day;                      ///< YYYY-MM-DD (UTC): of the scan, else of the folder's document
-  double time = 0;                      ///< s since 1970, the same
+  std::string customer, scan, source;  ///< empty: not known; `scan` is the scan_id of an export
+  std::string day;  ///< YYYY-MM-DD, by the machine's time zone: of the scan, else of the folder's document
+  double time = 0;  ///< s since 1970, the same
   std::string garment;                  ///< empty: measured only
   std::map<std::string, double> lines;  ///< worn / rest
   std::map<std::string, VisitMeasure> girths, heights;

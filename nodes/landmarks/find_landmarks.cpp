@@ -31,6 +31,8 @@ constexpr double kAboveShoulder = 0.05, kBelowFold = 0.02;  // m: the axilla is 
 constexpr double kArmBelowAxilla = 0.051, kThighBelowCrotch = 0.039;  // statures along the limb (definition)
 constexpr double kArmReach = 0.055,
                  kThighReach = 0.12;  // statures: half of the thickest limb's breadth, and room
+constexpr double kGuessedArm =
+    0.05;  // statures, a third of a girth: what an arm may be off by that is not there (definition)
 constexpr double kUnderButtock = 0.13,
                  kFoldUnderButtock =
                      0.065;      // statures (definition): back of the thigh, and a fold that does not show
@@ -133,12 +135,14 @@ class Reader {
     add(Kind::point, name, on_mesh, on_model, support, is_seen(on_mesh), 0, what);
   }
   /// A deviation that both readings have in common; the largest counts.
+  static void doubt(Figure& figure, double deviation, const std::string& reason) {
+    if (deviation <= figure.shared) return;
+    figure.shared = deviation;
+    figure.shared_reason = reason;
+  }
   void doubt(Kind kind, const std::string& name, double deviation, const std::string& reason) {
     for (Figure& figure : figures_)
-      if (figure.kind == kind && figure.name == name && deviation > figure.shared) {
-        figure.shared = deviation;
-        figure.shared_reason = reason;
-      }
+      if (figure.kind == kind && figure.name == name) doubt(figure, deviation, reason);
   }
   void lacks(const std::string& name, const std::string& reason) { missing_.push_back({name, reason}); }
   bool is_seen(const std::optional<Vector3d>& on_mesh) const {
@@ -339,7 +343,7 @@ class Reader {
     limb("upper_arm", side, shoulder + down * along, along, kArmReach,
          [](const Surface& s, const Eigen::Vector3i& t) { return s.is_arm(t); });
     if (!arms_there_[side])
-      doubt(Kind::girth, sided("upper_arm", side), kArmReach * body_.stature(), "that arm is not there");
+      doubt(Kind::girth, sided("upper_arm", side), kGuessedArm * body_.stature(), "that arm is not there");
   }
 
   /// Of thighs that touch, what lies on this side of the plane between the hip joints.
@@ -420,17 +424,12 @@ class Reader {
   }
   /// Heights and what lies at the hip are of a body that stands.
   void doubt_standing() {
-    const std::string reason = "she does not stand: a thigh is bent by 45 degrees or more";
-    const double deviation = kThigh * body_.stature();
-    std::vector<std::pair<Kind, std::string>> doubted;
-    for (const Figure& figure : figures_)
+    for (Figure& figure : figures_)
       if (figure.kind == Kind::height || figure.name == "hip" || figure.name.rfind("hip_side", 0) == 0)
-        doubted.emplace_back(figure.kind, figure.name);
-    for (const auto& [kind, name] : doubted) doubt(kind, name, deviation, reason);
+        doubt(figure, kThigh * body_.stature(), "she does not stand: a thigh is bent by 45 degrees or more");
   }
 
-  /// The highest skin but of arms, which may be raised.
-  /// Nothing where that is the rim of a hole.
+  /// The highest skin but of arms, which may be raised; nothing where that is the rim of a hole.
   static std::optional<Vector3d> crown(const Surface& surface) {
     const std::vector<Vector3d>& vertices = surface.mesh.vertices;
     int highest = -1;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "geometry/parabola.hpp"
 #include "landmarks/finders.hpp"
@@ -115,15 +116,21 @@ std::optional<Vector3d> find_side(const Trunk& trunk, Side side, double height) 
   double sum = 0, weights = 0;
   for (const geometry::SectionLoop& loop : loops)
     for (std::size_t i = loop.closed ? 0 : 1; i < loop.points.size(); ++i) {
-      const Vector3d &from = loop.points[(i + loop.points.size() - 1) % loop.points.size()],
-                     &to = loop.points[i], middle = (from + to) / 2;
-      const double weight =
-          (to - from).norm() * std::max(0.0, 1 - kSign[side] * (farthest->y() - middle.y()) / kFlatSide);
-      sum += weight * middle.x();
-      weights += weight;
+      Vector3d from = loop.points[(i + loop.points.size() - 1) % loop.points.size()], to = loop.points[i];
+      const auto weight = [&](const Vector3d& p) {
+        return 1 - kSign[side] * (farthest->y() - p.y()) / kFlatSide;
+      };
+      if (weight(from) < weight(to)) std::swap(from, to);
+      const double outer = weight(from), inner = weight(to);
+      if (outer <= 0) continue;
+      if (inner < 0) to = from + outer / (outer - inner) * (to - from);  // the part that counts
+      const double end = std::max(inner, 0.0), length = (to - from).norm();
+      // of what changes evenly along it
+      weights += length * (outer + end) / 2;
+      sum += length * ((2 * outer + end) * from.x() + (outer + 2 * end) * to.x()) / 6;
     }
-  if (!(weights > 0)) return *farthest;  // a corner
-  return Vector3d(sum / weights, farthest->y(), farthest->z());
+  return weights > 0 ? Vector3d(sum / weights, farthest->y(), farthest->z())
+                     : *farthest;  // of a single point
 }
 
 std::vector<Vector3d> round_limb(const Surface& surface, const Vector3d& origin, const Vector3d& along,

@@ -20,8 +20,8 @@ constexpr double kUnderShoulder = 0.04,
 // things none; any limit between does.
 constexpr double kLeastArm = 0.25;
 constexpr double kNearlyTouch =
-    0.002;  // m: skins this much farther apart than where they are nearest are not (definition)
-constexpr int kHalvings = 12;                            // of the search for the highest plane: 0.1 mm
+    0.002;                     // m: skins nearly touch up to this much beyond the narrowest gap (definition)
+constexpr int kHalvings = 12;  // of the search for the highest plane: 0.1 mm
 constexpr int kHarmonics = 8, kLoopPoints = 180;         // of a neck: waves of 40 mm
 constexpr double kNeckStep = 0.005, kNeckReach = 0.040;  // m (definition: README.md, neck)
 
@@ -101,7 +101,7 @@ Vector3d middle_of_gap(const ArmAndTrunk& outlines) {
     sum += weight * (arm[i] + across[i] / 2);
     weights += weight;
   }
-  return sum / weights;
+  return weights > 0 ? Vector3d(sum / weights) : arm.front();  // all of it in one point
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/order_of_place.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::mesh_files {
@@ -133,32 +134,6 @@ TriangleMesh without_repeated(const TriangleMesh& mesh) {
   return result;
 }
 
-// From the lowest to the highest, each from its lowest corner on: the same samples in whatever order a file
-// has them.
-TriangleMesh in_order_of_place(const TriangleMesh& mesh) {
-  using Place = std::array<double, 9>;
-  std::vector<std::pair<Place, Eigen::Vector3i>> order;
-  order.reserve(mesh.triangles.size());
-  const auto lower = [&](int a, int b) {
-    const Vector3d &p = mesh.vertices[a], &q = mesh.vertices[b];
-    return std::array{p.z(), p.y(), p.x()} < std::array{q.z(), q.y(), q.x()};
-  };
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    const int first = lower(t[0], t[1]) ? (lower(t[0], t[2]) ? 0 : 2) : lower(t[1], t[2]) ? 1 : 2;
-    const Eigen::Vector3i turned(t[first], t[(first + 1) % 3],
-                                 t[(first + 2) % 3]);  // which way it runs stays
-    Place place;
-    for (int k = 0; k < 3; ++k)
-      for (int axis = 0; axis < 3; ++axis) place[3 * k + axis] = mesh.vertices[turned[k]][2 - axis];
-    order.emplace_back(place, turned);
-  }
-  std::stable_sort(order.begin(), order.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  TriangleMesh result{mesh.vertices, {}};
-  for (const auto& [place, triangle] : order) result.triangles.push_back(triangle);
-  return result;
-}
-
 // Of a sequence that fills the square evenly (Roberts' R2: powers of 1 / the plastic number).
 Eigen::Vector2d evenly(int i) {
   const auto share = [i](double step) { return std::fmod(0.5 + step * i, 1.0); };
@@ -168,7 +143,8 @@ Eigen::Vector2d evenly(int i) {
 }  // namespace
 
 geometry::PointCloud surface_samples(const TriangleMesh& mesh, int count) {
-  const TriangleMesh cleaned = in_order_of_place(without_repeated(usable(mesh)));
+  TriangleMesh cleaned = without_repeated(usable(mesh));
+  cleaned.triangles = geometry::in_order_of_place(cleaned);
   std::vector<Vector3d> areas;
   double whole = 0;
   for (const Eigen::Vector3i& t : cleaned.triangles) {

@@ -24,10 +24,10 @@ constexpr int kPasses = 2, kRounds = 4;
 constexpr double kOutlier = 4.5;       // usual differences, at which a sheet counts a quarter
 constexpr double kLastMotion = 1e-5;   // m
 constexpr double kMotionPrior = 1e-3;  // of the usual weight, that holds a motion to zero
-// Patches that a sensor shares with others, 20 for each unknown of its motion. Sensors across from each other
-// share the rims of what they see, 11 to 17 patches that bend away from both; neighbours share 250 and more
-// (scans of 40,000 points).
-constexpr int kFewestPatches = 120;
+// m^2, patches that a sensor shares with others times their radius squared. Sensors across from each other
+// share the rims of what they see, which bend away from both: 0.005 to 0.008 at 40,000 and 200,000 points;
+// neighbours share 0.10 to 0.18 there, 0.025 and more of 3,500 points.
+constexpr double kLeastShared = 0.015;
 constexpr double kMost = 0.010;  // m and rad, of a motion
 // m; sensors that a booth has registered itself differ by 0.1 to 0.3, and another registration improves
 // nothing.
@@ -82,12 +82,12 @@ void improve(const SensorPatches& all, double radius, const Eigen::Vector3d& mid
 
 /// Takes the points of sensors that share hardly anything with others for those of none; whether there were
 /// any.
-bool leave_out_loose(const SensorPatches& sheets, int sensors, std::vector<int>& sensor_of) {
+bool leave_out_loose(const SensorPatches& sheets, double radius, int sensors, std::vector<int>& sensor_of) {
   std::vector<int> patches(sensors, 0);
   for (const SensorPatch& sheet : sheets.sheets) ++patches[sheet.sensor];
   bool found = false;
   for (int& s : sensor_of) {
-    if (s < 0 || patches[s] >= kFewestPatches) continue;
+    if (s < 0 || patches[s] * radius * radius >= kLeastShared) continue;
     s = -1;
     found = true;
   }
@@ -101,7 +101,7 @@ std::vector<SmallMotion> motions_of(const Points& points, std::vector<int>& sens
   const double radius =
       std::min(kLargest, kRadius * std::sqrt(std::max(1.0, kDense / static_cast<double>(points.size()))));
   SensorPatches sheets = sensor_patches_of(points, {}, sensor_of, sensors, radius, kStep);
-  while (leave_out_loose(sheets, sensors, sensor_of))  // once for each sensor at most
+  while (leave_out_loose(sheets, radius, sensors, sensor_of))  // once for each sensor at most
     sheets = sensor_patches_of(points, {}, sensor_of, sensors, radius, kStep);
   if (sheets.sheets.empty()) return {};
   std::vector<double> weights(sheets.sheets.size(), 1);

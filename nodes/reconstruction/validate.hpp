@@ -10,7 +10,7 @@ namespace tensegric_fit::reconstruction {
 void check_options(const Options& options);
 
 /// The finite points of a scan that lie within reach of a booth; a normal that is not a unit vector becomes
-/// zero. \throw Refusal empty_cloud, non_finite (less than half is finite), too_few_points, too_many_points,
+/// zero. \throw Refusal empty_cloud, non_finite (no point is finite), too_few_points, too_many_points,
 /// wrong_unit, not_a_body (all in one place), wrong_fields (normals for some points only)
 geometry::PointCloud usable_points(const geometry::PointCloud& scan, const Options& options);
 

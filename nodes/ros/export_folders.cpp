@@ -66,21 +66,24 @@ bool is_rest_of_an_export(const fs::path& folder) {
 }
 
 /// Calls `take(folder, mark)` for each export in the folder, at any depth; links are not followed. Rests of
-/// exports go, whosever they are. `left`: what cannot be looked at.
+/// exports are deleted, whosever they are, and named in `gone`. `left`: what cannot be looked at.
 template <typename Take>
-void for_each_export(const fs::path& directory, std::vector<Refusal>& left, const Take& take) {
+void for_each_export(const fs::path& directory, std::vector<std::string>& gone, std::vector<Refusal>& left,
+                     const Take& take) {
   std::vector<fs::path> entries;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory)) entries.push_back(entry.path());
   std::sort(entries.begin(), entries.end());
   for (const fs::path& entry : entries) {
     try {
       if (fs::symlink_status(entry).type() != fs::file_type::directory) continue;
-      if (const std::optional<Mark> mark = mark_in(entry))
-        take(entry, *mark);
-      else if (is_rest_of_an_export(entry))
+      if (is_rest_of_an_export(entry)) {
         files::delete_whole_folder(entry);
-      else
-        for_each_export(entry, left, take);
+        gone.push_back(entry);
+      } else if (const std::optional<Mark> mark = mark_in(entry)) {
+        take(entry, *mark);
+      } else {
+        for_each_export(entry, gone, left, take);
+      }
     } catch (const Refusal& refusal) {
       left.push_back(refusal);
     } catch (const fs::filesystem_error& error) {
@@ -91,11 +94,11 @@ void for_each_export(const fs::path& directory, std::vector<Refusal>& left, cons
 }
 
 std::vector<fs::path> exports_of(const fs::path& directory, const std::string& scan_id,
-                                 std::vector<Refusal>& left) {
+                                 std::vector<std::string>& gone, std::vector<Refusal>& left) {
   if (const std::optional<Mark> mark = mark_in(directory); mark && mark->scan_id == scan_id)
     return {directory};
   std::vector<fs::path> folders;
-  for_each_export(directory, left, [&](const fs::path& folder, const Mark& mark) {
+  for_each_export(directory, gone, left, [&](const fs::path& folder, const Mark& mark) {
     if (mark.scan_id == scan_id) folders.push_back(folder);
   });
   return folders;
@@ -112,7 +115,7 @@ std::vector<std::string> delete_exports(const std::string& directory, const std:
   left.clear();
   std::vector<std::string> gone;
   try {
-    for (const fs::path& folder : exports_of(place, scan_id, left)) {
+    for (const fs::path& folder : exports_of(place, scan_id, gone, left)) {
       try {
         delete_export(folder);
         gone.push_back(folder);
@@ -139,7 +142,7 @@ std::vector<std::string> delete_old_exports(const std::string& directory, double
   std::vector<std::string> gone;
   std::vector<Refusal> not_deleted;
   try {
-    for_each_export(directory, not_deleted, [&](const fs::path& folder, const Mark& mark) {
+    for_each_export(directory, gone, not_deleted, [&](const fs::path& folder, const Mark& mark) {
       if (Days(fs::file_time_type::clock::now() - mark.written).count() <= days) return;
       delete_export(folder);
       gone.push_back(folder);

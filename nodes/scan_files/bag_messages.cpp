@@ -1,5 +1,6 @@
 #include "scan_files/bag_messages.hpp"
 
+#include <fmt/format.h>
 #include <rosbag/view.h>
 
 #include <set>
@@ -18,9 +19,10 @@ std::string scan_topic(const rosbag::Bag& bag) {
   for (const rosbag::ConnectionInfo* connection : view.getConnections())
     (files::is_scan_topic(connection->topic) ? of_scans : topics).insert(connection->topic);
   if (of_scans.size() > 1)
-    throw geometry::Refusal(geometry::refusal::kBadOption,
-                            "has scans of several booths, on " + *of_scans.begin() + " and " +
-                                *of_scans.rbegin() + ": check_bag says how to take one out");
+    throw geometry::Refusal(
+        geometry::refusal::kBadOption,
+        fmt::format("has scans of several booths, on {}: check_bag says how to take one out",
+                    fmt::join(of_scans, ", ")));
   if (!of_scans.empty()) return *of_scans.begin();
   if (topics.empty())
     throw geometry::Refusal(geometry::refusal::kBrokenFile, "holds no sensor_msgs/PointCloud2 message");

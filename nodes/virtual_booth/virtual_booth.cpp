@@ -59,9 +59,11 @@ void write_scan(const virtual_body::VirtualBody& subject, const virtual_booth::S
                 const Extras& extras, const std::filesystem::path& out) {
   const virtual_booth::VirtualScan scan = virtual_booth::scan_body(subject.mesh, scanner);
   std::filesystem::create_directories(out);
-  for (const char* of_another :
-       {"sensors.bag", "cameras.bag", "cameras.yaml", "body.obj", "body.stl", "body.glb"})
-    std::filesystem::remove(out / of_another);
+  if (std::filesystem::exists(
+          out / "truth.json"))  // an earlier scan's folder: what is not written again is of another
+    for (const char* file :
+         {"sensors.bag", "cameras.bag", "cameras.yaml", "body.obj", "body.stl", "body.glb"})
+      std::filesystem::remove(out / file);
   geometry::write_ply_mesh(out / "body.ply", subject.mesh);
   geometry::write_ply_mesh(out / "scan.ply", {scan.cloud.points, {}});
   // Any fixed time will do, as long as no two seeds share one.

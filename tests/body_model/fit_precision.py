@@ -323,8 +323,8 @@ def main():
     a.add_argument('--out', required=True)
     o = a.parse_args()
     if o.only:
-        if not o.mesh or not o.earlier:
-            a.error('--only needs --mesh and --earlier')
+        if not o.mesh or not o.earlier or o.scan or o.booth:
+            a.error('--only needs --mesh and --earlier, and nothing else')
         text = with_only(o.earlier, o.only, samples(*o.mesh, read_on_surfaces(o.mesh[0]))[o.only])
         with open(o.out, 'w') as out:
             out.write(text)

@@ -2,7 +2,7 @@
 """fit_standing.py READINGS TRUTHS --standing standing.yaml [--legs | --facing] - how women stand in scans: launch/body_model/standing.yaml.
 
 READINGS: lines of JSON that `readings scan` wrote with that file; it is written anew, or, with --legs, only what it says of legs alone, with --facing
-only what it says of hips and feet (READINGS may be those of `readings mesh`, too).
+only what it says of hips and feet (READINGS are those of `readings mesh`).
 TRUTHS: a folder with NAME_truth.json. The error is that of half of the bodies by what was fitted to the other half. Needs python3-numpy.
 """
 import argparse
@@ -55,8 +55,8 @@ def line_of_legs(rows, names):
 
 
 def line_of_facing(turns, names):
-    deviation = max(np.std(turns), np.quantile(np.abs(turns), .99) / CLEARLY)
-    return 'facing: %.2f    # degrees; %d training women (%s to %s)\n' % (deviation, len(names), min(names), max(names))
+    deviation = max(np.sqrt(np.mean(np.square(turns))), np.quantile(np.abs(turns), .99) / CLEARLY)
+    return 'facing: %.2f    # degrees; %d training women (%s to %s), meshes\n' % (deviation, len(names), min(names), max(names))
 
 
 def main():
@@ -70,8 +70,8 @@ def main():
     old = {k: float(v.split('#')[0]) for k, v in (line.split(':') for line in open(o.standing)) if k in ('soles', 'seen', 'error')}
     text = open(o.standing).read()
     readings = [json.loads(line) for line in open(o.readings)]
-    facing = line_of_facing([np.degrees(r['turn_of_feet']) for r in readings], [r['name'] for r in readings])
     if o.facing:
+        facing = line_of_facing([np.degrees(r['turn_of_feet']) for r in readings], [r['name'] for r in readings])
         with open(o.standing, 'w') as out:
             out.write(re.sub(r'^facing.*\n', '', text, flags=re.MULTILINE) + facing)
         return print(open(o.standing).read())
@@ -80,7 +80,7 @@ def main():
         rows.append(of_body(r, json.load(open(os.path.join(o.truths, r['name'] + '_truth.json'))), old))
         names.append(r['name'])
     rows = np.array(rows)
-    kept = ''.join(re.findall(r'^without_.*\n', text, re.MULTILINE))  # fit_without_feet.py
+    kept = ''.join(re.findall(r'^(?:without_|facing).*\n', text, re.MULTILINE))  # fit_without_feet.py, --facing
     if o.legs:
         with open(o.standing, 'w') as out:
             out.write(re.sub(r'^legs_.*\n', '', text, flags=re.MULTILINE) + line_of_legs(rows, names))
@@ -95,7 +95,7 @@ def main():
         out.write(kept)
         out.write('forwards: %.2f    # degrees\nsideways: %.2f    # degrees\nalong: %.2f    # degrees\nseen: %.4f    # m\nsoles: %.4f    # m\n' %
                   tuple(f[k] for k in ('forwards', 'sideways', 'along', 'seen', 'soles')))
-        out.write(line_of_legs(rows, names) + facing)
+        out.write(line_of_legs(rows, names))
     print(open(o.standing).read())
 
 

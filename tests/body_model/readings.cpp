@@ -46,7 +46,7 @@ Json readings_of(const landmarks::Reading& reading, const body_model::Registered
   for (int i = 0; i < 16; ++i)
     result["body_from_scan"].push_back(reading.body_from_scan.matrix()(i / 4, i % 4));
   for (const landmarks::Figure& figure : reading.figures) {
-    if (figure.shared > 0) continue;  // unsure for a reason that is no precision of a reading
+    if (figure.shared > 0) continue;  // its error comes from the body, not from reading it
     Json entry{{"kind", static_cast<int>(figure.kind)},
                {"name", figure.name},
                {"support", figure.support},

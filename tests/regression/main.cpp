@@ -72,8 +72,8 @@ int update_all(const std::vector<regression::Outcome>& outcomes, const std::stri
     all = all && reasons.empty();
     if (!reasons.empty()) continue;
     const bool moved = regression::wants_shape(asked) && regression::has_moved(asked, recording);
-    regression::update_goldens(asked, verdicts.front(), why,
-                               moved);  // first: what it refuses changes nothing
+    // Goldens first: what they refuse leaves the shape as it was.
+    regression::update_goldens(asked, verdicts.front(), why, moved);
     if (moved) regression::write_shape(asked, recording);
   }
   return all ? 0 : kFails;

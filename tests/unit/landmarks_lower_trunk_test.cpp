@@ -51,8 +51,11 @@ TEST(SideFinder, AnEllipsesEnds) {
     ASSERT_TRUE(end);
     EXPECT_NEAR(end->y(), kSign[side] * 0.13, 0.001);
     EXPECT_NEAR(end->x(), 0, 0.001);  // skin as far as 12 mm before and behind is within 3 mm of the farthest
-    for (int i = 1; i < 10; ++i)      // no vertex that comes and goes with the level moves it
-      EXPECT_NEAR(find_side(trunk, side, kLeast + 0.0004 * i)->x(), end->x(), 0.0005) << i;
+    for (int i = 1; i < 10; ++i) {    // no vertex that comes and goes with the level moves it
+      const auto above = find_side(trunk, side, kLeast + 0.0004 * i);
+      ASSERT_TRUE(above);
+      EXPECT_NEAR(above->x(), end->x(), 0.0005) << i;
+    }
     EXPECT_FALSE(find_side(trunk, side, 2));
   }
 }

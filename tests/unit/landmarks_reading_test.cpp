@@ -157,7 +157,7 @@ TEST(LandmarksReading, AnOpenCrownShowsNoStature) {
   EXPECT_FALSE(stature());
 }
 
-TEST(LandmarksReading, WhoSitsHasNoHeights) {
+TEST(LandmarksReading, WhoSitsHasDoubtfulHeights) {
   Registered her(1);
   const body_model::Model& model = *her.model.model;
   const Vector3d forwards = her.model.left().cross(her.model.up());

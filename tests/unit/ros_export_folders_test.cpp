@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
@@ -66,20 +67,25 @@ TEST_F(ExportFolders, AnAgeThatHangsOrFailsIsRefused) {
 }
 
 TEST_F(ExportFolders, WhatADeletionThatWasCutOffHasLeftGoesToo) {
+  const fs::path rest = root_ / "deep" / ".cut_off.unfinished",
+                 other = root_ / "deep" / ".not_ours.unfinished";
   for (const bool retention : {false, true}) {
-    for (const char* name : {".cut_off.unfinished", ".not_ours.unfinished"}) {
-      export_fit(scan_, root_ / name, kWhole);
-      fs::remove(root_ / name / "fit.json");  // by which exports are known
+    export_fit(scan_, root_ / "deep" / "whole", kWhole);
+    for (const fs::path& folder : {rest, other}) {
+      fs::create_directories(folder);
+      std::ofstream(folder / "body.ply") << "of a customer";  // and no document, by which exports are known
     }
-    std::ofstream(root_ / ".not_ours.unfinished" / "precious") << "mine";
+    std::ofstream(other / "precious") << "mine";
     std::vector<geometry::Refusal> left;
-    std::vector<std::string> old_left;
-    if (retention)
-      delete_old_exports(root_, 1, old_left);
-    else
-      EXPECT_THROW(delete_exports(root_, scan_.body->scan_id, left), geometry::Refusal) << "no whole one";
-    EXPECT_FALSE(fs::exists(root_ / ".cut_off.unfinished"));
-    EXPECT_TRUE(fs::exists(root_ / ".not_ours.unfinished" / "precious"));
+    std::vector<std::string> not_deleted;
+    std::vector<std::string> gone = retention ? delete_old_exports(root_, 1, not_deleted)
+                                              : delete_exports(root_, scan_.body->scan_id, left);
+    std::sort(gone.begin(), gone.end());
+    EXPECT_EQ(gone.front(), rest.string());
+    EXPECT_EQ(gone.size(), retention ? 1u : 2u) << "the whole one of that scan, too";
+    EXPECT_FALSE(fs::exists(rest));
+    EXPECT_TRUE(fs::exists(other / "precious"));
+    EXPECT_TRUE(left.empty() && not_deleted.empty());
     fs::remove_all(root_);
   }
 }
