@@ -1,5 +1,6 @@
 #include "geometry/order_of_place.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,52 +23,50 @@ std::uint64_t spread_bits(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249;
 }
 
-/// The vertices in a frame that turns about the vertical along with the surface: the level axes along which
-/// it spreads most and least, each towards where it reaches farther.
+/// The vertices in a frame and a unit that the surface brings along: the axes along which it spreads least to
+/// most, each towards where it reaches farther; its spread.
 std::vector<Vector3d> seen_from_itself(const TriangleMesh& mesh) {
-  std::vector<std::pair<Eigen::Vector2d, double>> pieces;  // middle and area
+  std::vector<std::pair<Vector3d, double>> pieces;  // middle and area
   pieces.reserve(mesh.triangles.size());
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Vector3d mean = Vector3d::Zero();
   double sum = 0;
   for (const Eigen::Vector3i& t : mesh.triangles) {
     const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    pieces.emplace_back((a + b + c).head<2>() / 3, area_vector(a, b, c).norm());
+    pieces.emplace_back((a + b + c) / 3, area_vector(a, b, c).norm());
     mean += pieces.back().second * pieces.back().first;
     sum += pieces.back().second;
   }
-  if (sum > 0) mean /= sum;
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
-  for (const auto& [middle, area] : pieces) squares += area * (middle - mean) * (middle - mean).transpose();
-  const double turn = std::atan2(2 * squares(0, 1), squares(0, 0) - squares(1, 1)) / 2;
-  Eigen::Matrix2d axes;
-  axes << std::cos(turn), std::sin(turn), -std::sin(turn), std::cos(turn);
-  Eigen::Array2d skew = Eigen::Array2d::Zero(), size = skew;
+  if (!(sum > 0)) return mesh.vertices;
+  mean /= sum;
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const auto& [middle, area] : pieces)
+    squares += area / sum * (middle - mean) * (middle - mean).transpose();
+  const double spread = std::sqrt(squares.trace());
+  if (!(spread > 0)) return mesh.vertices;
+  Eigen::Matrix3d axes =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares).eigenvectors().transpose() / spread;
+  Eigen::Array3d skew = Eigen::Array3d::Zero(), size = skew;
   for (const auto& [middle, area] : pieces) {
-    const Eigen::Array2d cubes = (axes * (middle - mean)).array().cube();
+    const Eigen::Array3d cubes = (axes * (middle - mean)).array().cube();
     skew += area * cubes;
     size += area * cubes.abs();
   }
   constexpr double kAlike = 1e-9;  // what both sides of a symmetric surface differ by is rounding
-  for (int axis = 0; axis < 2; ++axis)
+  for (int axis = 0; axis < 3; ++axis)
     if (skew[axis] < -kAlike * size[axis]) axes.row(axis) = -axes.row(axis);
   std::vector<Vector3d> places;
   places.reserve(mesh.vertices.size());
-  for (const Vector3d& p : mesh.vertices) {
-    const Eigen::Vector2d level = axes * (p.head<2>() - mean);
-    places.emplace_back(level.x(), level.y(), p.z());
-  }
+  for (const Vector3d& p : mesh.vertices) places.emplace_back(axes * (p - mean));
   return places;
 }
 
 }  // namespace
 
 std::vector<Eigen::Vector3i> in_order_of_place(const TriangleMesh& mesh) {
-  constexpr double kCell = 0.001;              // m; what shares a cell is sorted by its corners
-  constexpr double kMost = (1 << 20) * kCell;  // m each way: farther out all are in one cell
+  constexpr double kCell =
+      1.0 / 512;  // of the spread, a millimetre of a person; what shares a cell is sorted by its corners
+  constexpr double kMost = (1 << 20) * kCell;  // each way: farther out all are in one cell
   const std::vector<Vector3d> places = seen_from_itself(mesh);
-  double lowest = HUGE_VAL;
-  for (const Eigen::Vector3i& t : mesh.triangles)
-    for (const int v : t) lowest = std::min(lowest, places[v].z());
   const auto place = [&](int v) { return std::array{places[v].z(), places[v].y(), places[v].x()}; };
   std::vector<Eigen::Vector3i> triangles;
   std::vector<std::uint64_t> cells;
@@ -78,7 +77,7 @@ std::vector<Eigen::Vector3i> in_order_of_place(const TriangleMesh& mesh) {
     for (int k = 1; k < 3; ++k)
       if (place(t[k]) < place(t[first])) first = k;
     triangles.emplace_back(t[first], t[(first + 1) % 3], t[(first + 2) % 3]);
-    const Vector3d middle = (places[t[0]] + places[t[1]] + places[t[2]]) / 3 - lowest * Vector3d::UnitZ();
+    const Vector3d middle = (places[t[0]] + places[t[1]] + places[t[2]]) / 3;
     std::uint64_t cell = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double along = std::clamp(middle[axis], -kMost, kMost - kCell) + kMost;

@@ -206,6 +206,17 @@ TEST(Registration, FillingsOfAScansMeshCountForNothing) {
   EXPECT_NEAR(scan.ground, given.ground, 0.02);
 }
 
+TEST(Registration, OneFootAloneLeavesTheGroundUncertain) {
+  const virtual_body::StandingModel standing = virtual_body::stand(model(), {});
+  std::vector<char> kept;
+  for (const Eigen::Vector3i& t : model().triangles)
+    kept.push_back(model().parts[model().part[t[0]]] != "foot_R" ? 1 : 0);
+  const TriangleMesh whole{standing.vertices, model().triangles};
+  EXPECT_EQ(register_mesh(shipped_registrar(), whole).ground_deviation, 0);
+  EXPECT_GE(register_mesh(shipped_registrar(), geometry::submesh(whole, kept)).ground_deviation,
+            shipped_registrar().standing().ground);
+}
+
 TEST(Registration, WhatIsNoPersonsSizeIsRefused) {
   EXPECT_EQ(refusal_of([] { register_mesh(shipped_registrar(), {}); }), geometry::refusal::kNotABody);
   const virtual_body::StandingModel standing = virtual_body::stand(model(), {});

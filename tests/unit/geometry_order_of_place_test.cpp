@@ -66,8 +66,8 @@ TEST(OrderOfPlace, TurnsWithTheSurface) {
   TriangleMesh mesh = tube(true);
   const Corners before = corners_of(in_order_of_place(mesh));
   const Eigen::Isometry3d motion =
-      Eigen::Translation3d(2, -1, 0.5) * Eigen::AngleAxisd(1.1, Vector3d::UnitZ());
-  for (Vector3d& p : mesh.vertices) p = motion * p;
+      Eigen::Translation3d(2, -1, 0.5) * Eigen::AngleAxisd(1.6, Vector3d(1, 2, 3).normalized());
+  for (Vector3d& p : mesh.vertices) p = 1000 * (motion * p);  // and has another unit
   EXPECT_GT(share_in_place(corners_of(in_order_of_place(mesh)), before), 0.95);
 }
 
