@@ -254,8 +254,7 @@ bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response)
     response.not_reached.emplace_back("the file that it was played from, where it was");
   response.not_reached.emplace_back(
       "bags, copies of exports, results of fit, pages of history, other machines, backups, swap, blocks of "
-      "the disk that are "
-      "free");
+      "the disk that are free");
   return true;
 }
 
