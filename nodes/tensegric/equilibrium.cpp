@@ -342,19 +342,68 @@ bool is_start(const Problem& problem, const Solution& start) {
   return std::isfinite(fold_energy(problem.units, x));
 }
 
-}  // namespace
-
-Outcome find_equilibrium(Problem& problem, const Solution* start, Recorder& recorder) {
-  int spent = 0;
+// `spent`: iterations of the same solve before it.
+Outcome find_balance(Problem& problem, const Solution* start, Recorder& recorder, int spent) {
   const int allowed = problem.options.max_iterations;
   if (start != nullptr && is_start(problem, *start) && !is_rest_asked_for(problem)) {
-    LoadPath warm(problem, recorder, 0, allowed > 0 ? std::min(allowed, kMostWarm) : kMostWarm);
+    const int most = spent + kMostWarm;
+    LoadPath warm(problem, recorder, spent, allowed > 0 ? std::min(allowed, most) : most);
     Outcome result = warm.from_solution(*start);
     if (warm.settled() || warm.interrupted()) return result;
     spent = warm.iterations();
   }
   const int most = problem.options.gravity.isZero(0) ? kMostFromRest : kMostUnderWeight;
   return LoadPath(problem, recorder, spent, allowed > 0 ? allowed : spent + most).from_rest();
+}
+
+// The names of the regions that have nodes to be solved for.
+std::string moving_regions(const Problem& problem) {
+  const auto moves = [&problem](const Eigen::Vector3i& t) {
+    return problem.free_index[t[0]] >= 0 || problem.free_index[t[1]] >= 0 || problem.free_index[t[2]] >= 0;
+  };
+  std::string names;
+  for (const RegionVolume& region : problem.volumes)
+    if (std::any_of(region.triangles.begin(), region.triangles.end(), moves))
+      names += (names.empty() ? "" : ", ") + region.name;
+  return names;
+}
+
+// What nothing joins is worn apart, so that one piece does not depend on what is worn on another.
+Outcome find_balances(const Problem& problem, const std::vector<std::vector<int>>& separate,
+                      const Solution* start, Recorder& recorder) {
+  std::vector<Problem> parts;
+  for (const std::vector<int>& bands : separate) parts.push_back(with_bands(problem, bands));
+  Outcome all;
+  all.status = Status::converged;
+  all.state = {problem.rest, std::vector<double>(problem.bands.size(), 0)};
+  if (start != nullptr)
+    for (const Problem& part : parts)
+      all.state.x = merged(all.state.x, positions_of(*start), part.free_index);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    recorder.look_at(parts[p].free_index, all.state.x);
+    const Outcome part = find_balance(parts[p], start, recorder, all.iterations);
+    all.state.x = merged(all.state.x, part.state.x, parts[p].free_index);
+    for (std::size_t b = 0; b < separate[p].size(); ++b)
+      all.state.tensions[separate[p][b]] = part.state.tensions[b];
+    all.status = std::max(all.status, part.status);
+    all.iterations = part.iterations;
+    all.residual = std::max(all.residual, part.residual);
+    if (!part.note.empty())
+      all.note += (all.note.empty() ? "" : " ") + ("In " + moving_regions(parts[p]) + ": " + part.note);
+  }
+  recorder.look_at({}, {});
+  return all;
+}
+
+}  // namespace
+
+Outcome find_equilibrium(Problem& problem, const Solution* start, Recorder& recorder) {
+  const std::vector<std::vector<int>> separate = separate_bands(problem);
+  if (separate.size() <= 1) return find_balance(problem, start, recorder, 0);
+  const Outcome apart = find_balances(problem, separate, start, recorder);
+  // Skin between two pieces may follow both, and turn over though it does under neither of them alone.
+  if (apart.status > Status::infeasible || !skin_folds(problem, apart.state.x)) return apart;
+  return find_balance(problem, nullptr, recorder, apart.iterations);
 }
 
 }  // namespace tensegric_fit::tensegric

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
 
+#include "geometry/disjoint_sets.hpp"
 #include "geometry/status.hpp"
 #include "tensegric/band_length.hpp"
 #include "tensegric/course.hpp"
@@ -58,19 +62,33 @@ void check_body_volume(const RegionVolume& region) {
                                            "' does not follow the control mesh");
 }
 
+// Gravity and posture.
+bool acts_on_all(const SolverOptions& options) {
+  return !options.gravity.isZero(0) || !options.bones.still();
+}
+
+// Of the pieces of a control mesh, `piece` of each of its outer nodes.
+std::vector<int> pieces_under(const Band& band, const std::vector<int>& piece) {
+  std::vector<int> under;
+  for (const Thread& thread : band.threads)
+    for (const geometry::CarriedPoint& point : thread.points)
+      for (const auto& [node, weight] : point.weights)
+        under.push_back(piece[static_cast<std::size_t>(node) % piece.size()]);
+  std::sort(under.begin(), under.end());
+  under.erase(std::unique(under.begin(), under.end()), under.end());
+  return under;
+}
+
 // Of each outer node: is it in a piece of the control mesh that anything acts on?
 std::vector<char> touched_nodes(const Problem& problem) {
   const geometry::ControlMesh& control = problem.model.control;
-  const bool all = !problem.options.gravity.isZero(0) || !problem.options.bones.still();
+  const bool all = acts_on_all(problem.options);
   std::vector<char> touched(control.outer.size(), all);
   if (all) return touched;
   const std::vector<int> piece = problem.model.piece_of_nodes();
   std::vector<char> piece_touched(control.outer.size(), 0);
   for (const Band& band : problem.bands)
-    for (const Thread& thread : band.threads)
-      for (const geometry::CarriedPoint& point : thread.points)
-        for (const auto& [node, weight] : point.weights)
-          piece_touched[piece[static_cast<std::size_t>(node) % piece.size()]] = 1;
+    for (const int under : pieces_under(band, piece)) piece_touched[under] = 1;
   for (std::size_t i = 0; i < touched.size(); ++i) touched[i] = piece_touched[piece[i]];
   return touched;
 }
@@ -83,6 +101,22 @@ void number_free_nodes(Problem& problem) {
   for (std::size_t i = 0; i < problem.free_index.size(); ++i)
     if (touched[i % outer] && !is_held(problem, static_cast<int>(i)))
       problem.free_index[i] = problem.free_nodes++;
+}
+
+// What the garment's bands can move, and the volumes that are kept.
+void take_tissue(Problem& problem, const std::vector<PosedVolume>& body_volumes) {
+  const Model& model = problem.model;
+  number_free_nodes(problem);
+  problem.units = unit_volumes(model, problem.free_index);
+  problem.columns = columns_of(model, problem.free_index);
+  problem.shears = unit_shears(model, problem.free_index);
+  problem.skin = skin_triangles(model, problem.free_index);
+  for (std::size_t r = 0; r < model.control.regions.size(); ++r) {
+    const bool body = problem.options.volume == KeptVolume::body;
+    problem.volumes.push_back(region_volume_of(model, model.control.regions[r], problem.free_index,
+                                               body ? body_volumes[r] : PosedVolume()));
+    check_body_volume(problem.volumes.back());
+  }
 }
 
 }  // namespace
@@ -112,24 +146,49 @@ Problem lay_garment(const Model& model, const Garment& garment, const SolverOpti
                   {},
                   model.mean_tension(),
                   {}};
-  number_free_nodes(problem);
   const Positions at_end = posed(problem, 1);
   for (Band& band : problem.bands) {
     Band carried = band;  // ends that bone holds move with the posture
     pose_band(carried, problem.rest, options.bones, 1);
     band.straight = straight_way(model, carried, at_end);
   }
-  problem.units = unit_volumes(model, problem.free_index);
-  problem.columns = columns_of(model, problem.free_index);
-  problem.shears = unit_shears(model, problem.free_index);
-  problem.skin = skin_triangles(model, problem.free_index);
-  for (std::size_t r = 0; r < model.control.regions.size(); ++r) {
-    const bool body = options.volume == KeptVolume::body;
-    problem.volumes.push_back(region_volume_of(model, model.control.regions[r], problem.free_index,
-                                               body ? body_volumes[r] : PosedVolume()));
-    check_body_volume(problem.volumes.back());
-  }
+  take_tissue(problem, body_volumes);
   return problem;
+}
+
+std::vector<std::vector<int>> separate_bands(const Problem& problem) {
+  std::vector<int> all(problem.bands.size());
+  std::iota(all.begin(), all.end(), 0);
+  if (acts_on_all(problem.options) || problem.options.volume == KeptVolume::body) return {all};
+  const std::vector<int> piece = problem.model.piece_of_nodes();
+  geometry::DisjointSets sets(piece.size());
+  const auto join = [&sets](const std::vector<int>& pieces) {
+    for (const int other : pieces) sets.join(pieces.front(), other);
+  };
+  for (const RegionVolume& region : problem.volumes) {
+    std::vector<int> below;
+    for (const Eigen::Vector3i& t : region.triangles) below.push_back(piece[t[0]]);
+    join(below);
+  }
+  std::vector<std::vector<int>> under;
+  for (const Band& band : problem.bands) join(under.emplace_back(pieces_under(band, piece)));
+  std::vector<std::vector<int>> separate;
+  std::map<int, std::size_t> places;
+  for (const int b : all) {
+    if (under[b].empty()) return {all};
+    const auto [place, first] = places.emplace(sets.root(under[b].front()), separate.size());
+    if (first) separate.emplace_back();
+    separate[place->second].push_back(b);
+  }
+  return separate;
+}
+
+Problem with_bands(const Problem& problem, const std::vector<int>& bands) {
+  Problem part{problem.model,       problem.options, {}, 0, problem.rest, {}, {}, {}, {}, {}, {},
+               problem.force_scale, problem.folds};
+  for (const int b : bands) part.bands.push_back(problem.bands[b]);
+  take_tissue(part, {});
+  return part;
 }
 
 Positions posed(const Problem& problem, double share) {
@@ -182,6 +241,12 @@ void put_positions(const Positions& x, const Model& model, Solution& solution) {
   solution.between.assign(x.begin() + 2 * count, x.end());
 }
 
+Positions merged(Positions elsewhere, const Positions& x, const std::vector<int>& free_index) {
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (free_index[i] >= 0) elsewhere[i] = x[i];
+  return elsewhere;
+}
+
 double relative_residual(const Problem& problem, const Eigen::VectorXd& gradient) {
   if (!gradient.allFinite()) return std::numeric_limits<double>::infinity();
   double largest = 0;
@@ -190,7 +255,13 @@ double relative_residual(const Problem& problem, const Eigen::VectorXd& gradient
   return std::sqrt(largest) / problem.force_scale;
 }
 
-bool Recorder::record(int iteration, const Positions& x, double residual, double merit_change) {
+void Recorder::look_at(std::vector<int> free_index, Positions elsewhere) {
+  free_index_ = std::move(free_index);
+  elsewhere_ = std::move(elsewhere);
+}
+
+bool Recorder::record(int iteration, const Positions& at, double residual, double merit_change) {
+  const Positions x = free_index_.empty() ? at : merged(elsewhere_, at, free_index_);
   Iterate iterate;
   iterate.iteration = iteration;
   for (const Band& band : problem_.bands) iterate.line_ratios.push_back(length_of(band, x) / band.initial);

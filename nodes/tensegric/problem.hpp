@@ -54,6 +54,14 @@ Problem lay_garment(const Model& model, const Garment& garment, const SolverOpti
                     const std::vector<PosedVolume>& body_volumes = {},
                     const std::vector<geometry::LaidLine>& laid = {});
 
+/// What of a garment can be worn alone: bands, by their places in `problem`, whose pieces of the control mesh
+/// nothing joins to those of the others. In the order of their first bands. One where all is joined: under
+/// gravity, in a posture, and where the body's volume is kept, whose skin may follow several pieces.
+std::vector<std::vector<int>> separate_bands(const Problem& problem);
+
+/// The same problem with these bands alone: nodes of pieces that none of them touches stay where they are.
+Problem with_bands(const Problem& problem, const std::vector<int>& bands);
+
 /// The rest positions with `share` of the posture: where nodes that are not solved for belong.
 Positions posed(const Problem& problem, double share);
 
@@ -71,6 +79,8 @@ bool is_held(const Problem& problem, int node);
 
 Positions positions_of(const Solution& solution);
 void put_positions(const Positions& x, const Model& model, Solution& solution);
+/// `elsewhere` with the nodes of `x` whose `free_index` is not negative.
+Positions merged(Positions elsewhere, const Positions& x, const std::vector<int>& free_index);
 
 /// Largest net force at a free node, relative to the mean tensile force at rest. `gradient` is the negative
 /// net force; infinite where it is not finite.
@@ -80,6 +90,8 @@ double relative_residual(const Problem& problem, const Eigen::VectorXd& gradient
 class Recorder {
  public:
   Recorder(const Problem& problem, const Progress& progress) : problem_(problem), progress_(progress) {}
+  /// From here on positions mean something where `free_index` is not negative; the others are `elsewhere`.
+  void look_at(std::vector<int> free_index, Positions elsewhere);
   /// False where the caller wants to stop.
   bool record(int iteration, const Positions& x, double residual, double merit_change = 0);
   double seconds() const;  ///< since it was made
@@ -88,6 +100,8 @@ class Recorder {
  private:
   const Problem& problem_;
   const Progress& progress_;
+  std::vector<int> free_index_;  // of what is looked at, empty: of all nodes
+  Positions elsewhere_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

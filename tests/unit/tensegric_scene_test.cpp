@@ -67,6 +67,77 @@ TEST(Pieces, WornTogetherEachKeepsItsVolume) {
   EXPECT_EQ(s.status, Status::converged) << s.note;
   for (const RegionResult& r : s.regions) EXPECT_NEAR(r.volume_after / r.volume_before, 1, 1e-9);
   for (const LineResult& line : s.lines) EXPECT_NEAR(line.final / line.neutral, 1, 1e-6);
+  // To the bit as each alone.
+  const std::size_t all = s.outer.size(), half = all / 2;
+  const Solution upper = solve(model, chest(0.92), {}), lower = solve(model, chest(0.88, "belt"), {});
+  EXPECT_TRUE(same_bits(s.outer, upper.outer, 0, half));
+  EXPECT_TRUE(same_bits(s.outer, lower.outer, half, all));
+  EXPECT_EQ(s.lines[0].tension, upper.lines[0].tension);
+  EXPECT_EQ(s.lines[1].tension, lower.lines[0].tension);
+  EXPECT_EQ(s.iterations, upper.iterations + lower.iterations);
+  // Of both in each row, in the order of the iterations.
+  ASSERT_EQ(s.history.size(), static_cast<std::size_t>(s.iterations) + 1);
+  for (std::size_t i = 0; i < s.history.size(); ++i) {
+    EXPECT_EQ(s.history[i].iteration, static_cast<int>(i));
+    EXPECT_EQ(s.history[i].line_ratios.size(), 2U);
+  }
+  for (std::size_t b = 0; b < 2; ++b)
+    EXPECT_EQ(s.history.back().line_ratios[b], s.lines[b].final / s.lines[b].initial);
+  // Warm, too.
+  Garment tighter = both;
+  tighter.lines[1].ratio = 0.86;
+  const Solution warm = solve(model, tighter, {}, &s);
+  EXPECT_EQ(warm.status, Status::converged) << warm.note;
+  EXPECT_LT(warm.iterations, solve(model, tighter, {}).iterations);
+  EXPECT_NEAR(warm.lines[0].final / s.lines[0].final, 1, 1e-9);
+  // And a cap is on both together.
+  SolverOptions few;
+  few.max_iterations = upper.iterations + 1;
+  const Solution cut = solve(model, both, few);
+  EXPECT_EQ(cut.status, Status::capped);
+  EXPECT_EQ(cut.iterations, few.max_iterations);
+}
+
+// How far a bust point has come inwards; as far as that the skin is taken to turn over.
+double depth_of(const geometry::ControlMesh& control, const std::string& name,
+                const std::vector<Eigen::Vector3d>& outer) {
+  const int node = control.node(name);
+  return (outer[node] - control.outer[node]).norm();
+}
+
+TEST(Pieces, OneThatIsTooTightLeavesTheOtherAsAsked) {
+  const geometry::ControlMesh control = two_pieces();
+  const Model model = build_model(control, {});
+  Garment both = chest(0.92);
+  both.lines.push_back(chest(0.85, "belt").lines[0]);
+  const Solution smooth = solve(model, both, {});
+  const double most = 0.6 * depth_of(control, "lower_bust_point_L", smooth.outer);
+  const SkinFolds folds = [&](const auto& outer, const auto&) {
+    return depth_of(control, "lower_bust_point_L", outer) > most;
+  };
+  const Solution s = solve(model, both, {}, nullptr, {}, {}, {}, folds);
+  EXPECT_EQ(s.status, Status::infeasible);
+  EXPECT_EQ(s.note.rfind("In hips: ", 0), 0U) << s.note;
+  EXPECT_EQ(s.lines[0].final, smooth.lines[0].final);
+  EXPECT_GT(s.lines[1].final, 1.02 * s.lines[1].neutral);
+  EXPECT_LE(depth_of(control, "lower_bust_point_L", s.outer), most);
+}
+
+TEST(Pieces, SkinThatFollowsBothGoesBackWithBoth) {
+  const geometry::ControlMesh control = two_pieces();
+  const Model model = build_model(control, {});
+  Garment both = chest(0.92);
+  both.lines.push_back(chest(0.92, "belt").lines[0]);
+  const Solution smooth = solve(model, both, {});
+  const auto sum = [&](const std::vector<Eigen::Vector3d>& outer) {
+    return depth_of(control, "bust_point_L", outer) + depth_of(control, "lower_bust_point_L", outer);
+  };
+  const double most = 0.7 * sum(smooth.outer);  // more than one of them comes to
+  const SkinFolds folds = [&](const auto& outer, const auto&) { return sum(outer) > most; };
+  const Solution s = solve(model, both, {}, nullptr, {}, {}, {}, folds);
+  EXPECT_EQ(s.status, Status::infeasible) << s.note;
+  EXPECT_LE(sum(s.outer), most);
+  for (const LineResult& line : s.lines) EXPECT_GT(line.final, 1.01 * line.neutral);
 }
 
 // As t-FFD moves a body: a closed skin, each vertex of which follows some nodes in constant shares. Here it
