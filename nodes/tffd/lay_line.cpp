@@ -165,7 +165,8 @@ std::vector<CarriedPoint> spanned(const std::vector<CarriedPoint>& touched) {
       const double share = static_cast<double>(k) / steps;
       std::map<int, double> weights;
       for (const auto& [node, weight] : a.weights) weights[node] += (1 - share) * weight;
-      for (const auto& [node, weight] : b.weights) weights[node] += share * weight;
+      if (share > 0)  // what a point with no part in it moves says nothing of this one
+        for (const auto& [node, weight] : b.weights) weights[node] += share * weight;
       points.push_back({(1 - share) * a.rest + share * b.rest, {weights.begin(), weights.end()}});
     }
   }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 #include <utility>
 
+#include "geometry/disjoint_sets.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::tffd {
@@ -135,17 +137,46 @@ void add_anchor(int vertex, const Closest& closest, const geometry::ControlMesh&
   if (share > 0) anchors.push_back({vertex, share});
 }
 
+// Skin that faces otherwise than all triangles near it, but is surrounded by skin that is carried, as a
+// nipple's crumple or the bottom of a fold: left where it is it would hold the skin round it. `turned`: by
+// vertex, the nearest triangle whichever way it faces, of vertices that are no anchors.
+std::vector<int> surrounded(const geometry::TriangleMesh& body, const std::vector<Anchor>& anchors,
+                            const std::map<int, Closest>& turned) {
+  if (turned.empty()) return {};
+  std::vector<char> is_carried(body.vertices.size(), 0), goes_on(body.vertices.size(), 0);
+  for (const Anchor& anchor : anchors) is_carried[anchor.vertex] = 1;
+  geometry::DisjointSets pieces(body.vertices.size());  // of what is not carried
+  for (const geometry::Edge& edge : geometry::edges_of(body))
+    if (!is_carried[edge.first] && !is_carried[edge.second]) pieces.join(edge.first, edge.second);
+  for (int v = 0; v < static_cast<int>(body.vertices.size()); ++v)
+    if (!is_carried[v] && turned.count(v) == 0) goes_on[pieces.root(v)] = 1;
+  std::vector<int> inside;
+  for (const auto& [v, closest] : turned)
+    if (!goes_on[pieces.root(v)]) inside.push_back(v);
+  return inside;
+}
+
 // What a control mesh with a border carries, whichever skin it belongs to.
 std::vector<Anchor> carried(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
                             const Border& border, const std::vector<Frame>& frames, const TriangleGrid& grid,
                             double reach) {
   const auto normals = geometry::vertex_normals(body.vertices, body.triangles);
   std::vector<Anchor> anchors;
-  for (std::size_t v = 0; v < body.vertices.size(); ++v) {
+  std::map<int, Closest> turned;
+  for (int v = 0; v < static_cast<int>(body.vertices.size()); ++v) {
     const Eigen::Vector3d& q = body.vertices[v];
-    const Closest closest = closest_triangle(q, &normals[v], frames, grid.near(q), reach);
-    add_anchor(static_cast<int>(v), closest, control, border, frames, reach, anchors);
+    const auto near = grid.near(q);
+    Closest closest = closest_triangle(q, &normals[v], frames, near, reach);
+    if (closest.triangle >= 0) {
+      add_anchor(v, closest, control, border, frames, reach, anchors);
+    } else if (closest = closest_triangle(q, nullptr, frames, near, reach); closest.triangle >= 0) {
+      turned.emplace(v, closest);
+    }
   }
+  for (const int v : surrounded(body, anchors, turned))
+    add_anchor(v, turned.at(v), control, border, frames, reach, anchors);
+  std::sort(anchors.begin(), anchors.end(),
+            [](const Anchor& a, const Anchor& b) { return a.vertex < b.vertex; });
   return anchors;
 }
 

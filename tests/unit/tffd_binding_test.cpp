@@ -141,6 +141,31 @@ TEST(Binding, LeavesWhatThePatchDoesNotCover) {
   EXPECT_GT(covered, 1000U);
 }
 
+// As a nipple's crumple in a scanned mesh: left where it was it held the breast, and a strap pulled
+// sixtyfold.
+TEST(Binding, ACrumpleAmidCarriedSkinIsCarried) {
+  const geometry::TriangleMesh body = slab(121);  // 2.5 mm apart
+  geometry::TriangleMesh crumpled = body;
+  for (Eigen::Vector3d& p : crumpled.vertices)
+    if (p.z() > 0.03 && p.z() < 0.08 && p.head<2>().norm() < 0.004) p.head<2>() *= -0.5;  // inside out
+  const auto normals = geometry::vertex_normals(crumpled.vertices, crumpled.triangles);
+  const geometry::ControlMesh control = patch();
+  const Binding smooth(body, control, {}), binding(crumpled, control, {});
+  const auto share = [](const Binding& of, int vertex) {
+    for (const Anchor& anchor : of.anchors())
+      if (anchor.vertex == vertex) return anchor.share;
+    return 0.0;
+  };
+  int turned = 0;
+  for (int v = 0; v < 121 * 121; ++v) {
+    if (crumpled.vertices[v].head<2>().norm() > 0.05) continue;
+    turned += normals[v].z() < 0;
+    EXPECT_NEAR(share(binding, v), share(smooth, v), 1e-12) << crumpled.vertices[v].transpose();
+  }
+  EXPECT_GT(turned, 0);
+  EXPECT_EQ(share(binding, 60 * 121 + 60), 1) << "the tip";
+}
+
 TEST(Binding, SkinDoesNotTearAtTheBorder) {
   // A tear is a step that stays when the body gets finer; here it must shrink with the length of the edges.
   const double coarse = step_at_border(61, 0.03), fine = step_at_border(121, 0.03);

@@ -254,6 +254,13 @@ TEST_F(Slab, NothingCarriesAnEndThatIsHeld) {
     }
     EXPECT_LT(sum(held[1]), 0.999 * sum(free[1]));
   }
+  // Nor has a taut one entries of weight 0 there: what is held was taken to move.
+  LineOnBody taut{over_the_bump()};
+  taut.taut = true;
+  taut.held = {true, true};
+  const auto fibres = lay_line(taut, body, binding);
+  EXPECT_TRUE(fibres[0].points.front().weights.empty());
+  EXPECT_TRUE(fibres[0].points.back().weights.empty());
 }
 
 TEST_F(Slab, RefusesByName) {
