@@ -281,6 +281,7 @@ class LoadPath {
     result.state.x = at.x;
     result.iterations = newton_.iterations();
     result.residual = defect.residual;
+    result.neutral = load.neutral;
     bool at_limit = false;
     for (std::size_t b = 0; b < bands_; ++b) {
       const Band& band = problem_.bands[b];
@@ -376,6 +377,7 @@ Outcome find_balances(const Problem& problem, const std::vector<std::vector<int>
   Outcome all;
   all.status = Status::converged;
   all.state = {problem.rest, std::vector<double>(problem.bands.size(), 0)};
+  all.neutral.resize(problem.bands.size());
   if (start != nullptr)
     for (const Problem& part : parts)
       all.state.x = merged(all.state.x, positions_of(*start), part.free_index);
@@ -383,8 +385,10 @@ Outcome find_balances(const Problem& problem, const std::vector<std::vector<int>
     recorder.look_at(parts[p].free_index, all.state.x);
     const Outcome part = find_balance(parts[p], start, recorder, all.iterations);
     all.state.x = merged(all.state.x, part.state.x, parts[p].free_index);
-    for (std::size_t b = 0; b < separate[p].size(); ++b)
+    for (std::size_t b = 0; b < separate[p].size(); ++b) {
       all.state.tensions[separate[p][b]] = part.state.tensions[b];
+      all.neutral[separate[p][b]] = part.neutral[b];
+    }
     all.status = std::max(all.status, part.status);
     all.iterations = part.iterations;
     all.residual = std::max(all.residual, part.residual);

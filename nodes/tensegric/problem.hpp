@@ -43,6 +43,7 @@ struct Outcome {
   int iterations = 0;
   double residual = 0;
   std::string note;
+  std::vector<double> neutral;  ///< m, one per band: what `state` balances with; empty: as asked for
 };
 
 /// What of a garment can be found wrong by the names of nodes and regions alone. \throw Refusal unknown_line,

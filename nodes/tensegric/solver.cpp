@@ -34,12 +34,16 @@ void add_sentence(std::string& note, const std::string& sentence) {
   if (!sentence.empty()) note += (note.empty() ? "" : " ") + sentence;
 }
 
+// Relative, of a neutral length: far above what makes a line true to its polyline (LoadPath::make_true).
+constexpr double kOnTheWay = 1e-4;
+
 std::string millimetres(double metres, int digits = 0) {
   return fmt::format("{:.{}f} mm", 1000 * metres, digits);
 }
 
-// Lines that stayed longer than asked for, and why where it is plain.
-std::string reach_note(const std::vector<LineResult>& lines, const Problem& problem) {
+// Lines that stayed longer than asked for, and why where it is plain. `neutral`: as in an Outcome.
+std::string reach_note(const std::vector<LineResult>& lines, const Problem& problem,
+                       const std::vector<double>& neutral) {
   const bool is_equilibrium = problem.options.solver == SolverName::equilibrium;
   std::string note;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -51,6 +55,12 @@ std::string reach_note(const std::vector<LineResult>& lines, const Problem& prob
                                (std::isinf(line.tension_limit)
                                     ? "the solver lets a line pull that has no tension_limit."
                                     : "its tension_limit lets it."));
+      // An elastic one pulls by how long it is beyond its neutral length: of a shape on the way not by the
+      // asked one.
+      if (!neutral.empty() && neutral[i] > line.neutral * (1 + kOnTheWay))
+        add_sentence(note, "Line " + line.name + " pulls as one with a neutral length of " +
+                               millimetres(neutral[i]) + "; " + millimetres(line.neutral) +
+                               " were asked for.");
       continue;
     }
     if (line.final <= line.neutral * (1 + 1e-6)) continue;
@@ -119,7 +129,7 @@ Solution report(const Problem& problem, const Outcome& outcome, std::vector<Iter
   solution.residual = outcome.residual;
   solution.history = std::move(history);
   solution.note = outcome.note;
-  add_sentence(solution.note, reach_note(solution.lines, problem));
+  add_sentence(solution.note, reach_note(solution.lines, problem, outcome.neutral));
   add_sentence(solution.note, shape_note(problem.model, x));
   if (solution.status == Status::converged && held(problem) &&
       triangle_change(problem.model, x).turned_over > 0)

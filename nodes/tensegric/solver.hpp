@@ -113,7 +113,8 @@ using Progress = std::function<bool(const Iterate&, const std::vector<Eigen::Vec
                                     const std::vector<Eigen::Vector3d>& inner)>;
 
 /// Deforms the model under the garment's lines at constant region volumes. Pieces of the control mesh that no
-/// line touches stay at rest, outer and inner nodes bit for bit, where there is no gravity and no posture.
+/// line touches stay at rest, outer and inner nodes bit for bit, where there is no gravity and no posture;
+/// those that nothing joins are solved apart by the equilibrium solver, each as if it were worn alone.
 /// `start` is null (from rest) or an earlier solution of the same model (warm start). `body_volumes`: for
 /// KeptVolume::body, one a region of the control mesh. `laid`: the garment's lines that lie on the body.
 /// `folds`: where it says so of the shape asked for, the equilibrium solver goes back along the load to the

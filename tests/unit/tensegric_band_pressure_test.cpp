@@ -28,7 +28,8 @@ Band over_all(double width) {
   band.width = width;
   Thread thread{1, {}, {}, {}};
   for (int i = 0; i < kNodes; ++i) {
-    thread.points.push_back({Eigen::Vector3d::Zero(), {{i, 1.0}}});
+    const double angle = M_PI * i / (kNodes - 1);
+    thread.points.push_back({kRadius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0), {{i, 1.0}}});
     thread.offsets.emplace_back(Eigen::Vector3d::Zero());
   }
   band.threads.push_back(thread);
@@ -43,6 +44,22 @@ double pressure(double below, double width) {
 TEST(BandPressure, OnACylinderIsPullOverWidthAndRadius) {
   // The chords' curvature is off by half a part in (pi / 40)^2 / 4.
   EXPECT_NEAR(pressure(0.02, kWidth), kPull / kWidth / kRadius, 0.002 * kPull / kWidth / kRadius);
+}
+
+// On the inside of a sharp turn the points of a fibre come to lie within a millimetre of each other.
+TEST(BandPressure, AKinkOfAMillimetreIsNoCurvature) {
+  Model model = on_a_cylinder(0.02);
+  Band band = over_all(kWidth);
+  Thread& thread = band.threads[0];
+  for (const auto& [up, along] : {std::pair{0.0, 0.001}, {0.00005, 0.001}, {0.0, 0.002}}) {
+    const double angle = M_PI / 2 - along / kRadius;
+    const Eigen::Vector3d out(std::cos(angle), std::sin(angle), 0), at = (kRadius + up) * out;
+    const std::size_t middle = kNodes / 2 + 1;
+    thread.points.insert(thread.points.begin() + middle, {at, {{kNodes / 2, 1.0}}});
+    thread.offsets.insert(thread.offsets.begin() + middle, at - model.control.outer[kNodes / 2]);
+  }
+  const double even = kPull / kWidth / kRadius;
+  EXPECT_NEAR(largest_pressure(model, band, model.rest_positions(), kPull), even, 0.3 * even);
 }
 
 TEST(BandPressure, IsNoneWhereTheBandBendsAwayFromTheBodyOrHasNoWidth) {
@@ -64,7 +81,7 @@ TEST(BandPressure, OfACupIsThatOfThePullWhereItsThreadsLie) {
         const double angle = M_PI * i / (kNodes - 1);
         const Eigen::Vector3d out(std::cos(angle), std::sin(angle), 0), along(0, 0, gap * t);
         thread.points.push_back(
-            {Eigen::Vector3d::Zero(), {{static_cast<int>(model.control.outer.size()), 1.0}}});
+            {kRadius * out + along, {{static_cast<int>(model.control.outer.size()), 1.0}}});
         thread.offsets.emplace_back(Eigen::Vector3d::Zero());
         model.control.outer.push_back(kRadius * out + along);
         model.control.inner.push_back(0.8 * kRadius * out + along);

@@ -265,6 +265,26 @@ TEST_F(Folding, GoesBackToTheLastShapeWhoseSkinIsNotTurnedOver) {
   }
 }
 
+// It pulls by the neutral length of the way, which is not the one that was asked for.
+TEST_F(Folding, AnElasticLineThatWentBackNamesItsNeutralLength) {
+  Garment elastic = chest(0.80);
+  elastic.lines[0].law.kind = TensionLaw::Kind::stiffness;
+  elastic.lines[0].law.stiffness = 20;
+  const Solution whole = solve(model, elastic, {});
+  ASSERT_EQ(whole.status, Status::converged) << whole.note;
+  EXPECT_EQ(whole.note.find("neutral length"), std::string::npos) << whole.note;
+  const LineResult& asked = whole.lines[0];
+  const double middle = (1 + asked.final / asked.initial) / 2;
+  const Solution s = solve(model, elastic, {}, nullptr, {}, {}, {}, folds_below(control, middle));
+  ASSERT_EQ(s.status, Status::infeasible);
+  const LineResult& line = s.lines[0];
+  const double neutral = line.final / (1 + line.tension / line.law.stiffness);
+  EXPECT_GT(neutral, 1.01 * line.neutral);
+  const std::string sentence = "Line chest pulls as one with a neutral length of " +
+                               std::to_string(std::lround(1000 * neutral)) + " mm";
+  EXPECT_NE(s.note.find(sentence), std::string::npos) << s.note;
+}
+
 TEST_F(Folding, SmoothSkinChangesNothing) {
   const Solution plain = solve(model, chest(0.90), {});
   const Solution s = solve(model, chest(0.90), {}, nullptr, {}, {}, {}, folds_below(control, 0.5));
