@@ -27,9 +27,11 @@ std::string HeardGarments::text() const {
 }
 
 bool HeardGarments::is_new(const std::string& publisher, const Message& message) {
-  if (publisher.empty() || message.stamp == 0) return true;
+  if (publisher.empty()) return true;
+  const bool was_heard = !in_this_life_.insert(publisher).second;
   const auto [found, is_first] = last_.emplace(publisher, message);
-  if (!is_first && found->second.stamp == message.stamp && found->second.checksum == message.checksum)
+  if (!is_first && found->second.stamp == message.stamp && found->second.checksum == message.checksum &&
+      (message.stamp != 0 || !was_heard))
     return false;
   found->second = message;
   if (last_.size() > kMost)

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 
 namespace tensegric_fit::node {
@@ -22,11 +23,13 @@ class HeardGarments {
   };
 
   /// False where it is this publisher's last message again: who changes a garment need not change its stamp.
-  /// Messages without a stamp or publisher are always new.
+  /// Without a stamp it is that as the first message that is heard of the publisher in this life. Messages
+  /// without a publisher are always new.
   bool is_new(const std::string& publisher, const Message& message);
 
  private:
   std::map<std::string, Message> last_;
+  std::set<std::string> in_this_life_;  // publishers that were heard
 };
 
 }  // namespace tensegric_fit::node

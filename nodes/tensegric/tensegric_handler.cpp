@@ -106,7 +106,10 @@ std::optional<TensegricHandler::Input> TensegricHandler::add(const TriangleMesh:
 std::optional<TensegricHandler::Input> TensegricHandler::newly_complete() {
   if (!fresh_ || !complete()) return std::nullopt;
   fresh_ = false;
-  if (coarse_ && coarse_->scan_id != control_->scan_id) coarse_.reset();  // of the body before
+  {
+    const std::lock_guard<std::mutex> lock(coarse_mutex_);
+    if (coarse_ && coarse_->scan_id != control_->scan_id) coarse_.reset();  // of the body before
+  }
   if (worn_.of && worn_.of->empty()) worn_.of = control_->scan_id;
   const std::string why = unwearable();
   unseen_ = false;
@@ -182,13 +185,21 @@ bool TensegricHandler::complete() const {
 }
 
 TensegricHandler::Input TensegricHandler::input() const {
-  const bool has_coarse = coarse_ && coarse_->scan_id == control_->scan_id;
-  return {control_, has_coarse ? coarse_ : nullptr, needs_landmarks() ? landmarks_ : nullptr, body_, worn_,
-          rests_};
+  return {control_, needs_landmarks() ? landmarks_ : nullptr, body_, worn_, rests_};
 }
 
 bool TensegricHandler::needs_landmarks() const {
   return setup_.fitter.posture.twist != 0 || setup_.fitter.posture.side_lean != 0;
+}
+
+void TensegricHandler::add_coarse(const ControlMesh::ConstPtr& coarse) {
+  const std::lock_guard<std::mutex> lock(coarse_mutex_);
+  coarse_ = coarse;
+}
+
+ControlMesh::ConstPtr TensegricHandler::coarse_of(const std::string& scan_id) const {
+  const std::lock_guard<std::mutex> lock(coarse_mutex_);
+  return coarse_ && coarse_->scan_id == scan_id ? coarse_ : nullptr;
 }
 
 std::string TensegricHandler::outlook() const {
@@ -203,19 +214,21 @@ std::string TensegricHandler::kept() const {
 
 // Nothing where it was stopped, or where this garment has none: what is to be refused is refused on the fine
 // mesh, which fitter_ has taken.
-std::optional<FitState> TensegricHandler::first_answer(const Input& input, const FitName& name,
+std::optional<FitState> TensegricHandler::first_answer(const Input& input,
+                                                       const ControlMesh::ConstPtr& coarse,
+                                                       const FitName& name,
                                                        const std::function<bool()>& go_on) {
   const bool has_weight = !setup_.fitter.solver.gravity.isZero(0);  // forces of the fine mesh's nodes
-  if (!input.coarse || has_weight) return std::nullopt;
+  if (!coarse || has_weight) return std::nullopt;
   const auto start = Clock::now();
   try {
-    if (!coarse_fitter_ || input.coarse != coarse_taken_) {
+    if (!coarse_fitter_ || coarse != coarse_taken_) {
       coarse_taken_.reset();
       coarse_fitter_.emplace(setup_.fitter, bind_body_);
       const auto measures = measures_of(input);
-      coarse_fitter_->take(control_in(*input.coarse), control_in(*input.control),
-                           measures ? &*measures : nullptr, body_of(input));
-      coarse_taken_ = input.coarse;
+      coarse_fitter_->take(control_in(*coarse), control_in(*input.control), measures ? &*measures : nullptr,
+                           body_of(input));
+      coarse_taken_ = coarse;
     }
     const auto answer = coarse_fitter_->fit(input.request.garment, fitter_.model()->newtons(), name.solver,
                                             input.rest, go_on);
@@ -248,10 +261,12 @@ std::optional<TensegricHandler::Output> TensegricHandler::handle(
                  body_of(input));
     taken_ = input.control;
   }
-  const std::optional<FitState> first = first_answer(input, name, go_on);
+  // Only now: the order of messages on two topics is not kept, and the control mesh may be here first.
+  const ControlMesh::ConstPtr coarse = coarse_of(input.control->scan_id);
+  const std::optional<FitState> first = first_answer(input, coarse, name, go_on);
   if (first)
     publish(*first);
-  else if (input.coarse && !go_on())
+  else if (coarse && !go_on())
     return std::nullopt;
   double published = 0;
   const auto progress = [&](const tensegric::Iterate& iterate, const std::vector<Eigen::Vector3d>& outer,

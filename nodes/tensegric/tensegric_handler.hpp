@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -29,7 +30,6 @@ class TensegricHandler {
 
   struct Input {
     ControlMesh::ConstPtr control;  // all of one scan
-    ControlMesh::ConstPtr coarse;   ///< for a first answer; null where none came
     Landmarks::ConstPtr landmarks;  ///< needed for a posture, else null
     TriangleMesh::ConstPtr body;
     GarmentRequest request;
@@ -37,8 +37,8 @@ class TensegricHandler {
     std::string taken_off = {};  ///< garment that `request` takes the place of and why, in words, else empty
   };
   std::optional<Input> add(const ControlMesh::ConstPtr& control);
-  /// Nothing waits for it: fits that are asked for later have their first answers on it.
-  void add_coarse(const ControlMesh::ConstPtr& coarse) { coarse_ = coarse; }
+  /// Nothing waits for it: fits that have not come to their first answer have it on this one.
+  void add_coarse(const ControlMesh::ConstPtr& coarse);
   std::optional<Input> add(const Landmarks::ConstPtr& landmarks);
   std::optional<Input> add(const TriangleMesh::ConstPtr& body);
 
@@ -94,15 +94,18 @@ class TensegricHandler {
   std::string unwearable() const;
   bool complete() const;
   Input input() const;
-  std::optional<FitState> first_answer(const Input& input, const FitName& name,
-                                       const std::function<bool()>& go_on);
+  ControlMesh::ConstPtr coarse_of(const std::string& scan_id) const;
+  std::optional<FitState> first_answer(const Input& input, const ControlMesh::ConstPtr& coarse,
+                                       const FitName& name, const std::function<bool()>& go_on);
 
   const Setup setup_;
   const GarmentRequest first_;
   GarmentRequest worn_;
   bool unseen_ = false;  // worn_ was put on where no control mesh could say whether it fits
   HeardGarments heard_;
-  ControlMesh::ConstPtr control_, coarse_;  // newest of each
+  ControlMesh::ConstPtr control_;  // the newest
+  mutable std::mutex coarse_mutex_;
+  ControlMesh::ConstPtr coarse_;  // the newest; it may come a little later than that of control_
   Landmarks::ConstPtr landmarks_;
   TriangleMesh::ConstPtr body_;
   bool fresh_ = false;  // no fit to control_ was asked for so far
