@@ -10,6 +10,7 @@
 #include "geometry/parallel_for.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/principal_axes.hpp"
+#include "geometry/scan_extent.hpp"
 #include "geometry/status.hpp"
 
 namespace tensegric_fit::assembler {
@@ -62,13 +63,11 @@ void drop_repeats(std::vector<Vector3d>& points) {
                points.end());
 }
 
-constexpr double kFarthest = 1e4;  // m: beyond it coordinates are nonsense, and may overflow
-
 PointCloud in_booth(const PointCloud& seen, const Isometry3d& booth_from_sensor) {
   PointCloud cloud;
   for (const Vector3d& p : seen.points) {
     const Vector3d q = booth_from_sensor * p;
-    if (q.allFinite() && q.cwiseAbs().maxCoeff() < kFarthest) cloud.points.push_back(q);
+    if (q.allFinite() && q.cwiseAbs().maxCoeff() < geometry::kFarthestFromOrigin) cloud.points.push_back(q);
   }
   drop_repeats(cloud.points);
   cloud.normals = viewpoint_normals(cloud.points, booth_from_sensor.translation());
@@ -85,7 +84,7 @@ void check_place(const SensorCloud& sent, const PointCloud& placed) {
       geometry::refusal::kNoTransform,
       fmt::format("no point of the cloud in frame '{}' lies within {:.0f} km of the booth: its points, or "
                   "where its sensor stands, are wrong",
-                  sent.frame_id, kFarthest / 1000));
+                  sent.frame_id, geometry::kFarthestFromOrigin / 1000));
 }
 
 }  // namespace

@@ -10,4 +10,8 @@ namespace tensegric_fit::geometry {
 /// bust, have 0.4 m.
 inline constexpr Range kScanExtent{0.1, 8};
 
+/// m, from the origin of a scan's frame: messages have coordinates of single precision, a millimetre apart
+/// here.
+inline constexpr double kFarthestFromOrigin = 1e4;
+
 }  // namespace tensegric_fit::geometry

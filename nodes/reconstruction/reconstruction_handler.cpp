@@ -2,13 +2,19 @@
 
 #include <fmt/format.h>
 #include <pcl_conversions/pcl_conversions.h>
+#include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
+#include <set>
 
 #include "body_model/model_message.hpp"
 #include "body_model/parts.hpp"
 #include "body_model/registration.hpp"
 #include "geometry/point_cloud.hpp"
+#include "geometry/scan_extent.hpp"
+#include "geometry/status.hpp"
+#include "geometry/triangle_mesh.hpp"
 #include "reconstruction/validate.hpp"
 #include "ros/body_messages.hpp"
 
@@ -67,7 +73,36 @@ std::vector<std::string> beside(const std::string& frame, const std::vector<std:
   return own;
 }
 
+/// \throw Refusal no_transform
+void check_near_origin(const geometry::TriangleMesh& body, const std::string& frame) {
+  const auto box = geometry::bounding_box(body.vertices);
+  const double farthest = std::max(box[0].cwiseAbs().maxCoeff(), box[1].cwiseAbs().maxCoeff());
+  if (farthest >= geometry::kFarthestFromOrigin)
+    throw geometry::Refusal(
+        geometry::refusal::kNoTransform,
+        fmt::format(
+            "she is {:.0f} km from the origin of frame '{}': the chain's messages are in single precision; "
+            "send scans in a frame of the booth",
+            farthest / 1000, frame));
+}
+
 }  // namespace
+
+std::vector<std::string> frames_of_others(const std::string& transforms) {
+  constexpr char kLandmarks[] = "landmarks";  // the node's name, in any namespace
+  std::set<std::string> frames;
+  try {
+    for (const auto& frame : YAML::Load(transforms)) {
+      const std::string from = frame.second["broadcaster"].as<std::string>();
+      if (from.substr(from.rfind('/') + 1) == kLandmarks) continue;
+      frames.insert(frame.first.as<std::string>());
+      frames.insert(frame.second["parent"].as<std::string>());
+    }
+  } catch (const YAML::Exception&) {
+    return {};
+  }
+  return {frames.begin(), frames.end()};
+}
 
 std::string lacks_of(const std_msgs::Header& header, const std::vector<std::string>& known) {
   std::string words;
@@ -107,6 +142,7 @@ ReconstructionHandler::Output ReconstructionHandler::handle(const sensor_msgs::P
   const auto result = std::make_shared<const reconstruction::Reconstruction>(
       reconstruction::reconstruct(geometry::points_of(cloud), options_, anatomy_));
   const reconstruction::BodyMesh& body = result->body;
+  check_near_origin(body.mesh, scan.header.frame_id);
   const auto mesh = boost::make_shared<TriangleMesh>(node::to_message(tag, body.mesh, body.filled));
   for (const reconstruction::Hole& hole : body.holes) mesh->holes.push_back(to_message(hole));
   for (const geometry::Fracture& fracture : body.fractures)

@@ -29,7 +29,8 @@ class ReconstructionNode {
     stage_.begin(tag.scan_id);
     stage_.post(tag.scan_id, [this, scan, tag]() -> Stage::Result {
       const auto output = handler_.handle(*scan, tag);
-      const std::string lacks = lacks_of(scan->header, frames()), company = company_of(output.result->model);
+      const std::string lacks = lacks_of(scan->header, frames_of_others(transforms_.allFramesAsYAML())),
+                        company = company_of(output.result->model);
       return {[this, output] {
                 model_.publish(output.model);
                 mesh_.publish(output.mesh);
@@ -40,12 +41,6 @@ class ReconstructionNode {
               : company.empty() ? lacks
                                 : lacks + " " + company};
     });
-  }
-
-  std::vector<std::string> frames() const {
-    std::vector<std::string> names;
-    transforms_._getFrameStrings(names);
-    return names;
   }
 
   void show(const std::shared_ptr<const reconstruction::Reconstruction>& result,

@@ -132,6 +132,7 @@ ExportOptions export_options(Parameters& parameters) {
 std::vector<std::string> export_fit(const FittedScan& scan, const std::string& directory,
                                     const ExportOptions& options) {
   files::check_new_folder(directory);
+  check_in_no_export(directory);
   FitFigures figures = figures_of(scan);
   if (!options.with_head) figures = headless(std::move(figures));
   std::vector<FileContent> contents = contents_of(figures);

@@ -65,8 +65,9 @@ bool is_rest_of_an_export(const fs::path& folder) {
   return files::is_unfinished(folder.filename()) && !something_else_in(folder);
 }
 
-/// Calls `take(folder, mark)` for each export in the folder, at any depth; links are not followed. Rests of
-/// exports are deleted, whosever they are, and named in `gone`. `left`: what cannot be looked at.
+/// Calls `take(folder, mark)` for each export in the folder, at any depth, those in an export first; links
+/// are not followed. Rests of exports are deleted, whosever they are, and named in `gone`. `left`: what
+/// cannot be looked at.
 template <typename Take>
 void for_each_export(const fs::path& directory, std::vector<std::string>& gone, std::vector<Refusal>& left,
                      const Take& take) {
@@ -79,10 +80,10 @@ void for_each_export(const fs::path& directory, std::vector<std::string>& gone, 
       if (is_rest_of_an_export(entry)) {
         files::delete_whole_folder(entry);
         gone.push_back(entry);
-      } else if (const std::optional<Mark> mark = mark_in(entry)) {
-        take(entry, *mark);
       } else {
+        const std::optional<Mark> mark = mark_in(entry);
         for_each_export(entry, gone, left, take);
+        if (mark) take(entry, *mark);
       }
     } catch (const Refusal& refusal) {
       left.push_back(refusal);
@@ -95,16 +96,25 @@ void for_each_export(const fs::path& directory, std::vector<std::string>& gone, 
 
 std::vector<fs::path> exports_of(const fs::path& directory, const std::string& scan_id,
                                  std::vector<std::string>& gone, std::vector<Refusal>& left) {
-  if (const std::optional<Mark> mark = mark_in(directory); mark && mark->scan_id == scan_id)
-    return {directory};
+  const std::optional<Mark> own = mark_in(directory);
   std::vector<fs::path> folders;
   for_each_export(directory, gone, left, [&](const fs::path& folder, const Mark& mark) {
     if (mark.scan_id == scan_id) folders.push_back(folder);
   });
+  if (own && own->scan_id == scan_id) folders.push_back(directory);
   return folders;
 }
 
 }  // namespace
+
+void check_in_no_export(const std::string& directory) {
+  const fs::path place = fs::absolute(directory).lexically_normal();
+  for (fs::path parent = place.parent_path(); parent != parent.parent_path(); parent = parent.parent_path())
+    if (mark_in(parent))
+      throw Refusal(geometry::refusal::kBadOption,
+                    fmt::format("'{}' would lie in the export '{}', which takes no other files",
+                                place.string(), parent.string()));
+}
 
 std::vector<std::string> delete_exports(const std::string& directory, const std::string& scan_id,
                                         std::vector<Refusal>& left) {

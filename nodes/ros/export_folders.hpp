@@ -19,6 +19,10 @@ inline constexpr std::array<const char*, 18> kExportFiles = {
     "deformed.obj",  "body.stl",         "deformed.stl",
     "measures.json", "measures.vit",     "measures_worn.vit"};
 
+/// \throw Refusal bad_option: a folder above it is an export, which could then not be deleted as a whole;
+/// cannot_write: whether one is cannot be read
+void check_in_no_export(const std::string& directory);
+
 /// Deletes the exports of that scan: `directory` itself, or the folders in it, at any depth. Links are not
 /// followed. Returns the folders that are gone; `left` is assigned why each other one is not: it holds
 /// anything else (bad_option), or could not be read or deleted (cannot_write). \throw Refusal bad_option: a

@@ -96,17 +96,27 @@ int run(const Setup& setup) {
         fmt::format("the chain did not come up: nobody serves {}", fmt::join(missing, ", ")));
 
   int sent = 0, lost = 0;
-  for (const rosbag::MessageInstance& message : view) {
-    const auto scan = files::checked_message<sensor_msgs::PointCloud2>(message);
-    if (scan && files::is_scan_topic(message.getTopic())) {
+  // A bag does not say which of the messages of one time came first: the scan is of the label and the
+  // garment.
+  std::vector<rosbag::MessageInstance> scans;
+  const auto send_scans = [&] {
+    for (const rosbag::MessageInstance& message : scans) {
       ++sent;
-      lost += !replay.send(*scan, message.getTime(), *out);
+      lost +=
+          !replay.send(*files::checked_message<sensor_msgs::PointCloud2>(message), message.getTime(), *out);
     }
+    scans.clear();
+  };
+  for (const rosbag::MessageInstance& message : view) {
+    if (!scans.empty() && scans.front().getTime() != message.getTime()) send_scans();
+    if (files::is_scan_topic(message.getTopic()) && files::checked_message<sensor_msgs::PointCloud2>(message))
+      scans.push_back(message);
     if (const auto label = files::checked_message<ScanLabel>(message))
       replay.send(*label, message.getTime(), *out);
     if (const auto garment = files::checked_message<Garment>(message))
       lost += !replay.send(*garment, message.getTime(), *out);
   }
+  send_scans();
   if (sent == 0)
     throw geometry::Refusal(geometry::refusal::kBrokenFile, "no scan/points in '" + setup.bag + "'");
   out.finish(lost == 0 ? setup.out : setup.out + ".incomplete");

@@ -164,6 +164,32 @@ TEST_F(ExportFolders, ExportsAreDeletedByScanAndNothingElseIs) {
   EXPECT_FALSE(fs::exists(root_ / "other"));
 }
 
+// `forget` said that nothing was left of her, and the outer one could not be deleted any more.
+TEST_F(ExportFolders, AnExportInAnExportIsRefusedAndOneThatIsThereIsFound) {
+  const std::string id = scan_.body->scan_id, other = "3.000000000-00000003";
+  export_fit(fitted(other), root_ / "outer", kWhole);
+  for (const fs::path& place : {root_ / "outer" / "inner", root_ / "outer" / "2026" / "inner"}) {
+    try {
+      export_fit(scan_, place, kWhole);
+      FAIL() << place;
+    } catch (const geometry::Refusal& refusal) {
+      EXPECT_EQ(refusal.code(), std::string(geometry::refusal::kBadOption));
+    }
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(root_ / "outer"), {}), 18);
+  export_fit(scan_, root_ / "inner", kWhole);
+  fs::rename(root_ / "inner", root_ / "outer" / "inner");
+  std::vector<geometry::Refusal> left;
+  EXPECT_EQ(delete_exports(root_, id, left), std::vector<std::string>{root_ / "outer" / "inner"});
+  EXPECT_TRUE(left.empty());
+  export_fit(scan_, root_ / "inner", kWhole);
+  fs::rename(root_ / "inner", root_ / "outer" / "inner");
+  std::vector<std::string> not_deleted;
+  EXPECT_EQ(delete_old_exports(root_, -1, not_deleted),
+            (std::vector<std::string>{root_ / "outer" / "inner", root_ / "outer"}));
+  EXPECT_TRUE(not_deleted.empty());
+}
+
 TEST_F(ExportFolders, OneThatCannotBeDeletedDoesNotKeepTheOthers) {
   for (const char* name : {"a", "b", "c"}) export_fit(scan_, root_ / name, kWhole);
   std::ofstream(root_ / "b" / "note.txt") << "mine";

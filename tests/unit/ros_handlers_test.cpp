@@ -1,6 +1,8 @@
 /// What stages do with messages, without a master.
 #include <fmt/format.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <gtest/gtest.h>
+#include <tf2/buffer_core.h>
 
 #include "control_mesh/control_mesh_handler.hpp"
 #include "fit/bind_body.hpp"
@@ -10,6 +12,8 @@
 #include "ros/body_messages.hpp"
 #include "tensegric/tensegric_handler.hpp"
 #include "tffd/tffd_handler.hpp"
+#include "virtual_booth/random_body.hpp"
+#include "virtual_booth/virtual_scanner.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -42,6 +46,64 @@ TEST(ReconstructionHandler, NamesWhatAHeaderLacks) {
   EXPECT_EQ(lacks_of(header, {"booth_2/booth"}), "") << "another booth's";
   header.frame_id = "/booth";
   EXPECT_EQ(lacks_of(header, {"booth", "floor"}).rfind("unknown_frame: ", 0), 0u) << "tf has no such frame";
+}
+
+// A misspelt frame was known from the second customer on: landmarks had published where she stood in it.
+TEST(ReconstructionHandler, WhatTheChainItselfPublishesOnTfIsNotKnown) {
+  tf2::BufferCore tf;
+  const auto add = [&tf](const std::string& parent, const std::string& child, const std::string& from) {
+    geometry_msgs::TransformStamped transform;
+    transform.header.frame_id = parent;
+    transform.child_frame_id = child;
+    transform.transform.rotation.w = 1;
+    ASSERT_TRUE(tf.setTransform(transform, from, true));
+  };
+  EXPECT_TRUE(frames_of_others(tf.allFramesAsYAML()).empty());
+  add("boot", "body", "/shop/landmarks");
+  EXPECT_TRUE(frames_of_others(tf.allFramesAsYAML()).empty());
+  add("booth", "sensor_0", "/sensors");
+  add("map", "booth", "/floor");
+  EXPECT_EQ(frames_of_others(tf.allFramesAsYAML()), (std::vector<std::string>{"booth", "map", "sensor_0"}));
+  EXPECT_TRUE(frames_of_others("a: [").empty());
+  EXPECT_TRUE(frames_of_others("a: b").empty());
+}
+
+TEST(ReconstructionHandler, FarFromTheOriginAScanIsRefusedByName) {
+  virtual_booth::ScannerOptions booth;
+  booth.points = 20000;
+  const auto scan =
+      virtual_booth::scan_body(virtual_booth::random_customer(virtual_booth::Family::model, 1).mesh, booth);
+  const ReconstructionHandler handler(parameters("{}"));
+  const auto sent = [&](double away) {
+    sensor_msgs::PointCloud2 cloud;
+    cloud.header.frame_id = "map";
+    cloud.height = 1;
+    for (const char* name : {"x", "y", "z"}) {
+      sensor_msgs::PointField field;
+      field.name = name;
+      field.offset = static_cast<std::uint32_t>(8 * cloud.fields.size());
+      field.datatype = sensor_msgs::PointField::FLOAT64;
+      field.count = 1;
+      cloud.fields.push_back(field);
+    }
+    cloud.point_step = 24;
+    for (const Eigen::Vector3d& p : scan.cloud.points) {
+      const Eigen::Vector3d q = p + Eigen::Vector3d(0, away, 0);
+      const auto* bytes = reinterpret_cast<const std::uint8_t*>(q.data());
+      cloud.data.insert(cloud.data.end(), bytes, bytes + 24);
+      ++cloud.width;
+    }
+    cloud.row_step = cloud.width * cloud.point_step;
+    return cloud;
+  };
+  try {
+    handler.handle(sent(5e6), {});
+    FAIL() << "her measures would be of coordinates half a metre apart";
+  } catch (const geometry::Refusal& refusal) {
+    EXPECT_EQ(refusal.code(), std::string(geometry::refusal::kNoTransform)) << refusal.what();
+    EXPECT_NE(std::string(refusal.what()).find("5000 km from the origin of frame 'map'"), std::string::npos)
+        << refusal.what();
+  }
 }
 
 TEST(ReconstructionHandler, NamesSomebodyElseInTheScan) {
