@@ -9,8 +9,6 @@ using Eigen::Vector3d;
 using geometry::BodyMeasures;
 using geometry::Measure;
 
-constexpr double kUnsure = 0.5;
-
 // A body's measures, and how its frame lies in the body frame before.
 struct Measured {
   const BodyMeasures* measures;
@@ -63,7 +61,7 @@ void add(std::vector<Difference>& list, const std::string& name, const std::vect
   for (const auto& value : values) {
     if (!value || value->confidence >= difference.confidence) continue;
     difference.confidence = value->confidence;
-    difference.reason = value->confidence < kUnsure ? value->reason : "";
+    difference.reason = value->confidence < geometry::kUnsure ? value->reason : "";
   }
   list.push_back(std::move(difference));
 }

@@ -20,11 +20,12 @@ SeenSurface::SeenSurface(const geometry::TriangleMesh& mesh, std::vector<char> f
     : mesh_(checked(mesh, filled)),
       filled_(std::move(filled)),
       normals_(geometry::vertex_normals(mesh.vertices, mesh.triangles)),
-      tree_(mesh) {}
+      tree_(mesh),
+      border_(mesh) {}
 
 SeenSurface::Place SeenSurface::nearest(const Eigen::Vector3d& query) const {
   const geometry::SurfacePoint point = tree_.nearest(query);
-  Place place{point.position, Eigen::Vector3d::Zero(), true};
+  Place place{point.position, Eigen::Vector3d::Zero(), !border_.holds(point)};
   for (int k = 0; k < 3; ++k) {
     const int vertex = mesh_.triangles[point.triangle][k];
     place.normal += point.barycentric[k] * normals_[vertex];

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "correlation/border.hpp"
 #include "geometry/surface_tree.hpp"
 #include "geometry/triangle_mesh.hpp"
 
@@ -19,7 +20,7 @@ class SeenSurface {
   struct Place {
     Eigen::Vector3d position;
     Eigen::Vector3d normal;  ///< unit, outwards, smooth over the skin; zero where it has no area
-    bool seen;               ///< the scan saw all three corners
+    bool seen;               ///< the scan saw all three corners, and it is not the rim of a hole
   };
   Place nearest(const Eigen::Vector3d& query) const;
 
@@ -28,6 +29,7 @@ class SeenSurface {
   std::vector<char> filled_;
   std::vector<Eigen::Vector3d> normals_;
   geometry::SurfaceTree tree_;
+  Border border_;
 };
 
 }  // namespace tensegric_fit::correlation

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "correlation/border.hpp"
 #include "correlation/find_measure.hpp"
 #include "geometry/point_tree.hpp"
 #include "geometry/status.hpp"
@@ -20,34 +20,6 @@ using geometry::TriangleMesh;
 
 constexpr double kLowestThigh = 6.0 / 7;                     // of the crotch's height
 constexpr double kKnee = 0.60, kCalf = 0.53, kAnkle = 0.12;  // the same
-
-// Whether a place of the control mesh lies on its border.
-class Border {
- public:
-  explicit Border(const TriangleMesh& control) : control_(control), vertex_(control.vertices.size(), 0) {
-    for (const geometry::Edge& edge : geometry::edges_of(control)) {
-      if (edge.right >= 0) continue;
-      edges_.push_back({edge.first, edge.second});
-      vertex_[edge.first] = vertex_[edge.second] = 1;
-    }
-  }
-
-  bool holds(const geometry::SurfacePoint& place) const {
-    const Eigen::Vector3i& t = control_.triangles[place.triangle];
-    std::vector<int> corners;  // of the vertex, edge or triangle that it lies in, ascending
-    for (int k = 0; k < 3; ++k)
-      if (place.barycentric[k] > 1e-9) corners.push_back(t[k]);
-    std::sort(corners.begin(), corners.end());
-    if (corners.size() == 1) return vertex_[corners[0]] != 0;
-    return corners.size() == 2 &&
-           std::binary_search(edges_.begin(), edges_.end(), std::array<int, 2>{corners[0], corners[1]});
-  }
-
- private:
-  const TriangleMesh& control_;
-  std::vector<char> vertex_;
-  std::vector<std::array<int, 2>> edges_;  // ascending, as edges_of gives them
-};
 
 std::vector<char> covered_by(const TriangleMesh& control, const TriangleMesh& body,
                              const std::vector<Vector3d>& normals) {

@@ -108,7 +108,7 @@ bool is_outline(const SectionLoop& loop, const Eigen::Vector3d& normal) {
   const Eigen::Vector3d& first = loop.points.front();
   for (std::size_t i = 1; i + 1 < loop.points.size(); ++i)
     twice_area += area_vector(first, loop.points[i], loop.points[i + 1]);
-  return loop.closed && twice_area.dot(normal) > 0;
+  return twice_area.dot(normal) > 0;
 }
 
 double length_of(const std::vector<Eigen::Vector3d>& points, bool closed) {

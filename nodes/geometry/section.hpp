@@ -22,8 +22,8 @@ struct SectionLoop {
 std::vector<SectionLoop> plane_section(const TriangleMesh& mesh, const Eigen::Vector3d& origin,
                                        const Eigen::Vector3d& normal);
 
-/// Whether a closed loop runs round the mesh's interior: one that runs round a hollow within turns the other
-/// way. `normal` as for its section.
+/// Whether a loop runs round the mesh's interior: one that runs round a hollow within turns the other way.
+/// One that a hole leaves open is closed by a straight line. `normal` as for its section.
 bool is_outline(const SectionLoop& loop, const Eigen::Vector3d& normal);
 
 /// Length of a polyline, with the closing segment if closed. Metres.

@@ -98,6 +98,31 @@ TEST(Align, UnseenSkinDoesNotCount) {
   expect_same(found.patch_from_scan, kStance, 1e-3);  // m; the filling is 50 mm off
 }
 
+// A mesh from elsewhere has holes that nobody closed: their rims were taken for the nearest skin.
+TEST(SeenSurface, TheRimOfAHoleIsNoSkinToBeComparedWith) {
+  const TriangleMesh whole = star([](const Vector3d& p) { return figure(p); });
+  TriangleMesh open = whole;
+  const Vector3d hole = whole.vertices[whole.vertices.size() / 2];
+  open.triangles.clear();
+  for (const Eigen::Vector3i& t : whole.triangles)
+    if ((whole.vertices[t[0]] - hole).norm() > 0.05) open.triangles.push_back(t);
+  ASSERT_LT(open.triangles.size(), whole.triangles.size());
+  const SeenSurface closed(whole, {}), surface(open, {});
+  int in_hole = 0;
+  for (const Vector3d& p : whole.vertices) {
+    if (p.head<2>().norm() < 0.02) continue;  // a pole, where a star's triangles do not meet
+    EXPECT_TRUE(closed.nearest(p).seen);
+    const double away = (p - hole).norm();
+    if (away < 0.03) {
+      ++in_hole;
+      EXPECT_FALSE(surface.nearest(p).seen);
+    } else if (away > 0.08) {
+      EXPECT_TRUE(surface.nearest(p).seen);
+    }
+  }
+  EXPECT_GT(in_hole, 3);
+}
+
 TEST(Align, ASymmetricFigureStaysInItsPlane) {
   const TriangleMesh body = star([](const Vector3d& p) { return figure(p, 0.05); });
   const Isometry3d forward = motion(6, {0, 1, 0}, {0.02, 0, 0.01});  // keeps the plane y = 0
