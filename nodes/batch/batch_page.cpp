@@ -73,7 +73,7 @@ std::string summary(const Table& table) {
     ++statuses[line["status"]];
     if (line["reason"].is_object()) ++reasons[line["reason"]["code"]];
   }
-  std::string text = fmt::format("<p>{} rows, {} with a result", table.rows, table.lines.size());
+  std::string text = fmt::format("<p>{} rows, {} done", table.rows, table.lines.size());
   for (const auto& [status, count] : statuses) text += fmt::format(", {} {}", count, html_escaped(status));
   text += fmt::format("; {} missing, {} keys that are there more than once, {} conflicts.</p>\n",
                       table.missing.size(), table.doubles.size(), table.conflicts.size());
@@ -168,11 +168,12 @@ std::string drift(const Comparison& comparison) {
   for (const Drift& one : comparison.drifts) figures.insert(one.figure);
   for (const auto& other : comparison.others) figures.insert(other.first);
   std::string text = fmt::format(
-      "<h2>Against the other table</h2>\n<p>{} scans in common, {} with another status, {} figures "
-      "differ.</p>\n"
+      "<h2>Against the other table</h2>\n<p>{} scans in common, {} in this table alone, {} in the other "
+      "alone; {} "
+      "with another status or reason, {} figures differ.</p>\n"
       "<div class=wide><table><tr><th>figure<th>scans<th>mean of new - "
       "old<th>deviation<th>largest<th>row</tr>\n",
-      comparison.common, comparison.changes.size(), figures.size());
+      comparison.common, comparison.added, comparison.gone, comparison.changes.size(), figures.size());
   for (const Drift& one : comparison.drifts)
     text += "<tr><td>" + html_escaped(one.figure) + "</td>" + whole_number(one.count) + number(one.mean) +
             number(one.deviation) + number(one.largest) + whole_number(one.row) + "</tr>\n";

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <set>
 
 #include "files/csv.hpp"
 #include "geometry/status.hpp"
@@ -55,6 +56,10 @@ std::optional<double> number_in(const std::string& text) {
   return !text.empty() && *end == '\0' ? std::optional(number) : std::nullopt;
 }
 
+std::string ended(const std::string& status, const std::string& reason) {
+  return reason.empty() ? status : status + " (" + reason + ")";
+}
+
 struct Sums {
   std::size_t count = 0, row = 0;
   double sum = 0, squares = 0, largest = 0;
@@ -66,13 +71,20 @@ Comparison compare(const Table& table, const std::string& file) {
   const std::map<std::string, Row> before = rows_of(file);
   Comparison result;
   std::map<std::string, Sums> sums;
+  std::set<std::string> met;
   for (const auto& [row, line] : table.lines) {
     const auto found = before.find(line.value("subject", ""));
-    if (found == before.end()) continue;
+    if (found == before.end()) {
+      ++result.added;
+      continue;
+    }
     ++result.common;
+    met.insert(found->first);
     Row then = found->second;
-    if (const std::string status = line["status"], old = then["status"]; status != old)
-      result.changes.push_back({row, old, status});
+    const Json reason = line.value("reason", Json());
+    const std::string status = ended(line["status"], reason.is_object() ? reason.value("code", "") : ""),
+                      earlier = ended(then["status"], then["reason"]);
+    if (status != earlier) result.changes.push_back({row, earlier, status});
     for (const char* name : kNoFigures) then.erase(name);
     if (then.empty() || !line.contains("result")) continue;  // of one that was refused all figures are gone
     for (const Figure& figure : figures_of(line.value("result", Json::object()))) {
@@ -102,6 +114,7 @@ Comparison compare(const Table& table, const std::string& file) {
     }
     for (const auto& cell : then) ++result.others[cell.first].lost;
   }
+  result.gone = before.size() - met.size();
   for (auto other = result.others.begin(); other != result.others.end();)
     other = other->second.texts + other->second.gained + other->second.lost == 0 ? result.others.erase(other)
                                                                                  : std::next(other);

@@ -16,7 +16,7 @@ struct Drift {
   std::size_t row = 0;                          ///< of the largest
 };
 
-/// Scans whose status changed: row, old, new.
+/// Scans whose status or whose reason for it changed: row, old, new.
 struct StatusChange {
   std::size_t row;
   std::string before, after;
@@ -28,8 +28,9 @@ struct OtherChange {
 };
 
 struct Comparison {
-  std::size_t common = 0;     ///< scans with the same content and settings
-  std::vector<Drift> drifts;  ///< of the figures that differ, in the order of the names
+  std::size_t common = 0;           ///< scans with the same content and settings
+  std::size_t added = 0, gone = 0;  ///< scans of this table and of the other that the other and this lack
+  std::vector<Drift> drifts;        ///< of the figures that differ, in the order of the names
   std::vector<StatusChange> changes;
   std::map<std::string, OtherChange> others;  // by figure
 };

@@ -179,7 +179,11 @@ Table read_table(std::vector<std::string> folders) {
     table.conflicts.insert(table.conflicts.end(), folder->conflicts.begin(), folder->conflicts.end());
     for (const auto& [row, line] : folder->lines) {
       const auto [kept, fresh] = table.lines.try_emplace(row, line);
-      if (!fresh && without_cost(kept->second) != without_cost(line)) table.conflicts.push_back(row);
+      if (fresh || stays(kept->second, line)) continue;
+      if (stays(line, kept->second))
+        kept->second = line;
+      else if (without_cost(kept->second) != without_cost(line))
+        table.conflicts.push_back(row);
     }
   }
   if (first.empty())

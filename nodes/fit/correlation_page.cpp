@@ -16,8 +16,6 @@ namespace {
 using correlation::Difference;
 using files::html_escaped;
 
-constexpr double kUnsure = 0.5;  // confidences below come with a reason
-
 constexpr char kPage[] = R"(<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -64,7 +62,7 @@ std::string centimetres(const std::optional<double>& metres) {
 }
 
 std::string change(const std::optional<double>& from, const std::optional<double>& to) {
-  return from && to ? inspect::words::centimetre_change(*to - *from) : "";
+  return from && to ? inspect::words::centimetre_change(*from, *to) : "";
 }
 
 struct Rows {
@@ -75,7 +73,7 @@ void add_rows(const std::vector<Difference>& differences, const std::string& kin
   for (const Difference& d : differences) {
     if (kind == "height" && (d.name == "bust" || d.name == "hip")) continue;  // as bust point and buttock
     const std::string name = html_escaped(inspect::words::measure(d.name, kind));
-    const bool unsure = d.confidence < kUnsure;
+    const bool unsure = d.confidence < geometry::kUnsure;
     rows.table += fmt::format(
         "<tr><td>{}{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", name,
         unsure ? "*" : "", centimetres(d.before), centimetres(d.simulated), centimetres(d.worn),

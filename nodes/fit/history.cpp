@@ -187,7 +187,7 @@ std::string visits_text(const std::vector<Visit>& visits, std::size_t from, std:
   for (const VisitChange& change : changes(visits[from], visits[to]))
     text += fmt::format("  {:<7} {:<12} {:>6.1f} -> {:>6.1f}  {:>5}{}{}\n", change.kind, change.name,
                         100 * change.from, 100 * change.to,
-                        inspect::words::centimetre_change(change.to - change.from),
+                        inspect::words::centimetre_change(change.from, change.to),
                         change.half_width > 0 ? fmt::format(" +- {:.1f}", 100 * change.half_width) : "",
                         change.beyond_doubt() ? "  changed" : "");
   return text;

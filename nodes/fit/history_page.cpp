@@ -116,7 +116,7 @@ std::string changes_table(const Visit& from, const Visit& to) {
   std::string html =
       "<div class=wide><table><tr><th>cm<th>before<th>now<th>change<th>uncertain by, 95 %</tr>\n";
   for (const VisitChange& change : changes(from, to)) {
-    const std::string moved = inspect::words::centimetre_change(change.to - change.from);
+    const std::string moved = inspect::words::centimetre_change(change.from, change.to);
     html += fmt::format("<tr><td>{} {}</td><td>{:.1f}</td><td>{:.1f}</td><td>{}</td><td>{}</td></tr>\n",
                         html_escaped(inspect::spoken(change.name)), change.kind, 100 * change.from,
                         100 * change.to, change.beyond_doubt() ? "<b>" + moved + "</b>" : moved,

@@ -28,6 +28,9 @@ struct Landmark {
   double half_width = 0;  ///< m, radius of the 95 % confidence ball; 0: unknown
 };
 
+/// Confidences below come with a reason: the half-width is wider than one and a half times ISO 20685's limit.
+inline constexpr double kUnsure = 0.5;
+
 /// A height above the soles or a girth, metres. Heights: bust, underbust, waist, hip, crotch, neck, stature.
 /// Girths: bust, underbust, waist, hip, neck, and where found upper_arm_L/R, thigh_L/R.
 struct Measure {
@@ -36,6 +39,8 @@ struct Measure {
   double confidence;
   std::string reason;
   double half_width = 0;  ///< m, of the 95 % confidence interval; 0: unknown
+
+  bool is_unsure() const { return confidence < kUnsure; }
 };
 
 /// The tape along which a girth was measured: a closed loop in the scan's frame.

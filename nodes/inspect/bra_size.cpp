@@ -45,7 +45,7 @@ std::optional<BraSize> bra_size(double bust, double underbust) {
 std::vector<BraSize> bra_sizes(const geometry::Measure& bust, const geometry::Measure& underbust) {
   constexpr double kDeviations = 1.96;  // of a normal variable's 95 % interval
   const std::optional<BraSize> measured = bra_size(bust.metres, underbust.metres);
-  if (!measured) return {};
+  if (!measured || bust.is_unsure() || underbust.is_unsure()) return {};
   static const std::vector<Likely> values = likely_values();
   double own = 0;                                            // how likely the measured size is
   std::map<std::string, std::pair<BraSize, double>> others;  // label -> size and how likely it is

@@ -28,7 +28,8 @@ inline constexpr double kOnABorder = 0.25, kInDoubt = 0.5;
 
 /// The size by the measured girths and, where she lies on a border or the girths leave several open, the
 /// likeliest other. The girths' errors are taken as independent and normal; half-widths are those of their 95
-/// % intervals, 0: exact. Metres. Empty where the measured girths have no size.
+/// % intervals, 0: exact. Metres. Empty where the measured girths have no size, or one of them is
+/// unsure.
 std::vector<BraSize> bra_sizes(const geometry::Measure& bust, const geometry::Measure& underbust);
 
 }  // namespace tensegric_fit::inspect

@@ -9,7 +9,6 @@
 namespace tensegric_fit::inspect {
 namespace {
 
-constexpr double kSure = 0.5;         // confidence
 constexpr double kDotLift = 0.005;    // metres: most of a dot is seen
 constexpr double kModelLift = 0.002;  // metres: over the chords of the body's triangles
 
@@ -105,7 +104,8 @@ std::vector<NamedDot> Overlays::dots(const BodyView& body, double blend) {
   const std::vector<Eigen::Vector3d> places = carried_->landmarks.at(body.vertices(blend), kDotLift);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const geometry::Landmark& landmark = measures_->value.landmarks[i];
-    dots.push_back({places[i], landmark.name, landmark.confidence < kSure ? kUnsureColour : kSureColour});
+    dots.push_back(
+        {places[i], landmark.name, landmark.confidence < geometry::kUnsure ? kUnsureColour : kSureColour});
   }
   return dots;
 }

@@ -70,4 +70,8 @@ std::string centimetre_change(double metres) {
   return millimetres == 0 ? "0" : fmt::format("{:+.1f}", millimetres / 10);
 }
 
+std::string centimetre_change(double from, double to) {
+  return centimetre_change((std::round(1e3 * to) - std::round(1e3 * from)) / 1e3);
+}
+
 }  // namespace tensegric_fit::inspect::words

@@ -114,8 +114,7 @@ std::optional<geometry::Measure> vit_measure(const MeasureEntry& entry, bool wor
 
 /// Why not to rely on a figure; "" where it is sure.
 std::string doubt_of(const geometry::Measure& measure) {
-  constexpr double kUnsure = 0.5;  // confidences below come with a reason
-  if (measure.confidence >= kUnsure) return "";
+  if (!measure.is_unsure()) return "";
   std::string text =
       measure.half_width > 0 ? fmt::format("+- {} mm", std::lround(1000 * measure.half_width)) : "";
   if (!measure.reason.empty()) text += (text.empty() ? "" : ", ") + measure.reason;

@@ -58,7 +58,7 @@ void add_sizes(FitFigures& figures) {
   const auto bust = girth("bust"), underbust = girth("underbust");
   if (bust == figures.girths.end() || underbust == figures.girths.end()) return;
   figures.sizes = inspect::bra_sizes(bust->before, underbust->before);
-  if (bust->after && underbust->after)
+  if (!figures.sizes.empty() && bust->after && underbust->after)
     figures.size_after = inspect::bra_size(*bust->after, *underbust->after);
 }
 

@@ -28,7 +28,10 @@ namespace {
 using files::html_escaped;
 using geometry::ChangedMeasure;
 
-constexpr double kUnsure = 0.5;  // confidences below come with a reason
+/// After the name of what is uncertain: notes_of says why.
+std::string star(const geometry::Measure& measure) {
+  return measure.is_unsure() ? "*" : "";
+}
 
 std::string centimetres(double metres) {
   return fmt::format("{:.1f}", 100 * metres);
@@ -50,7 +53,7 @@ std::string row_of(const FitFigures& figures, const std::string& kind, const Cha
       }))
     name = fmt::format("<button data-loop=\"{}\" aria-pressed=\"false\" disabled>{}</button>",
                        html_escaped(measure.before.name), name);
-  return row({name + (measure.before.confidence < kUnsure ? "*" : ""), centimetres(measure.before.metres),
+  return row({name + star(measure.before), centimetres(measure.before.metres),
               measure.after ? centimetres(*measure.after) : "",
               measure.after ? inspect::words::centimetre_change(measure.change()) : ""});
 }
@@ -68,16 +71,16 @@ std::string first_rows(const FitFigures& figures) {
   for (const char* name : {"bust", "underbust"})
     for (const ChangedMeasure& measure : figures.girths)
       if (measure.before.name == name)
-        rows += row({html_escaped(inspect::words::measure(name, "girth")) + ", cm",
+        rows += row({html_escaped(inspect::words::measure(name, "girth")) + ", cm" + star(measure.before),
                      centimetres(measure.before.metres), measure.after ? centimetres(*measure.after) : "",
                      measure.after ? inspect::words::centimetre_change(measure.change()) : ""});
   for (const ChangedMeasure& measure : figures.heights)
     if (measure.before.name == "bust" && measure.after)
-      rows += row({"lift of the bust, mm", "", "",
+      rows += row({"lift of the bust, mm" + star(measure.before), "", "",
                    fmt::format("{:+.0f}", std::round(1e3 * (*measure.after - measure.before.metres)) + 0.0)});
   if (const auto& apart = figures.bust_points)
-    rows += row({"bust points apart, cm", centimetres(apart->before.metres), centimetres(*apart->after),
-                 inspect::words::centimetre_change(apart->change())});
+    rows += row({"bust points apart, cm" + star(apart->before), centimetres(apart->before.metres),
+                 centimetres(*apart->after), inspect::words::centimetre_change(apart->change())});
   return rows;
 }
 
@@ -121,6 +124,10 @@ std::string summary_of(const FitFigures& figures) {
     text += "<p>The garment cannot become as tight as was asked for; this is the nearest to it.</p>\n";
   else if (fit.status != FitState::CONVERGED)
     text += "<p>The computation did not come to its end: take these figures as a first impression.</p>\n";
+  // What is shown is not smooth skin, or was never scanned.
+  for (const geometry::FitWarning& warning : figures.scan.warnings)
+    if (warning.is_warning() || warning.code == geometry::notice::kNotScanned)
+      text += "<p>" + html_escaped(inspect::words::warning(warning, figures.measures)) + "</p>\n";
   return text;
 }
 
@@ -128,10 +135,12 @@ std::string notes_of(const FitFigures& figures) {
   std::string notes;
   for (const auto& [kind, measures] : {std::pair{"height", &figures.heights}, {"girth", &figures.girths}})
     for (const ChangedMeasure& measure : *measures)
-      if (measure.before.confidence < kUnsure)
+      if (measure.before.is_unsure())
         notes += fmt::format("<p>* {}: uncertain; {}.</p>\n",
                              html_escaped(inspect::words::measure(measure.before.name, kind)),
                              html_escaped(measure.before.reason));
+  if (figures.bust_points && figures.bust_points->before.is_unsure())
+    notes += "<p>* bust points apart: a bust point is uncertain.</p>\n";
   for (const geometry::Missing& part : geometry::missing_parts(figures.measures))
     notes +=
         fmt::format("<p>Missing: {}; {}.</p>\n", html_escaped(inspect::words::with_names_spoken(part.name)),

@@ -82,7 +82,7 @@ Markers& Markers::landmarks(const geometry::BodyMeasures& measures) {
   Marker& dots = add("landmarks", Marker::SPHERE_LIST, kDot);
   for (const geometry::Landmark& landmark : measures.landmarks) {
     dots.points.push_back(point_of(landmark.position));
-    dots.colors.push_back(rgba(landmark.confidence < 0.5 ? kUnsureColour : kSureColour));
+    dots.colors.push_back(rgba(landmark.confidence < geometry::kUnsure ? kUnsureColour : kSureColour));
   }
   const Eigen::Vector3d up = measures.body_from_scan.linear().row(2);
   for (const geometry::Landmark& landmark : measures.landmarks) {

@@ -17,11 +17,6 @@ const std::vector<std::string> kFirst{"bust", "underbust", "waist", "hip", "neck
 
 using Girths = std::vector<geometry::ChangedMeasure>;
 
-bool is_unsure(const geometry::Measure& measure) {
-  constexpr double kUnsure = 0.5;  // confidences below come with a reason
-  return measure.confidence < kUnsure;
-}
-
 std::string size_of(const Girths& girths) {
   const auto find = [&](const char* name) {
     return std::find_if(girths.begin(), girths.end(),
@@ -29,7 +24,6 @@ std::string size_of(const Girths& girths) {
   };
   const auto bust = find("bust"), underbust = find("underbust");
   if (bust == girths.end() || underbust == girths.end()) return words::kNoSize;
-  if (is_unsure(bust->before) || is_unsure(underbust->before)) return words::kNoSize;
   return words::sizes(inspect::bra_sizes(bust->before, underbust->before));
 }
 
@@ -66,7 +60,7 @@ void GirthTable::show_measures(const geometry::BodyMeasures& measures, const geo
                    [&](const auto& one, const auto& other) { return place(one) < place(other); });
   std::vector<std::string> reasons;  // by row, of what is unsure
   const auto row_of = [&](const std::string& name, const geometry::ChangedMeasure& measure) {
-    const bool unsure = is_unsure(measure.before);
+    const bool unsure = measure.before.is_unsure();
     reasons.push_back(unsure ? measure.before.reason : "");
     const std::string shown = name + (unsure ? "*" : "");
     if (!is_worn) return std::array<std::string, 4>{shown, words::centimetres(measure.before.metres), "", ""};

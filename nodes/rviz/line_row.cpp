@@ -18,6 +18,7 @@ constexpr int kShortestSlider = 200, kLongestName = 130;  // pixels
 
 QDoubleSpinBox* box(const char* unit, double low, double high, double step) {
   auto* made = new QDoubleSpinBox;
+  made->setLocale(QLocale::c());  // points, as on all of the panel: others take them for thousands
   made->setSuffix(QString(" ") + unit);
   made->setDecimals(1);
   made->setRange(low, high);

@@ -247,6 +247,9 @@ class FitBatch(unittest.TestCase):
         rows[1]["status"] = "refused"
         rows[1]["solver.status"] = "capped"
         rows[1]["girths.hip"] = ""
+        refused = next(row for row in rows if row["status"] == "refused" and row["subject"] and row is not rows[1])
+        refused["reason"] = "other_reason"
+        rows.append({**rows[0], "row": "99", "subject": "gone"})
         with open(other, "w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, rows[0])
             writer.writeheader()
@@ -259,6 +262,8 @@ class FitBatch(unittest.TestCase):
         self.assertIn("0.004", drifted)
         self.assertNotIn("<td>girths.waist</td>", drifted)
         self.assertIn("row 2: refused before, ok now", drifted)
+        self.assertRegex(drifted, r"row \d+: refused \(other_reason\) before, refused \(\w+\) now")
+        self.assertIn("in this table alone, 1 in the other alone; 2 with another status or reason", drifted)
         self.assertIn("solver.status: another text in 1 scans, new in 0, gone in 0", drifted)
         self.assertIn("girths.hip: another text in 0 scans, new in 1, gone in 0", drifted)
         other.write_text("row,name\n1,woman\n")

@@ -2,6 +2,7 @@
 /// second scans with the garment on, with the evidence.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <yaml-cpp/yaml.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -37,6 +38,13 @@ void write_text(const std::string& path, const std::string& text) {
   if (!file.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
+// As YAML takes any text.
+std::string quoted(const std::string& text) {
+  YAML::Emitter yaml;
+  yaml << YAML::DoubleQuoted << text;
+  return yaml.c_str();
+}
+
 std::string evidence_of(const calibration::Calibration& found,
                         const std::vector<calibration::CalibrationBody>& bodies, int control_triangles) {
   std::string text = fmt::format("evidence:\n  date: {}\n  version: {}\n  control_triangles: {}\n", today(),
@@ -45,11 +53,11 @@ std::string evidence_of(const calibration::Calibration& found,
   text +=
       "  errors_mm:  # root mean square over the free skin: not moving, before, fitted on all, left out\n";
   for (const calibration::CalibrationError& e : found.errors)
-    text += fmt::format("    \"{}\": [{:.2f}, {:.2f}, {:.2f}, {:.2f}]\n", e.name, 1e3 * e.not_moving,
+    text += fmt::format("    {}: [{:.2f}, {:.2f}, {:.2f}, {:.2f}]\n", quoted(e.name), 1e3 * e.not_moving,
                         1e3 * e.before, 1e3 * e.in_sample, 1e3 * e.out_of_sample);
   text += "  left_out:\n";
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    text += fmt::format("    {}:\n", bodies[b].name);
+    text += fmt::format("    {}:\n", quoted(bodies[b].name));
     std::istringstream lines(calibration::tissue_yaml(found.left_out[b].settings));
     for (std::string line; std::getline(lines, line);) text += "      " + line + "\n";
   }
@@ -154,11 +162,12 @@ int main(int argc, char** argv) {
   double beta = 0;
   app.add_option("--beta", beta, "Reach of t-FFD's triangles in their mean radii; 0: the tissue's")
       ->check(CLI::Range(0.0, 20.0));
-  std::string fields;
-  app.add_option("--fields", fields, "With --errors: a folder for each case's deformed skin, as CSV")
-      ->check(CLI::ExistingDirectory);
   bool errors = false, worn = false;
   app.add_flag("--errors", errors, "Fits nothing: errors, iterations and tensions by case, as things are");
+  std::string fields;
+  app.add_option("--fields", fields, "With --errors: a folder for each case's deformed skin, as CSV")
+      ->check(CLI::ExistingDirectory)
+      ->needs("--errors");
   std::string newtons;
   app.add_option("--newtons", newtons,
                  "With --errors: a file for how near pulls are to the references', as in launch/tissue")

@@ -61,6 +61,13 @@ TEST(BraSizeTest, OnABorderASecondSizeIsNamed) {
   EXPECT_EQ(labels(85, 75, 0.5), "");             // none as measured
 }
 
+TEST(BraSizeTest, GirthsThatAreUnsureHaveNone) {
+  const geometry::Measure sure{"bust", 0.9, 0.5, "", 0.01}, unsure{"underbust", 0.75, 0.49, "", 0.01};
+  EXPECT_TRUE(bra_sizes(sure, unsure).empty());
+  EXPECT_TRUE(bra_sizes({"bust", 0.9, 0.49, "", 0.01}, {"underbust", 0.75, 0.5, "", 0.01}).empty());
+  EXPECT_FALSE(bra_sizes(sure, {"underbust", 0.75, 0.5, "", 0.01}).empty());
+}
+
 TEST(BraSizeTest, ASecondSizeIsAsLikelyAsItsDefinitionSays) {
   // 0.674 deviations from a border a quarter of all lie beyond it. Bust alone is uncertain.
   const auto sizes = [](double off) {

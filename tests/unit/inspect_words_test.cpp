@@ -159,5 +159,11 @@ TEST(Words, NeverShowMinusZero) {
   EXPECT_EQ(volume("bust", 2e-3, 2e-3 * (1 - 1e-9)), "bust: 2.00 l, +0.00 %");
 }
 
+TEST(CentimetreChange, IsThatOfWhatStandsBesideIt) {
+  EXPECT_EQ(words::centimetre_change(0.2984, 0.2986), "+0.1");  // 29.8 and 29.9
+  EXPECT_EQ(words::centimetre_change(1.2351, 1.2214), "-1.4");  // 123.5 and 122.1
+  EXPECT_EQ(words::centimetre_change(0.8926, 0.8934), "0");     // 89.3 both
+}
+
 }  // namespace
 }  // namespace tensegric_fit::inspect::words

@@ -3,6 +3,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "inspect/warning_words.hpp"
 #include "ros_exported_scan.hpp"
 
 namespace tensegric_fit::node {
@@ -21,7 +22,8 @@ TEST_F(ExportPage, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
             std::string::npos);
   EXPECT_NE(page.find("<button data-loop=\"bust\""), std::string::npos);
   EXPECT_EQ(page.find("data-loop=\"underbust\""), std::string::npos) << "its tape is not known";
-  EXPECT_NE(page.find("<b>75D</b>"), std::string::npos);
+  EXPECT_NE(page.find("<th scope=\"row\">underbust girth, cm*</th>"), std::string::npos) << "it is uncertain";
+  EXPECT_EQ(page.find("bra size"), std::string::npos) << "and so would a size be";
   EXPECT_NE(page.find("hair, &lt;b&gt;long&lt;/b&gt;"), std::string::npos);
   EXPECT_EQ(page.find("<script src"), std::string::npos);
   EXPECT_EQ(page.find("<link"), std::string::npos);
@@ -41,6 +43,30 @@ TEST_F(ExportPage, ThePageNeedsNothingElseAndTakesNamesAsTheyAre) {
             "height,stature,1700.0,1700.0,1.00,,\r\n"
             "girth,bust,942.0,847.8,0.90,4.0,\r\n"
             "girth,underbust,750.0,,0.40,,\"hair, <b>long</b>\"\r\n");
+}
+
+TEST_F(ExportPage, ASizeIsNamedWhereTheGirthsAreSure) {
+  const auto landmarks = boost::make_shared<Landmarks>(*scan_.landmarks);
+  for (Measure& girth : landmarks->girths) girth.confidence = 0.9F;
+  scan_.landmarks = landmarks;
+  export_fit(scan_, root_ / "one", kWhole);
+  EXPECT_NE(text_of(root_ / "one" / "fit.html").find("<b>75D</b>"), std::string::npos);
+}
+
+TEST_F(ExportPage, WhatIsNoSmoothSkinOrWasNotScannedStandsAtItsHead) {
+  geometry::FitWarning shelf, made_up, stretched;
+  shelf.code = geometry::warning::kShelf;
+  made_up.code = geometry::notice::kNotScanned;
+  stretched.code = geometry::notice::kOverStretched;  // on the pictures
+  made_up.line = "<chest>";
+  made_up.value = 0.68;
+  scan_.warnings = {shelf, made_up, stretched};
+  export_fit(scan_, root_ / "one", kWhole);
+  const std::string page = text_of(root_ / "one" / "fit.html");
+  const std::size_t first = page.find("bust girth, cm");
+  EXPECT_LT(page.find("The skin folds into a shelf"), first);
+  EXPECT_LT(page.find("The scan did not see the skin under '&lt;chest&gt;' (68 % of its length)"), first);
+  EXPECT_EQ(page.find(inspect::words::warning(stretched, {})), std::string::npos);
 }
 
 TEST_F(ExportPage, TheLiftIsRoundedAlone) {

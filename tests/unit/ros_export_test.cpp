@@ -53,7 +53,7 @@ TEST_F(ExportFitTest, WritesMeshesMeasuresPicturesAndParameters) {
   // a tenth of the 60-cornered tape
   EXPECT_NEAR(fit["body"]["girths"][0]["after_mm"], 942 - 100 * 0.15 * 120 * std::sin(kPi / 60), 1e-3);
   EXPECT_TRUE(fit["body"]["girths"][1]["after_mm"].is_null());
-  EXPECT_EQ(fit["body"]["bra_size"]["before"], "75D");
+  EXPECT_TRUE(fit["body"]["bra_size"]["before"].is_null()) << "the underbust is uncertain";
   EXPECT_TRUE(fit["body"]["bra_size"]["after"].is_null());
   EXPECT_NEAR(fit["body"]["landmarks"][0]["after_mm"][0], 135, 1e-3);
   EXPECT_EQ(fit["files"].size(), 18u);
