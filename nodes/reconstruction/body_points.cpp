@@ -12,7 +12,10 @@ namespace {
 using Points = std::vector<Eigen::Vector3d>;
 
 constexpr double kNeighbourhood = 0.01;  // m, cell in which a point should have company
-constexpr double kLink = 0.03;           // m, cell of the clustering: bridges gaps of 30 to 60 mm
+// Times as many points near most points as in most cells: scans have 1 to 3, the vertices of a mesh that is
+// fine in the face 20.
+constexpr int kCrowded = 4;
+constexpr double kLink = 0.03;  // m, cell of the clustering: bridges gaps of 30 to 60 mm
 
 Points points_at(const Points& points, const std::vector<int>& indices) {
   Points result(indices.size());
@@ -54,7 +57,10 @@ std::vector<int> without_stray(const Points& points) {
     for (int other : cells) company[c] += grid.end(other) - grid.begin(other);
     companies.insert(companies.end(), grid.end(c) - grid.begin(c), company[c]);
   }
-  const int enough = std::max(3, geometry::median(companies) / 10);
+  // Of the points, as stray ones may have more cells than she has; but where most points are crowded on a
+  // little skin, as a mesh's vertices on a face, of the cells.
+  const int usual = std::min(geometry::median(companies), kCrowded * geometry::median(company));
+  const int enough = std::max(3, usual / 10);
   std::vector<int> kept;
   for (int c = 0; c < grid.cell_count(); ++c)
     if (company[c] >= enough)

@@ -275,6 +275,23 @@ TEST(ReconstructionSteps, AFingerKeepsItsThickness) {
   EXPECT_NEAR(sum, kRadius, 0.0002);
 }
 
+// As the vertices of a mesh that is fine in the face: all but that was taken for stray points.
+TEST(WithoutStray, PointsThatAreCrowdedOnALittleSkinAreNoMeasureForTheOthers) {
+  std::vector<Eigen::Vector3d> points;
+  const auto sheet = [&points](double size, double step) {
+    for (double x = 0; x < size; x += step)
+      for (double y = 0; y < size; y += step) points.emplace_back(x, y, 0);
+  };
+  sheet(0.5, 0.005);  // 10,000 points
+  const std::size_t sparse = points.size();
+  sheet(0.05, 0.0003);  // 28,000 on a hundredth of it
+  EXPECT_EQ(without_stray(points).size(), points.size());
+  points.emplace_back(0.2, 0.2, 0.3);  // alone
+  const std::vector<int> kept = without_stray(points);
+  EXPECT_EQ(kept.size(), points.size() - 1);
+  EXPECT_GT(points.size(), 3 * sparse);
+}
+
 TEST(WithoutStray, NoPointsAreNone) {
   EXPECT_TRUE(without_stray({}).empty());
 }
