@@ -169,8 +169,7 @@ std::string drift(const Comparison& comparison) {
   for (const auto& other : comparison.others) figures.insert(other.first);
   std::string text = fmt::format(
       "<h2>Against the other table</h2>\n<p>{} scans in common, {} in this table alone, {} in the other "
-      "alone; {} "
-      "with another status or reason, {} figures differ.</p>\n"
+      "alone; {} with another status or reason, {} figures differ.</p>\n"
       "<div class=wide><table><tr><th>figure<th>scans<th>mean of new - "
       "old<th>deviation<th>largest<th>row</tr>\n",
       comparison.common, comparison.added, comparison.gone, comparison.changes.size(), figures.size());

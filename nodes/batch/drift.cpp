@@ -73,7 +73,9 @@ Comparison compare(const Table& table, const std::string& file) {
   std::map<std::string, Sums> sums;
   std::set<std::string> met;
   for (const auto& [row, line] : table.lines) {
-    const auto found = before.find(line.value("subject", ""));
+    const std::string subject = line.value("subject", "");
+    if (subject.empty()) continue;  // a file that could not be read: as in the other table
+    const auto found = before.find(subject);
     if (found == before.end()) {
       ++result.added;
       continue;

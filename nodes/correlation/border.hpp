@@ -14,7 +14,8 @@ class Border {
  public:
   explicit Border(const geometry::TriangleMesh& mesh);
 
-  /// Whether a place of the mesh lies on it: the nearest place of what lies beside the surface does.
+  /// Whether a place of the mesh lies on it, as the nearest place to a point that is not above the surface
+  /// does.
   bool holds(const geometry::SurfacePoint& place) const;
 
  private:

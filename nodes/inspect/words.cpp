@@ -71,7 +71,8 @@ std::string centimetre_change(double metres) {
 }
 
 std::string centimetre_change(double from, double to) {
-  return centimetre_change((std::round(1e3 * to) - std::round(1e3 * from)) / 1e3);
+  const auto shown = [](double metres) { return std::stod(fmt::format("{:.1f}", 100 * metres)) / 100; };
+  return centimetre_change(shown(to) - shown(from));
 }
 
 }  // namespace tensegric_fit::inspect::words

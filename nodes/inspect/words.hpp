@@ -67,7 +67,7 @@ std::string pointed(ColourBy by, double value, const std::string& landmark, doub
 std::string measure(const std::string& name, const std::string& kind);
 /// In centimetres with a sign, and none where nothing is seen of it.
 std::string centimetre_change(double metres);
-/// Beside both of them to the millimetre: what is between those. Metres.
+/// The change between two lengths, each rounded to the millimetre as shown. Metres.
 std::string centimetre_change(double from, double to);
 
 }  // namespace tensegric_fit::inspect::words

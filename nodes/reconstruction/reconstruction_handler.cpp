@@ -6,15 +6,17 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
+#include <cmath>
 #include <set>
+#include <utility>
 
 #include "body_model/model_message.hpp"
 #include "body_model/parts.hpp"
 #include "body_model/registration.hpp"
+#include "geometry/percentile.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/scan_extent.hpp"
 #include "geometry/status.hpp"
-#include "geometry/triangle_mesh.hpp"
 #include "reconstruction/validate.hpp"
 #include "ros/body_messages.hpp"
 
@@ -73,17 +75,22 @@ std::vector<std::string> beside(const std::string& frame, const std::vector<std:
   return own;
 }
 
-/// \throw Refusal no_transform
-void check_near_origin(const geometry::TriangleMesh& body, const std::string& frame) {
-  const auto box = geometry::bounding_box(body.vertices);
-  const double farthest = std::max(box[0].cwiseAbs().maxCoeff(), box[1].cwiseAbs().maxCoeff());
-  if (farthest >= geometry::kFarthestFromOrigin)
-    throw geometry::Refusal(
-        geometry::refusal::kNoTransform,
-        fmt::format(
-            "she is {:.0f} km from the origin of frame '{}': the chain's messages are in single precision; "
-            "send scans in a frame of the booth",
-            farthest / 1000, frame));
+/// Before her surface is looked for: far away coordinates of single precision show none. \throw Refusal
+/// no_transform
+void check_near_origin(const std::vector<Eigen::Vector3d>& points, const std::string& frame) {
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (const Eigen::Vector3d& p : points)
+      if (std::isfinite(p[axis])) values.push_back(p[axis]);
+    const double middle = values.empty() ? 0 : std::abs(geometry::median(std::move(values)));
+    if (middle >= geometry::kFarthestFromOrigin)
+      throw geometry::Refusal(
+          geometry::refusal::kNoTransform,
+          fmt::format(
+              "the scan is {:.0f} km from the origin of frame '{}': the chain's messages are in single "
+              "precision; send scans in a frame of the booth",
+              middle / 1000, frame));
+  }
 }
 
 }  // namespace
@@ -139,10 +146,11 @@ ReconstructionHandler::Output ReconstructionHandler::handle(const sensor_msgs::P
                                                             const ScanTag& tag) const {
   pcl::PCLPointCloud2 cloud;
   pcl_conversions::toPCL(scan, cloud);
+  const geometry::PointCloud points = geometry::points_of(cloud);
+  check_near_origin(points.points, scan.header.frame_id);
   const auto result = std::make_shared<const reconstruction::Reconstruction>(
-      reconstruction::reconstruct(geometry::points_of(cloud), options_, anatomy_));
+      reconstruction::reconstruct(points, options_, anatomy_));
   const reconstruction::BodyMesh& body = result->body;
-  check_near_origin(body.mesh, scan.header.frame_id);
   const auto mesh = boost::make_shared<TriangleMesh>(node::to_message(tag, body.mesh, body.filled));
   for (const reconstruction::Hole& hole : body.holes) mesh->holes.push_back(to_message(hole));
   for (const geometry::Fracture& fracture : body.fractures)

@@ -108,7 +108,7 @@ std::vector<fs::path> exports_of(const fs::path& directory, const std::string& s
 }  // namespace
 
 void check_in_no_export(const std::string& directory) {
-  const fs::path place = fs::absolute(directory).lexically_normal();
+  const fs::path place = fs::weakly_canonical(fs::absolute(directory));  // it may go through links
   for (fs::path parent = place.parent_path(); parent != parent.parent_path(); parent = parent.parent_path())
     if (mark_in(parent))
       throw Refusal(geometry::refusal::kBadOption,

@@ -55,7 +55,7 @@ std::string row_of(const FitFigures& figures, const std::string& kind, const Cha
                        html_escaped(measure.before.name), name);
   return row({name + star(measure.before), centimetres(measure.before.metres),
               measure.after ? centimetres(*measure.after) : "",
-              measure.after ? inspect::words::centimetre_change(measure.change()) : ""});
+              measure.after ? inspect::words::centimetre_change(measure.before.metres, *measure.after) : ""});
 }
 
 std::string rows_of(const FitFigures& figures, const std::string& kind,
@@ -71,16 +71,18 @@ std::string first_rows(const FitFigures& figures) {
   for (const char* name : {"bust", "underbust"})
     for (const ChangedMeasure& measure : figures.girths)
       if (measure.before.name == name)
-        rows += row({html_escaped(inspect::words::measure(name, "girth")) + ", cm" + star(measure.before),
-                     centimetres(measure.before.metres), measure.after ? centimetres(*measure.after) : "",
-                     measure.after ? inspect::words::centimetre_change(measure.change()) : ""});
+        rows += row(
+            {html_escaped(inspect::words::measure(name, "girth")) + ", cm" + star(measure.before),
+             centimetres(measure.before.metres), measure.after ? centimetres(*measure.after) : "",
+             measure.after ? inspect::words::centimetre_change(measure.before.metres, *measure.after) : ""});
   for (const ChangedMeasure& measure : figures.heights)
     if (measure.before.name == "bust" && measure.after)
       rows += row({"lift of the bust, mm" + star(measure.before), "", "",
                    fmt::format("{:+.0f}", std::round(1e3 * (*measure.after - measure.before.metres)) + 0.0)});
   if (const auto& apart = figures.bust_points)
     rows += row({"bust points apart, cm" + star(apart->before), centimetres(apart->before.metres),
-                 centimetres(*apart->after), inspect::words::centimetre_change(apart->change())});
+                 centimetres(*apart->after),
+                 inspect::words::centimetre_change(apart->before.metres, *apart->after)});
   return rows;
 }
 

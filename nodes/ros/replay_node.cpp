@@ -96,8 +96,8 @@ int run(const Setup& setup) {
         fmt::format("the chain did not come up: nobody serves {}", fmt::join(missing, ", ")));
 
   int sent = 0, lost = 0;
-  // A bag does not say which of the messages of one time came first: the scan is of the label and the
-  // garment.
+  // A bag does not say which of the messages of one time came first: a scan belongs to the label and garment
+  // of its time.
   std::vector<rosbag::MessageInstance> scans;
   const auto send_scans = [&] {
     for (const rosbag::MessageInstance& message : scans) {

@@ -16,9 +16,25 @@ constexpr int kTicks = 200;                  // of the slider, for a ratio of 1:
 constexpr double kWholeCircumference = 300;  // cm
 constexpr int kShortestSlider = 200, kLongestName = 130;  // pixels
 
+/// Shows points, as all of the panel does, and takes a typed comma for one: in C's locale it would part
+/// thousands.
+class NumberBox : public QDoubleSpinBox {
+ public:
+  NumberBox() { setLocale(QLocale::c()); }
+  QValidator::State validate(QString& typed, int& place) const override {
+    QString text = typed;
+    text.replace(',', '.');
+    return QDoubleSpinBox::validate(text, place);
+  }
+  double valueFromText(const QString& typed) const override {
+    QString text = typed;
+    text.replace(',', '.');
+    return QDoubleSpinBox::valueFromText(text);
+  }
+};
+
 QDoubleSpinBox* box(const char* unit, double low, double high, double step) {
-  auto* made = new QDoubleSpinBox;
-  made->setLocale(QLocale::c());  // points, as on all of the panel: others take them for thousands
+  auto* made = new NumberBox;
   made->setSuffix(QString(" ") + unit);
   made->setDecimals(1);
   made->setRange(low, high);

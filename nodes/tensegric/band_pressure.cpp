@@ -34,13 +34,21 @@ double crowding(const Band& band, const std::vector<std::vector<Vector3d>>& thre
 }
 
 // The first point of a thread that is kChord of its way at rest from point i, ahead (1) or back (-1), or its
-// end.
-std::size_t apart(const Thread& thread, std::size_t i, int ahead) {
-  const auto last = static_cast<std::ptrdiff_t>(thread.points.size()) - 1;
-  auto at = static_cast<std::ptrdiff_t>(i);
-  for (double way = 0; way < kChord && (ahead > 0 ? at < last : at > 0); at += ahead)
-    way += (thread.points[at + ahead].rest - thread.points[at].rest).norm();
-  return static_cast<std::size_t>(at);
+// end; and the way from there to point i, at rest and as `at` has it.
+struct Apart {
+  std::size_t point;
+  double at_rest = 0, now = 0;
+};
+Apart apart(const Thread& thread, const std::vector<Vector3d>& at, std::size_t i, int ahead) {
+  Apart found{i};
+  const std::size_t end = ahead > 0 ? at.size() - 1 : 0;
+  while (found.at_rest < kChord && found.point != end) {
+    const std::size_t next = found.point + ahead;
+    found.at_rest += (thread.points[next].rest - thread.points[found.point].rest).norm();
+    found.now += (at[next] - at[found.point]).norm();
+    found.point = next;
+  }
+  return found;
 }
 
 }  // namespace
@@ -54,11 +62,12 @@ double largest_pressure(const Model& model, const Band& band, const Positions& x
     const std::vector<Vector3d>& at = threads[t];
     for (std::size_t i = 1; i + 1 < at.size(); ++i) {
       const Thread& thread = band.threads[t];
-      const Vector3d before = at[i] - at[apart(thread, i, -1)], after = at[apart(thread, i, 1)] - at[i];
-      const double span = (before.norm() + after.norm()) / 2;
-      if (std::min(before.norm(), after.norm()) < kChord / 2) continue;  // too near an end
-      const Vector3d bend = (after.normalized() - before.normalized()) / span;
-      const double curvature = bend.dot(inward(model, band.threads[t].points[i], x));
+      const Apart back = apart(thread, at, i, -1), ahead = apart(thread, at, i, 1);
+      if (std::min(back.at_rest, ahead.at_rest) < kChord / 2) continue;  // too near an end
+      const Vector3d before = at[i] - at[back.point], after = at[ahead.point] - at[i];
+      if (before.norm() == 0 || after.norm() == 0) continue;
+      const Vector3d bend = (after.normalized() - before.normalized()) / ((back.now + ahead.now) / 2);
+      const double curvature = bend.dot(inward(model, thread.points[i], x));
       largest = std::max(largest, crowding(band, threads, t, at[i]) * curvature);
     }
   }

@@ -392,8 +392,9 @@ Outcome find_balances(const Problem& problem, const std::vector<std::vector<int>
     all.status = std::max(all.status, part.status);
     all.iterations = part.iterations;
     all.residual = std::max(all.residual, part.residual);
-    if (!part.note.empty())
-      all.note += (all.note.empty() ? "" : " ") + ("In " + moving_regions(parts[p]) + ": " + part.note);
+    if (part.note.empty()) continue;
+    const std::string regions = moving_regions(parts[p]);
+    all.note += (all.note.empty() ? "" : " ") + (regions.empty() ? "" : "In " + regions + ": ") + part.note;
   }
   recorder.look_at({}, {});
   return all;
@@ -407,7 +408,7 @@ Outcome find_equilibrium(Problem& problem, const Solution* start, Recorder& reco
   const Outcome apart = find_balances(problem, separate, start, recorder);
   // Skin between two pieces may follow both, and turn over though it does under neither of them alone.
   if (apart.status > Status::infeasible || !skin_folds(problem, apart.state.x)) return apart;
-  return find_balance(problem, nullptr, recorder, apart.iterations);
+  return find_balance(problem, start, recorder, apart.iterations);
 }
 
 }  // namespace tensegric_fit::tensegric

@@ -16,29 +16,30 @@ HeardGarments::HeardGarments(const std::string& text) {
   std::istringstream words(text);
   std::string publisher;
   Message message{0, 0};
-  while (words >> publisher >> message.stamp >> message.checksum) last_[publisher] = message;
+  while (words >> publisher >> message.stamp >> message.checksum)
+    publishers_.push_back({publisher, message, false});
 }
 
 std::string HeardGarments::text() const {
   std::string text;
-  for (const auto& [publisher, message] : last_)
-    text += fmt::format("{} {} {} ", publisher, message.stamp, message.checksum);
+  for (const Publisher& publisher : publishers_)
+    text += fmt::format("{} {} {} ", publisher.name, publisher.last.stamp, publisher.last.checksum);
   return text;
 }
 
 bool HeardGarments::is_new(const std::string& publisher, const Message& message) {
   if (publisher.empty()) return true;
-  const bool was_heard = !in_this_life_.insert(publisher).second;
-  const auto [found, is_first] = last_.emplace(publisher, message);
-  if (!is_first && found->second.stamp == message.stamp && found->second.checksum == message.checksum &&
-      (message.stamp != 0 || !was_heard))
-    return false;
-  found->second = message;
-  if (last_.size() > kMost)
-    last_.erase(std::min_element(last_.begin(), last_.end(), [](const auto& a, const auto& b) {
-      return a.second.stamp < b.second.stamp;
-    }));
-  return true;
+  const auto known = std::find_if(publishers_.begin(), publishers_.end(),
+                                  [&publisher](const Publisher& p) { return p.name == publisher; });
+  bool is_again = false;
+  if (known != publishers_.end()) {
+    is_again = known->last.stamp == message.stamp && known->last.checksum == message.checksum &&
+               (message.stamp != 0 || (message.latched && !known->heard_in_this_life));
+    publishers_.erase(known);
+  }
+  publishers_.push_back({publisher, message, true});
+  if (publishers_.size() > kMost) publishers_.erase(publishers_.begin());
+  return !is_again;
 }
 
 }  // namespace tensegric_fit::node

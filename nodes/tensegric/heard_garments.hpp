@@ -3,9 +3,8 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <set>
 #include <string>
+#include <vector>
 
 namespace tensegric_fit::node {
 
@@ -16,20 +15,25 @@ class HeardGarments {
   explicit HeardGarments(const std::string& text = "");
   std::string text() const;
 
-  /// A garment message by its stamp, in ns, and its checksum_of().
+  /// A garment message by its stamp, in ns, and its checksum_of(); `latched`: by its publisher.
   struct Message {
     std::uint64_t stamp;
     std::uint64_t checksum;
+    bool latched = false;
   };
 
   /// False where it is this publisher's last message again: who changes a garment need not change its stamp.
-  /// Without a stamp it is that as the first message that is heard of the publisher in this life. Messages
-  /// without a publisher are always new.
+  /// A message without a stamp counts as that only if it is latched and the first from this publisher since
+  /// the node started. Messages without a publisher are always new.
   bool is_new(const std::string& publisher, const Message& message);
 
  private:
-  std::map<std::string, Message> last_;
-  std::set<std::string> in_this_life_;  // publishers that were heard
+  struct Publisher {
+    std::string name;
+    Message last;
+    bool heard_in_this_life;
+  };
+  std::vector<Publisher> publishers_;  // who was heard last comes last
 };
 
 }  // namespace tensegric_fit::node

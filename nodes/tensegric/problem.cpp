@@ -175,8 +175,9 @@ std::vector<std::vector<int>> separate_bands(const Problem& problem) {
   std::vector<std::vector<int>> separate;
   std::map<int, std::size_t> places;
   for (const int b : all) {
-    if (under[b].empty()) return {all};
-    const auto [place, first] = places.emplace(sets.root(under[b].front()), separate.size());
+    // A band that nothing can move joins nothing.
+    const int root = under[b].empty() ? -1 - b : sets.root(under[b].front());
+    const auto [place, first] = places.emplace(root, separate.size());
     if (first) separate.emplace_back();
     separate[place->second].push_back(b);
   }

@@ -57,7 +57,7 @@ std::string reach_note(const std::vector<LineResult>& lines, const Problem& prob
                                     : "its tension_limit lets it."));
       // An elastic one pulls by how long it is beyond its neutral length: of a shape on the way not by the
       // asked one.
-      if (!neutral.empty() && neutral[i] > line.neutral * (1 + kOnTheWay))
+      if (!neutral.empty() && line.tension > 0 && std::abs(neutral[i] / line.neutral - 1) > kOnTheWay)
         add_sentence(note, "Line " + line.name + " pulls as one with a neutral length of " +
                                millimetres(neutral[i]) + "; " + millimetres(line.neutral) +
                                " were asked for.");

@@ -146,8 +146,9 @@ GarmentRequest TensegricHandler::of_body(GarmentRequest request) const {
 }
 
 std::optional<TensegricHandler::Input> TensegricHandler::put_on(const Garment& garment,
-                                                                const std::string& publisher) {
-  if (!heard_.is_new(publisher, {garment.header.stamp.toNSec(), checksum_of(garment)})) return std::nullopt;
+                                                                const std::string& publisher, bool latched) {
+  if (!heard_.is_new(publisher, {garment.header.stamp.toNSec(), checksum_of(garment), latched}))
+    return std::nullopt;
   return wear(of_body(request_in(garment)));
 }
 

@@ -44,9 +44,10 @@ class TensegricHandler {
 
   /// A garment with lines by points is of the newest body: on the next the first garment takes its place, as
   /// it does of one that came unseen, before this control mesh, and names what this one lacks.
-  /// A message with a stamp that the same publisher sent last is one that it latched: nothing comes of it.
+  /// A message that the same publisher sent last is one that it latched (HeardGarments): nothing comes of it.
   /// \throw Refusal unknown_line, bad_garment, bad_option: the garment worn before stays
-  std::optional<Input> put_on(const Garment& garment, const std::string& publisher = "");
+  std::optional<Input> put_on(const Garment& garment, const std::string& publisher = "",
+                              bool latched = false);
   std::optional<Input> put_on(const SetGarment::Request& request);
   /// Back to the first garment, from the body at rest.
   std::optional<Input> reset();

@@ -67,8 +67,11 @@ class TensegricNode {
 
   void on_garment(const ros::MessageEvent<Garment const>& event) {
     if (event.getPublisherName() == ros::this_node::getName()) return;
+    const ros::M_string& connection = event.getConnectionHeader();
+    const auto latching = connection.find("latching");
+    const bool latched = latching != connection.end() && latching->second == "1";
     try {
-      put_on(handler_.put_on(*event.getMessage(), event.getPublisherName()));
+      put_on(handler_.put_on(*event.getMessage(), event.getPublisherName(), latched));
       announce();  // for late joiners: who asked for it may be gone by then
     } catch (const geometry::Refusal& refusal) {
       keep();                    // that it was heard

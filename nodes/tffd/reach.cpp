@@ -143,16 +143,21 @@ void add_anchor(int vertex, const Closest& closest, const geometry::ControlMesh&
 std::vector<int> surrounded(const geometry::TriangleMesh& body, const std::vector<Anchor>& anchors,
                             const std::map<int, Closest>& turned) {
   if (turned.empty()) return {};
-  std::vector<char> is_carried(body.vertices.size(), 0), goes_on(body.vertices.size(), 0);
+  std::vector<char> is_carried(body.vertices.size(), 0), goes_on(body.vertices.size(), 0),
+      is_beside(body.vertices.size(), 0);
   for (const Anchor& anchor : anchors) is_carried[anchor.vertex] = 1;
   geometry::DisjointSets pieces(body.vertices.size());  // of what is not carried
-  for (const geometry::Edge& edge : geometry::edges_of(body))
+  const std::vector<geometry::Edge> edges = geometry::edges_of(body);
+  for (const geometry::Edge& edge : edges)
     if (!is_carried[edge.first] && !is_carried[edge.second]) pieces.join(edge.first, edge.second);
+  for (const geometry::Edge& edge : edges)
+    if (is_carried[edge.first] != is_carried[edge.second])
+      is_beside[pieces.root(is_carried[edge.first] ? edge.second : edge.first)] = 1;
   for (int v = 0; v < static_cast<int>(body.vertices.size()); ++v)
     if (!is_carried[v] && turned.count(v) == 0) goes_on[pieces.root(v)] = 1;
   std::vector<int> inside;
   for (const auto& [v, closest] : turned)
-    if (!goes_on[pieces.root(v)]) inside.push_back(v);
+    if (is_beside[pieces.root(v)] && !goes_on[pieces.root(v)]) inside.push_back(v);
   return inside;
 }
 

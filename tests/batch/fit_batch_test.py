@@ -263,7 +263,7 @@ class FitBatch(unittest.TestCase):
         self.assertNotIn("<td>girths.waist</td>", drifted)
         self.assertIn("row 2: refused before, ok now", drifted)
         self.assertRegex(drifted, r"row \d+: refused \(other_reason\) before, refused \(\w+\) now")
-        self.assertIn("in this table alone, 1 in the other alone; 2 with another status or reason", drifted)
+        self.assertIn(" scans in common, 0 in this table alone, 1 in the other alone; 2 with another status or reason", drifted)
         self.assertIn("solver.status: another text in 1 scans, new in 0, gone in 0", drifted)
         self.assertIn("girths.hip: another text in 0 scans, new in 1, gone in 0", drifted)
         other.write_text("row,name\n1,woman\n")

@@ -163,6 +163,7 @@ TEST(CentimetreChange, IsThatOfWhatStandsBesideIt) {
   EXPECT_EQ(words::centimetre_change(0.2984, 0.2986), "+0.1");  // 29.8 and 29.9
   EXPECT_EQ(words::centimetre_change(1.2351, 1.2214), "-1.4");  // 123.5 and 122.1
   EXPECT_EQ(words::centimetre_change(0.8926, 0.8934), "0");     // 89.3 both
+  EXPECT_EQ(words::centimetre_change(0.8425, 0.85), "+0.8");    // printed as 84.2
 }
 
 }  // namespace

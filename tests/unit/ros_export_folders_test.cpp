@@ -168,7 +168,9 @@ TEST_F(ExportFolders, ExportsAreDeletedByScanAndNothingElseIs) {
 TEST_F(ExportFolders, AnExportInAnExportIsRefusedAndOneThatIsThereIsFound) {
   const std::string id = scan_.body->scan_id, other = "3.000000000-00000003";
   export_fit(fitted(other), root_ / "outer", kWhole);
-  for (const fs::path& place : {root_ / "outer" / "inner", root_ / "outer" / "2026" / "inner"}) {
+  fs::create_directory_symlink(root_ / "outer", root_ / "link");
+  for (const fs::path& place :
+       {root_ / "outer" / "inner", root_ / "outer" / "2026" / "inner", root_ / "link" / "inner"}) {
     try {
       export_fit(scan_, place, kWhole);
       FAIL() << place;

@@ -12,8 +12,6 @@
 #include "ros/body_messages.hpp"
 #include "tensegric/tensegric_handler.hpp"
 #include "tffd/tffd_handler.hpp"
-#include "virtual_booth/random_body.hpp"
-#include "virtual_booth/virtual_scanner.hpp"
 
 namespace tensegric_fit::node {
 namespace {
@@ -69,40 +67,45 @@ TEST(ReconstructionHandler, WhatTheChainItselfPublishesOnTfIsNotKnown) {
 }
 
 TEST(ReconstructionHandler, FarFromTheOriginAScanIsRefusedByName) {
-  virtual_booth::ScannerOptions booth;
-  booth.points = 20000;
-  const auto scan =
-      virtual_booth::scan_body(virtual_booth::random_customer(virtual_booth::Family::model, 1).mesh, booth);
   const ReconstructionHandler handler(parameters("{}"));
-  const auto sent = [&](double away) {
+  for (const bool is_double : {true, false}) {
     sensor_msgs::PointCloud2 cloud;
     cloud.header.frame_id = "map";
     cloud.height = 1;
+    const std::uint32_t size = is_double ? 8 : 4;
     for (const char* name : {"x", "y", "z"}) {
       sensor_msgs::PointField field;
       field.name = name;
-      field.offset = static_cast<std::uint32_t>(8 * cloud.fields.size());
-      field.datatype = sensor_msgs::PointField::FLOAT64;
+      field.offset = size * static_cast<std::uint32_t>(cloud.fields.size());
+      field.datatype = is_double ? sensor_msgs::PointField::FLOAT64 : sensor_msgs::PointField::FLOAT32;
       field.count = 1;
       cloud.fields.push_back(field);
     }
-    cloud.point_step = 24;
-    for (const Eigen::Vector3d& p : scan.cloud.points) {
-      const Eigen::Vector3d q = p + Eigen::Vector3d(0, away, 0);
-      const auto* bytes = reinterpret_cast<const std::uint8_t*>(q.data());
-      cloud.data.insert(cloud.data.end(), bytes, bytes + 24);
+    cloud.point_step = 3 * size;
+    const auto add = [&](auto x, auto y, auto z) {
+      for (const auto value : {x, y, z}) {
+        const auto* bytes = reinterpret_cast<const std::uint8_t*>(&value);
+        cloud.data.insert(cloud.data.end(), bytes, bytes + size);
+      }
       ++cloud.width;
+    };
+    for (int i = 0; i < 20000; ++i) {  // as of UTM
+      const double angle = 0.1 * i, x = 4e5 + 0.2 * std::cos(angle), y = 5e6 + 0.1 * std::sin(angle),
+                   z = 8.5e-5 * i;
+      if (is_double)
+        add(x, y, z);
+      else
+        add(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
     }
     cloud.row_step = cloud.width * cloud.point_step;
-    return cloud;
-  };
-  try {
-    handler.handle(sent(5e6), {});
-    FAIL() << "her measures would be of coordinates half a metre apart";
-  } catch (const geometry::Refusal& refusal) {
-    EXPECT_EQ(refusal.code(), std::string(geometry::refusal::kNoTransform)) << refusal.what();
-    EXPECT_NE(std::string(refusal.what()).find("5000 km from the origin of frame 'map'"), std::string::npos)
-        << refusal.what();
+    try {
+      handler.handle(cloud, {});
+      FAIL() << "her measures would be of coordinates half a metre apart";
+    } catch (const geometry::Refusal& refusal) {
+      EXPECT_EQ(refusal.code(), std::string(geometry::refusal::kNoTransform)) << refusal.what();
+      EXPECT_NE(std::string(refusal.what()).find("400 km from the origin of frame 'map'"), std::string::npos)
+          << refusal.what();
+    }
   }
 }
 

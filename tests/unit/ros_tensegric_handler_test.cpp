@@ -410,22 +410,38 @@ TEST_F(TensegricHandlerTest, ALatchedGarmentThatIsDeliveredAgainDoesNotComeBack)
 
 TEST_F(TensegricHandlerTest, ALatchedGarmentWithoutAStampDoesNotComeBackEither) {
   TensegricHandler stage = handler("garment: B2");
-  stage.put_on(chest_at(0.9), "/shop");
-  stage.put_on(chest_at(0.9), "/shop");  // once more, and meant
   SetGarment::Request request;
   request.garment = chest_at(0.8);
+  const auto ratio = [](const TensegricHandler& of) { return of.worn().garment.lines.at(0).ratio; };
+  stage.put_on(chest_at(0.9), "/shop", true);
   stage.put_on(request);
-  TensegricHandler again =
+  stage.put_on(chest_at(0.9), "/shop", true);  // once more, and meant
+  EXPECT_EQ(ratio(stage), 0.9);
+  stage.put_on(request);
+  for (const bool latched : {true, false}) {
+    TensegricHandler again =
+        handler("garment: B2, worn: '" + stage.kept() + "', heard: '" + stage.heard() + "'");
+    again.put_on(chest_at(0.9), "/shop", latched);
+    EXPECT_EQ(ratio(again), latched ? 0.8 : 0.9) << "what is latched is delivered again";
+    again.put_on(request);
+    again.put_on(chest_at(0.9), "/shop", latched);  // somebody wants it
+    EXPECT_EQ(ratio(again), 0.9);
+  }
+  TensegricHandler other =
       handler("garment: B2, worn: '" + stage.kept() + "', heard: '" + stage.heard() + "'");
-  again.put_on(chest_at(0.9), "/shop");  // delivered again
-  EXPECT_EQ(again.worn().garment.lines.at(0).ratio, 0.8);
-  again.put_on(chest_at(0.9), "/shop");  // somebody wants it
-  EXPECT_EQ(again.worn().garment.lines.at(0).ratio, 0.9);
-  again.put_on(request);
-  TensegricHandler third =
-      handler("garment: B2, worn: '" + again.kept() + "', heard: '" + again.heard() + "'");
-  third.put_on(chest_at(0.7), "/shop");  // another one is
-  EXPECT_EQ(third.worn().garment.lines.at(0).ratio, 0.7);
+  other.put_on(chest_at(0.7), "/shop", true);
+  EXPECT_EQ(ratio(other), 0.7);
+}
+
+TEST(HeardGarments, WhoWasHeardLastIsRemembered) {
+  HeardGarments heard;
+  for (int i = 0; i < 100; ++i)
+    heard.is_new("/anonymous_" + std::to_string(i), {static_cast<std::uint64_t>(100 - i), 7});
+  heard.is_new("/shop", {0, 5, true});
+  HeardGarments later(heard.text());
+  EXPECT_FALSE(later.is_new("/shop", {0, 5, true}));
+  EXPECT_FALSE(later.is_new("/anonymous_99", {1, 7}));
+  EXPECT_TRUE(later.is_new("/anonymous_0", {100, 7})) << "of 64 the last";
 }
 
 TEST_F(TensegricHandlerTest, AGarmentThatIsChangedUnderItsStampIsWorn) {

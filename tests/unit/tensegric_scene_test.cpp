@@ -123,6 +123,30 @@ TEST(Pieces, OneThatIsTooTightLeavesTheOtherAsAsked) {
   EXPECT_LE(depth_of(control, "lower_bust_point_L", s.outer), most);
 }
 
+// As one between two points of the rim.
+TEST(Pieces, ALineThatNothingCanMoveJoinsNothing) {
+  const geometry::ControlMesh control = two_pieces();
+  const Model model = build_model(control, {});
+  Garment both = chest(0.92);
+  both.lines.push_back(chest(0.88, "belt").lines[0]);
+  const Solution without = solve(model, both, {});
+  GarmentLine held;
+  held.name = "held";
+  held.ratio = 0.95;
+  held.points = {{0, 0, 1}, {0.1, 0, 1}};
+  both.lines.push_back(held);
+  geometry::LaidLine laid;
+  geometry::Fibre fibre{1, {{held.points[0], {}}, {held.points[1], {}}}};
+  laid.fibres = {fibre};
+  laid.name = held.name;
+  const Solution s = solve(model, both, {}, nullptr, {}, {}, {laid});
+  EXPECT_EQ(s.status, Status::infeasible) << s.note;
+  EXPECT_EQ(s.outer, without.outer);
+  EXPECT_EQ(s.note.find("In :"), std::string::npos) << s.note;
+  ASSERT_EQ(s.lines.size(), 3U);
+  EXPECT_NEAR(s.lines[2].straight, 0.1, 1e-12);
+}
+
 TEST(Pieces, SkinThatFollowsBothGoesBackWithBoth) {
   const geometry::ControlMesh control = two_pieces();
   const Model model = build_model(control, {});
