@@ -29,6 +29,7 @@ std::optional<Mark> mark_in(const fs::path& folder) {
   if (fs::symlink_status(folder).type() != fs::file_type::directory) return std::nullopt;
   for (const char* name : {kFitDocument, kSealedDocument}) {
     const fs::path file = folder / name;
+    if (fs::symlink_status(file).type() == fs::file_type::not_found) continue;
     const std::optional<std::string> text = files::bytes_of_plain_file(file, kLargestDocument);
     if (!text && fs::symlink_status(file).type() == fs::file_type::regular &&
         fs::file_size(file) <= kLargestDocument)
