@@ -44,6 +44,14 @@ std::string row(const std::vector<std::string>& cells) {
   return html + "</tr>\n";
 }
 
+/// Centimetres before and after, and the change where both are known.
+std::string changed_row(const std::string& name, const ChangedMeasure& measure) {
+  const double before = measure.before.metres;
+  if (!measure.after) return row({name + star(measure.before), centimetres(before), "", ""});
+  return row({name + star(measure.before), centimetres(before), centimetres(*measure.after),
+              inspect::words::centimetre_change(before, *measure.after)});
+}
+
 /// `name` is a button that shows where a girth's tape runs, where its tape is known; view.js enables it.
 std::string row_of(const FitFigures& figures, const std::string& kind, const ChangedMeasure& measure) {
   std::string name = html_escaped(inspect::words::measure(measure.before.name, kind));
@@ -53,9 +61,7 @@ std::string row_of(const FitFigures& figures, const std::string& kind, const Cha
       }))
     name = fmt::format("<button data-loop=\"{}\" aria-pressed=\"false\" disabled>{}</button>",
                        html_escaped(measure.before.name), name);
-  return row({name + star(measure.before), centimetres(measure.before.metres),
-              measure.after ? centimetres(*measure.after) : "",
-              measure.after ? inspect::words::centimetre_change(measure.before.metres, *measure.after) : ""});
+  return changed_row(name, measure);
 }
 
 std::string rows_of(const FitFigures& figures, const std::string& kind,
@@ -71,18 +77,12 @@ std::string first_rows(const FitFigures& figures) {
   for (const char* name : {"bust", "underbust"})
     for (const ChangedMeasure& measure : figures.girths)
       if (measure.before.name == name)
-        rows += row(
-            {html_escaped(inspect::words::measure(name, "girth")) + ", cm" + star(measure.before),
-             centimetres(measure.before.metres), measure.after ? centimetres(*measure.after) : "",
-             measure.after ? inspect::words::centimetre_change(measure.before.metres, *measure.after) : ""});
+        rows += changed_row(html_escaped(inspect::words::measure(name, "girth")) + ", cm", measure);
   for (const ChangedMeasure& measure : figures.heights)
     if (measure.before.name == "bust" && measure.after)
       rows += row({"lift of the bust, mm" + star(measure.before), "", "",
                    fmt::format("{:+.0f}", std::round(1e3 * (*measure.after - measure.before.metres)) + 0.0)});
-  if (const auto& apart = figures.bust_points)
-    rows += row({"bust points apart, cm" + star(apart->before), centimetres(apart->before.metres),
-                 centimetres(*apart->after),
-                 inspect::words::centimetre_change(apart->before.metres, *apart->after)});
+  if (const auto& apart = figures.bust_points) rows += changed_row("bust points apart, cm", *apart);
   return rows;
 }
 

@@ -22,6 +22,12 @@ geometry::ControlMesh two_pieces() {
   return geometry::joined({upper, lower});
 }
 
+Garment on_both(double chest_ratio, double belt_ratio) {
+  Garment both = chest(chest_ratio);
+  both.lines.push_back(chest(belt_ratio, "belt").lines[0]);
+  return both;
+}
+
 bool same_bits(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b, std::size_t from,
                std::size_t to) {
   return std::memcmp(a.data() + from, b.data() + from, (to - from) * sizeof(Eigen::Vector3d)) == 0;
@@ -61,8 +67,7 @@ TEST(Pieces, AreLeftAloneWhereNoLineTouchesThem) {
 
 TEST(Pieces, WornTogetherEachKeepsItsVolume) {
   const Model model = build_model(two_pieces(), {});
-  Garment both = chest(0.92);
-  both.lines.push_back(chest(0.88, "belt").lines[0]);
+  Garment both = on_both(0.92, 0.88);
   const Solution s = solve(model, both, {});
   EXPECT_EQ(s.status, Status::converged) << s.note;
   for (const RegionResult& r : s.regions) EXPECT_NEAR(r.volume_after / r.volume_before, 1, 1e-9);
@@ -108,8 +113,7 @@ double depth_of(const geometry::ControlMesh& control, const std::string& name,
 TEST(Pieces, OneThatIsTooTightLeavesTheOtherAsAsked) {
   const geometry::ControlMesh control = two_pieces();
   const Model model = build_model(control, {});
-  Garment both = chest(0.92);
-  both.lines.push_back(chest(0.85, "belt").lines[0]);
+  Garment both = on_both(0.92, 0.85);
   const Solution smooth = solve(model, both, {});
   const double most = 0.6 * depth_of(control, "lower_bust_point_L", smooth.outer);
   const SkinFolds folds = [&](const auto& outer, const auto&) {
@@ -127,8 +131,7 @@ TEST(Pieces, OneThatIsTooTightLeavesTheOtherAsAsked) {
 TEST(Pieces, ALineThatNothingCanMoveJoinsNothing) {
   const geometry::ControlMesh control = two_pieces();
   const Model model = build_model(control, {});
-  Garment both = chest(0.92);
-  both.lines.push_back(chest(0.88, "belt").lines[0]);
+  Garment both = on_both(0.92, 0.88);
   const Solution without = solve(model, both, {});
   GarmentLine held;
   held.name = "held";
@@ -150,8 +153,7 @@ TEST(Pieces, ALineThatNothingCanMoveJoinsNothing) {
 TEST(Pieces, SkinThatFollowsBothGoesBackWithBoth) {
   const geometry::ControlMesh control = two_pieces();
   const Model model = build_model(control, {});
-  Garment both = chest(0.92);
-  both.lines.push_back(chest(0.92, "belt").lines[0]);
+  Garment both = on_both(0.92, 0.92);
   const Solution smooth = solve(model, both, {});
   const auto sum = [&](const std::vector<Eigen::Vector3d>& outer) {
     return depth_of(control, "bust_point_L", outer) + depth_of(control, "lower_bust_point_L", outer);
