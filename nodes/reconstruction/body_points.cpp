@@ -13,7 +13,7 @@ using Points = std::vector<Eigen::Vector3d>;
 
 constexpr double kNeighbourhood = 0.01;  // m, cell in which a point should have company
 // Times as many points near most points as in most cells: F0's, F2's and two training scans have 1.1 to 2.6,
-// the vertices of F0's and F1's meshes, which are fine in the face, 20. Nothing else was tried.
+// the vertices of F0's and F1's meshes, which are fine in the face, 20. With 2 those meshes do as well.
 constexpr int kCrowded = 4;
 constexpr double kLink = 0.03;  // m, cell of the clustering: bridges gaps of 30 to 60 mm
 
