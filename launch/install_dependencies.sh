@@ -7,7 +7,7 @@ left_out=''
 [ "${TARGET:-all}" != product ] || left_out='/<\(test\|doc\)_depend>/{/configure/!d};'
 mapfile -t packages < <(sed -n "$left_out"'s/.*<!-- deb: \(.*\) -->.*/\1/p' "$root/package.xml" | tr ' ' '\n' | sort -u)
 
-mapfile -t missing < <(comm -13 <(dpkg-query -W -f '${db:Status-Abbrev} ${Package}\n' "${packages[@]}" 2>/dev/null | sed -n 's/^ii  *//p' | sort -u) \
+mapfile -t missing < <(comm -13 <(dpkg-query -W -f '${db:Status-Abbrev} ${Package}\n' "${packages[@]}" 2>/dev/null | sed -n 's/^.i  *//p' | sort -u) \
   <(printf '%s\n' "${packages[@]}"))
 [ "${#missing[@]}" -eq 0 ] && exit 0
 

@@ -32,7 +32,13 @@ class ExitCodes(unittest.TestCase):
 
     def test_no_number(self):
         for words in (("fit_batch", __file__, "--out", "nowhere", "--memory", "nan"), ("fit_batch", __file__, "--out", "nowhere", "--time", "nan"),
-                      ("fit_batch", __file__, "--out", "nowhere", "--time", "inf"), ("fit", "--mesh", "a.ply", "--garment", "B1", "--twist", "nan")):
+                      ("fit_batch", __file__, "--out", "nowhere", "--time", "inf"), ("fit", "--mesh", "a.ply", "--garment", "B1", "--twist", "nan"),
+                      ("correlate", "--fit", ".", "--worn", "a.ply", "--thickness", "nan")):
+            with self.subTest(words=words):
+                self.assertEqual(code_of(*words), 2)
+
+    def test_options_that_act_on_nothing(self):
+        for words in (("virtual_booth", "--shape", "torus", "--seed", "3"), ("virtual_booth", "--shape", "torus", "--sensors")):
             with self.subTest(words=words):
                 self.assertEqual(code_of(*words), 2)
 
@@ -49,6 +55,18 @@ class ExitCodes(unittest.TestCase):
                 (pathlib.Path(export) / document).write_text("{}", encoding="utf-8")
                 self.assertEqual(code_of("history", export, "--customer", "4711", "--out", page), 2)
                 self.assertFalse(page.exists())
+
+    def test_results_in_an_export(self):
+        for document in ("fit", "sealed"):
+            with self.subTest(document), tempfile.TemporaryDirectory() as export:
+                (pathlib.Path(export) / f"{document}.json").write_text(f'{{"format": "tensegric_fit/{document}"}}', encoding="utf-8")
+                for folder in (".", "below", "far/below"):
+                    self.assertEqual(code_of("fit", "--mesh", __file__, "--out", pathlib.Path(export) / folder), 2)
+
+    def test_a_document_of_another_program_above(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "fit.json").write_text('{"format": "another program\'s"}', encoding="utf-8")
+            self.assertEqual(code_of("fit", "--mesh", __file__, "--out", pathlib.Path(folder) / "below"), 3)
 
     def test_what_nobody_foresaw(self):
         self.assertEqual(code_of("forget", "scan", "__name:=a/b"), 3)  # no name of a node

@@ -65,7 +65,9 @@ bool CaptureJoin::has_left(int sensor, std::uint64_t stamp, double now, Fate& fa
     const auto& sent = left.capture.clouds[sensor];
     fate = sent && sent->stamp == stamp ? Fate::played : Fate::late;
     if (fate == Fate::played || (left.enough && stamp <= left.capture.last)) return true;
-    if (!sent && fits(left.capture, stamp) && (left.enough || now - left.at < timeout_)) return true;
+    const bool waits =
+        !left.capture.is_stray && now - left.at < timeout_;  // no other sensor's belong to a stray
+    if (!sent && fits(left.capture, stamp) && (left.enough || waits)) return true;
   }
   return false;
 }

@@ -24,7 +24,8 @@ std::optional<int> parse(int argc, char** argv, CorrelateLine& line) {
       ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}));
   app.add_option("--thickness", line.options.thickness,
                  "Of the garment, metres: what its outside stands off the skin that it covers")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(number_in(correlation::kThickness.low, correlation::kThickness.high));
   app.add_option("--body-triangles", line.settings.reconstruction.body_triangles,
                  "Triangles of the worn body's mesh")
       ->capture_default_str()

@@ -69,8 +69,8 @@ int run_into_folder(const ProgramRun& run) {
     fmt::print(stderr, "--out: the results would overwrite the input {}\n", *input);
     return 2;
   }
-  if (is_export(run.out)) {
-    fmt::print(stderr, "--out: {} is an export, which takes no other files\n", run.out);
+  if (lies_in_export(run.out)) {
+    fmt::print(stderr, "--out: {} is an export or lies in one, which takes no other files\n", run.out);
     return 2;
   }
   try {

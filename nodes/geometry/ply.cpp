@@ -27,6 +27,14 @@ void read_ply(const std::string& path, pcl::PolygonMesh& mesh) {
   } catch (const std::exception&) {
   }
   if (result < 0) throw Refusal(refusal::kBrokenFile, path + ": is truncated or is not a PLY file");
+  // PCL takes the size of a camera's picture, as MeshLab writes it, for the cloud's.
+  pcl::PCLPointCloud2& cloud = mesh.cloud;
+  if (cloud.point_step > 0 &&
+      std::size_t{cloud.width} * cloud.height * cloud.point_step != cloud.data.size()) {
+    cloud.width = static_cast<std::uint32_t>(cloud.data.size() / cloud.point_step);
+    cloud.height = 1;
+    cloud.row_step = cloud.width * cloud.point_step;
+  }
 }
 
 TriangleMesh read_ply_faces(const std::string& path) {

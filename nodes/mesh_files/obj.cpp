@@ -12,8 +12,8 @@ namespace {
 namespace refusal = geometry::refusal;
 using geometry::Refusal;
 
-/// Words of a file, line by line; after a backslash at its end a line continues on the next. A comment does
-/// not: the path that it names may end in one.
+/// Words of a file, line by line; after a backslash at its end a line of numbers continues on the next.
+/// Others do not: the path that a comment or a library names may end in one.
 class Lines {
  public:
   explicit Lines(std::string_view text) : rest_(text) {}
@@ -21,9 +21,9 @@ class Lines {
   bool next() {
     if (rest_.empty()) return false;
     const std::size_t first = rest_.find_first_not_of(" \t\r");
-    const bool is_comment = first != std::string_view::npos && rest_[first] == '#';
+    const bool is_numbers = first != std::string_view::npos && (rest_[first] == 'v' || rest_[first] == 'f');
     std::size_t end = rest_.find('\n');
-    while (!is_comment && end != std::string_view::npos && end > 0 &&
+    while (is_numbers && end != std::string_view::npos && end > 0 &&
            (rest_[end - 1] == '\\' || (end > 1 && rest_[end - 1] == '\r' && rest_[end - 2] == '\\')))
       end = rest_.find('\n', end + 1);
     line_ = rest_.substr(0, end);

@@ -75,6 +75,21 @@ void check_against(std::size_t most_vertices, std::size_t vertices, std::size_t 
                                              " vertices or " + in_words(kMostTriangles) + " triangles");
 }
 
+/// "0,12 1,5 0,7": three numbers with a comma each and blanks between them.
+bool has_decimal_commas(std::string_view line) {
+  constexpr std::string_view kBetween = " \t\r;";
+  for (int axis = 0; axis < 3; ++axis) {
+    line = line.substr(std::min(line.find_first_not_of(kBetween), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(kBetween));
+    const std::size_t comma = word.find(',');
+    if (comma == 0 || comma == std::string_view::npos || comma + 1 == word.size() ||
+        word.find(',', comma + 1) != std::string_view::npos)
+      return false;
+    line = line.substr(word.size());
+  }
+  return true;
+}
+
 }  // namespace
 
 TriangleMesh tidy(TriangleMesh mesh) {
@@ -130,11 +145,16 @@ std::vector<Eigen::Vector3d> read_xyz(const std::string& path) {
   const std::string bytes = bytes_of(path);
   const std::string_view text = without_mark(bytes);
   std::vector<Eigen::Vector3d> points;
-  std::size_t number = 0;
-  for (std::size_t start = 0; start < text.size(); ++number) {
+  std::size_t number = 0, without = 0;  // lines; the first one that has no point
+  const auto refuse = [&path](std::size_t line, const char* why) {
+    throw Refusal(refusal::kBrokenFile, path + ": line " + std::to_string(line) + why);
+  };
+  for (std::size_t start = 0; start < text.size();) {
+    ++number;
     const std::size_t end = std::min(text.find('\n', start), text.size());
     std::string_view line = text.substr(start, end - start);
     start = end + 1;
+    if (has_decimal_commas(line)) refuse(number, " has commas in its numbers: write points");
     Eigen::Vector3d p;
     int axis = 0;
     bool is_empty = true;
@@ -149,10 +169,13 @@ std::vector<Eigen::Vector3d> read_xyz(const std::string& path) {
     }
     if (axis == 3)
       points.push_back(p);
-    else if (!is_empty && number > 0)
-      throw Refusal(refusal::kBrokenFile, path + ": line " + std::to_string(number + 1) + " has no x y z");
+    else if (!is_empty && !points.empty())  // lines before the first point are a header
+      refuse(number, " has no x y z");
+    else if (!is_empty && without == 0)
+      without = number;
     check_count(points.size(), 0, path);
   }
+  if (points.empty() && without > 0 && number > 1) refuse(without, " has no x y z");
   return points;
 }
 

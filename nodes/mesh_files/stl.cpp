@@ -1,7 +1,9 @@
 // STL, binary and ASCII. The file's length says which: binary files often begin with "solid", too. Each facet
 // has three corners of its own, which read_mesh() joins and counts then: here the facets are counted.
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <string_view>
 
 #include "geometry/status.hpp"
@@ -54,6 +56,8 @@ geometry::TriangleMesh ascii(std::string_view rest, const std::string& path) {
   mesh.triangles.reserve(most / 3);
   int corners = 0;
   for (std::string_view w = word(); !w.empty(); w = word()) {
+    if (w == "solid" || w == "endsolid")
+      rest = rest.substr(std::min(rest.find('\n'), rest.size()));  // a name
     if (w == "endfacet" && corners != 3) throw broken;
     if (w == "facet") corners = 0;
     if (w != kCorner) continue;
@@ -80,9 +84,13 @@ geometry::TriangleMesh stl_mesh(const std::string& bytes, const std::string& pat
     std::memcpy(&count, bytes.data() + 80, sizeof count);
     if (bytes.size() == kHeader + kFacet * static_cast<std::size_t>(count)) return binary(bytes, count, path);
   }
-  const bool says_ascii = bytes.compare(0, 5, "solid") == 0;
-  const bool is_text = bytes.find('\0') == std::string::npos;
-  if (says_ascii && is_text) return ascii(bytes, path);
+  std::string text(without_mark(bytes));
+  text.erase(0, std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
+  const bool says_ascii = text.compare(0, 5, "solid") == 0;
+  const bool is_text = text.find('\0') == std::string::npos;
+  if (says_ascii && is_text) return ascii(text, path);
   throw Refusal(
       refusal::kBrokenFile,
       path + (says_ascii ? ": says that it is ASCII STL and is binary, of another length than it says"

@@ -95,14 +95,13 @@ void check_near_origin(const std::vector<Eigen::Vector3d>& points, const std::st
 
 }  // namespace
 
-std::vector<std::string> frames_of_others(const std::string& transforms) {
-  constexpr char kLandmarks[] = "landmarks";  // the node's name, in any namespace
+std::vector<std::string> frames_of_others(const std::string& transforms, const std::string& body_frame) {
   std::set<std::string> frames;
   try {
     for (const auto& frame : YAML::Load(transforms)) {
-      const std::string from = frame.second["broadcaster"].as<std::string>();
-      if (from.substr(from.rfind('/') + 1) == kLandmarks) continue;
-      frames.insert(frame.first.as<std::string>());
+      const auto name = frame.first.as<std::string>();  // who broadcasts it a tf2 listener does not know
+      if (name == body_frame) continue;
+      frames.insert(name);
       frames.insert(frame.second["parent"].as<std::string>());
     }
   } catch (const YAML::Exception&) {

@@ -21,10 +21,10 @@ reconstruction::Options reconstruction_options(Parameters& parameters);
 /// The shipped body model, loaded now. \throw Refusal broken_file
 reconstruction::Anatomy shipped_anatomy();
 
-/// The frames that tf knows from others than this chain, whose landmarks publish each scan's own frame:
-/// `transforms` as tf2 lists them (tf2::BufferCore::allFramesAsYAML). None where that is no YAML, as with odd
-/// names.
-std::vector<std::string> frames_of_others(const std::string& transforms);
+/// The frames that tf knows from others than this chain, whose landmarks publish where `body_frame` stands in
+/// each scan's own frame: `transforms` as tf2 lists them (tf2::BufferCore::allFramesAsYAML). None where that
+/// is no YAML, as with odd names.
+std::vector<std::string> frames_of_others(const std::string& transforms, const std::string& body_frame);
 
 /// What a scan's header lacks, named (`no_stamp`, `no_frame`, `unknown_frame`), with what to do about it; ""
 /// where nothing. `known`: frames of tf; of a booth that has none of its own in there nothing is said. The

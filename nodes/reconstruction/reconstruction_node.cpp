@@ -15,6 +15,7 @@ class ReconstructionNode {
  public:
   ReconstructionNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
       : handler_(Parameters(private_node)),
+        body_frame_(Parameters(ros::NodeHandle(node, "landmarks")).frame("body_frame", "body")),
         model_(node.advertise<BodyModel>("body/model", 1, true)),
         mesh_(node.advertise<TriangleMesh>("body/mesh", 1, true)),
         display_(private_node),
@@ -29,7 +30,8 @@ class ReconstructionNode {
     stage_.begin(tag.scan_id);
     stage_.post(tag.scan_id, [this, scan, tag]() -> Stage::Result {
       const auto output = handler_.handle(*scan, tag);
-      const std::string lacks = lacks_of(scan->header, frames_of_others(transforms_.allFramesAsYAML())),
+      const std::string lacks = lacks_of(scan->header,
+                                         frames_of_others(transforms_.allFramesAsYAML(), body_frame_)),
                         company = company_of(output.result->model);
       return {[this, output] {
                 model_.publish(output.model);
@@ -57,6 +59,7 @@ class ReconstructionNode {
   }
 
   const ReconstructionHandler handler_;
+  const std::string body_frame_;  // that of landmarks
   ros::Publisher model_, mesh_;
   Display display_;
   tf2_ros::Buffer transforms_;

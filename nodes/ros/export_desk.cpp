@@ -106,8 +106,13 @@ bool ExportDesk::on_export(ExportFit::Request& request, ExportFit::Response& res
 bool ExportDesk::on_delete(DeleteExport::Request& request, DeleteExport::Response& response) {
   response.deleted = answered(response, [&] {
     std::vector<geometry::Refusal> left;
-    response.folders = delete_exports(request.directory, request.scan_id, left);
+    response.folders = delete_exports(request.directory, request.scan_id, left).exports;
     if (!left.empty()) throw left.front();
+    if (response.folders.empty())
+      throw geometry::Refusal(
+          geometry::refusal::kNothingYet,
+          fmt::format("no export of scan {} in '{}'; rests of others that were cut off are gone",
+                      request.scan_id, request.directory));
     response.message = fmt::format("deleted {} exports of scan {}", response.folders.size(), request.scan_id);
   });
   return true;

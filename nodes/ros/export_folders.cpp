@@ -67,10 +67,10 @@ bool is_rest_of_an_export(const fs::path& folder) {
 }
 
 /// Calls `take(folder, mark)` for each export in the folder, at any depth, those in an export first; links
-/// are not followed. Rests of exports are deleted, whosever they are, and named in `gone`. `left`: what
-/// cannot be looked at.
-template <typename Take>
-void for_each_export(const fs::path& directory, std::vector<std::string>& gone, std::vector<Refusal>& left,
+/// are not followed. Rests of exports are deleted, whosever they are, and go to `take_rest(folder, mark)`,
+/// whose mark may be gone. `left`: what cannot be looked at.
+template <typename TakeRest, typename Take>
+void for_each_export(const fs::path& directory, const TakeRest& take_rest, std::vector<Refusal>& left,
                      const Take& take) {
   std::vector<fs::path> entries;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory)) entries.push_back(entry.path());
@@ -78,12 +78,12 @@ void for_each_export(const fs::path& directory, std::vector<std::string>& gone, 
   for (const fs::path& entry : entries) {
     try {
       if (fs::symlink_status(entry).type() != fs::file_type::directory) continue;
+      const std::optional<Mark> mark = mark_in(entry);
       if (is_rest_of_an_export(entry)) {
         files::delete_whole_folder(entry);
-        gone.push_back(entry);
+        take_rest(entry, mark);
       } else {
-        const std::optional<Mark> mark = mark_in(entry);
-        for_each_export(entry, gone, left, take);
+        for_each_export(entry, take_rest, left, take);
         if (mark) take(entry, *mark);
       }
     } catch (const Refusal& refusal) {
@@ -95,11 +95,14 @@ void for_each_export(const fs::path& directory, std::vector<std::string>& gone, 
   }
 }
 
-std::vector<fs::path> exports_of(const fs::path& directory, const std::string& scan_id,
-                                 std::vector<std::string>& gone, std::vector<Refusal>& left) {
+std::vector<fs::path> exports_of(const fs::path& directory, const std::string& scan_id, DeletedExports& gone,
+                                 std::vector<Refusal>& left) {
   const std::optional<Mark> own = mark_in(directory);
   std::vector<fs::path> folders;
-  for_each_export(directory, gone, left, [&](const fs::path& folder, const Mark& mark) {
+  const auto take_rest = [&](const fs::path& folder, const std::optional<Mark>& mark) {
+    (mark && mark->scan_id == scan_id ? gone.exports : gone.rests).push_back(folder);
+  };
+  for_each_export(directory, take_rest, left, [&](const fs::path& folder, const Mark& mark) {
     if (mark.scan_id == scan_id) folders.push_back(folder);
   });
   if (own && own->scan_id == scan_id) folders.push_back(directory);
@@ -117,19 +120,27 @@ void check_in_no_export(const std::string& directory) {
                                 place.string(), parent.string()));
 }
 
-std::vector<std::string> delete_exports(const std::string& directory, const std::string& scan_id,
-                                        std::vector<Refusal>& left) {
+std::vector<std::string> lines_of(const DeletedExports& deleted) {
+  std::vector<std::string> lines;
+  for (const std::string& folder : deleted.exports) lines.push_back("export " + folder);
+  for (const std::string& folder : deleted.rests)
+    lines.push_back("rest of an export, perhaps of another scan: " + folder);
+  return lines;
+}
+
+DeletedExports delete_exports(const std::string& directory, const std::string& scan_id,
+                              std::vector<Refusal>& left) {
   fs::path place = fs::path(directory).lexically_normal();
   if (!place.has_filename()) place = place.parent_path();  // a slash at the end
   if (!place.is_absolute() || scan_id.empty())
     throw Refusal(geometry::refusal::kBadOption, "which scan is to be deleted from which absolute path?");
   left.clear();
-  std::vector<std::string> gone;
+  DeletedExports gone;
   try {
     for (const fs::path& folder : exports_of(place, scan_id, gone, left)) {
       try {
         delete_export(folder);
-        gone.push_back(folder);
+        gone.exports.push_back(folder);
       } catch (const Refusal& refusal) {
         left.push_back(refusal);
       } catch (const fs::filesystem_error& error) {  // the vault may delete it as an old one meanwhile
@@ -141,7 +152,7 @@ std::vector<std::string> delete_exports(const std::string& directory, const std:
     throw Refusal(geometry::refusal::kCannotWrite,
                   fmt::format("'{}' cannot be looked at: {}", place.string(), error.code().message()));
   }
-  if (gone.empty() && left.empty())
+  if (gone.exports.empty() && gone.rests.empty() && left.empty())
     throw Refusal(geometry::refusal::kNothingYet,
                   fmt::format("no export of scan {} in '{}'", scan_id, place.string()));
   return gone;
@@ -153,7 +164,10 @@ std::vector<std::string> delete_old_exports(const std::string& directory, double
   std::vector<std::string> gone;
   std::vector<Refusal> not_deleted;
   try {
-    for_each_export(directory, gone, not_deleted, [&](const fs::path& folder, const Mark& mark) {
+    const auto take_rest = [&](const fs::path& folder, const std::optional<Mark>&) {
+      gone.push_back(folder);
+    };
+    for_each_export(directory, take_rest, not_deleted, [&](const fs::path& folder, const Mark& mark) {
       if (Days(fs::file_time_type::clock::now() - mark.written).count() <= days) return;
       delete_export(folder);
       gone.push_back(folder);

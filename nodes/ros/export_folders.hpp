@@ -23,13 +23,22 @@ inline constexpr std::array<const char*, 18> kExportFiles = {
 /// cannot_write: whether one is cannot be read
 void check_in_no_export(const std::string& directory);
 
+/// Folders that are gone.
+struct DeletedExports {
+  std::vector<std::string> exports;  ///< of the scan that was asked for
+  std::vector<std::string> rests;    ///< where writing or deleting was cut off: nobody knows whose they are
+};
+
+/// A line each, as answers to `forget` name them.
+std::vector<std::string> lines_of(const DeletedExports& deleted);
+
 /// Deletes the exports of that scan: `directory` itself, or the folders in it, at any depth. Links are not
-/// followed. Returns the folders that are gone; `left` is assigned why each other one is not: it holds
-/// anything else (bad_option), or could not be read or deleted (cannot_write). \throw Refusal bad_option: a
-/// relative path, or no scan; nothing_yet: there is no export of it; cannot_write: the directory cannot be
+/// followed. `left` is assigned why each other one is not gone: it holds anything else (bad_option), or could
+/// not be read or deleted (cannot_write). \throw Refusal bad_option: a relative path, or no scan;
+/// nothing_yet: there is no export of it, and nothing was deleted; cannot_write: the directory cannot be
 /// looked at
-std::vector<std::string> delete_exports(const std::string& directory, const std::string& scan_id,
-                                        std::vector<geometry::Refusal>& left);
+DeletedExports delete_exports(const std::string& directory, const std::string& scan_id,
+                              std::vector<geometry::Refusal>& left);
 
 /// Deletes the exports in `directory`, at any depth, whose document was written more than `days` ago. Returns
 /// the folders that are gone; what could not be deleted

@@ -174,18 +174,20 @@ Names ForgetDesk::let_go(const Names& asked, const Forget::Request& request, For
   return silent;
 }
 
-void ForgetDesk::delete_exports_of(const std::string& scan_id, const std::string& folder,
+bool ForgetDesk::delete_exports_of(const std::string& scan_id, const std::string& folder,
                                    Forget::Response& response) {
   try {
     std::vector<geometry::Refusal> left;
-    for (const std::string& gone : delete_exports(folder, scan_id, left))
-      response.removed.push_back("export " + gone);
+    const DeletedExports deleted = delete_exports(folder, scan_id, left);
+    for (const std::string& line : lines_of(deleted)) response.removed.push_back(line);
     for (const geometry::Refusal& refusal : left) response.not_reached.emplace_back(refusal.what());
+    return !deleted.exports.empty();
   } catch (const geometry::Refusal& refusal) {
     if (refusal.code() != geometry::refusal::kNothingYet) response.not_reached.emplace_back(refusal.what());
   } catch (const std::filesystem::filesystem_error& error) {
     response.not_reached.push_back(folder + ": " + error.code().message());
   }
+  return false;
 }
 
 bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response) {
@@ -213,13 +215,15 @@ bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response)
   go_on.step = ForgetOrder::GO_ON;
   go_on.scan_id = request.scan_id;
   orders_.publish(go_on);
+  bool was_there = !response.removed.empty();
   for (const std::string& folder : options_.folders) {
     std::error_code unknown;
-    const bool is_there = std::filesystem::exists(folder, unknown);
+    const bool is_there = std::filesystem::exists(folder, unknown);  // else there was no export so far
     if (unknown) response.not_reached.push_back(folder + ": " + unknown.message());
-    if (is_there) delete_exports_of(request.scan_id, folder, response);  // or there was no export so far
+    if (is_there && delete_exports_of(request.scan_id, folder, response)) was_there = true;
   }
-  for (const std::string& folder : request.folders) delete_exports_of(request.scan_id, folder, response);
+  for (const std::string& folder : request.folders)
+    if (delete_exports_of(request.scan_id, folder, response)) was_there = true;
   look_again_ = true;
   const auto is_of_file = [](const std::string& line) {
     return line.find(": the file ") != std::string::npos;
@@ -236,7 +240,7 @@ bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response)
   Names booths = other_booths(*before, node_.resolveName("forget/order"));
   if (now) booths.merge(other_booths(*now, node_.resolveName("forget/order")));
   response.message = fmt::format(
-      "scan {}: {}{}{}", request.scan_id, response.removed.empty() ? "nothing of it was found" : "forgotten",
+      "scan {}: {}{}{}", request.scan_id, was_there ? "forgotten" : "nothing of it was found",
       booths.empty() ? "" : " in " + node_.getNamespace(), response.complete ? "" : ", but not everywhere");
   for (const std::string& booth : booths)
     response.not_reached.push_back(booth + ": another booth, which was not asked");

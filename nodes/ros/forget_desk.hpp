@@ -36,7 +36,8 @@ class ForgetDesk {
   /// Orders it and waits for those that are asked. Returns those that did not answer in time.
   std::set<std::string> let_go(const std::set<std::string>& asked, const Forget::Request& request,
                                Forget::Response& response);
-  static void delete_exports_of(const std::string& scan_id, const std::string& folder,
+  /// Returns whether there was one of it.
+  static bool delete_exports_of(const std::string& scan_id, const std::string& folder,
                                 Forget::Response& response);
   void delete_old();
   /// What came of the last look for old exports, again and again, as stages report.

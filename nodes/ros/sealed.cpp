@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <ctime>
 #include <numeric>
 #include <regex>
 
@@ -21,12 +22,12 @@ std::string padded(std::string bytes, std::size_t size) {
   return bytes;
 }
 
-std::string header_of(const files::FileContent& file) {
+std::string header_of(const files::FileContent& file, std::time_t written) {
   std::string header = file.name;
   header.resize(100);  // offsets of the fields: name 0, mode 100, ..., checksum 148, type 156, magic 257
   header +=
       fmt::format("{:07o}", 0600) + '\0' + fmt::format("{:07o}", 0) + '\0' + fmt::format("{:07o}", 0) + '\0';
-  header += fmt::format("{:011o}", file.bytes.size()) + '\0' + fmt::format("{:011o}", 0) + '\0';
+  header += fmt::format("{:011o}", file.bytes.size()) + '\0' + fmt::format("{:011o}", written) + '\0';
   header += std::string(8, ' ') + '0';
   header.resize(257);
   header += std::string(
@@ -41,8 +42,10 @@ std::string header_of(const files::FileContent& file) {
 }
 
 std::string tar_of(const std::vector<files::FileContent>& files) {
+  const std::time_t now = std::time(nullptr);  // retention goes by the age of what is unpacked
+
   std::string archive;
-  for (const files::FileContent& file : files) archive += header_of(file) + padded(file.bytes, kBlock);
+  for (const files::FileContent& file : files) archive += header_of(file, now) + padded(file.bytes, kBlock);
   return archive + std::string(2 * kBlock, '\0');
 }
 

@@ -1,6 +1,9 @@
 #include "scan_files/scan_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "geometry/status.hpp"
@@ -30,8 +33,9 @@ std::map<std::string, ScanFolder::Version> ScanFolder::look() const {
 
 std::vector<std::string> ScanFolder::poll(double now) {
   const std::map<std::string, Version> found = look();
-  for (auto file = files_.begin(); file != files_.end();)
-    file = found.count(file->first) == 0 ? files_.erase(file) : std::next(file);
+  if (!found.empty())  // an empty folder may be where a share is mounted: it comes back with the same files
+    for (auto file = files_.begin(); file != files_.end();)
+      file = found.count(file->first) == 0 ? files_.erase(file) : std::next(file);
   std::vector<std::pair<std::int64_t, std::string>> complete;
   for (const auto& [name, version] : found) {
     const auto [file, is_new] = files_.try_emplace(name, File{version, now, false});
@@ -51,7 +55,12 @@ void ScanFolder::skip_all() {
 }
 
 std::string ScanFolder::text_of(const std::string& name, const Version& version) {
-  return std::to_string(version.changed) + " " + std::to_string(version.size) + " " + name;
+  std::string text = fmt::format("{} {} ", version.changed, version.size);
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    text += byte < ' ' || byte > '~' || c == '%' ? fmt::format("%{:02x}", byte) : std::string(1, c);
+  }
+  return text;
 }
 
 std::string ScanFolder::text(const std::string& name) const {
@@ -60,7 +69,15 @@ std::string ScanFolder::text(const std::string& name) const {
 }
 
 std::string ScanFolder::name_in(const std::string& text) {
-  return text.substr(text.find(' ', text.find(' ') + 1) + 1);  // 0 where there is no space
+  const std::string word = text.substr(text.find(' ', text.find(' ') + 1) + 1);  // 0 where there is no space
+  std::string name;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    const bool is_code = word[i] == '%' && i + 2 < word.size() && std::isxdigit(word[i + 1]) != 0 &&
+                         std::isxdigit(word[i + 2]) != 0;
+    name += is_code ? static_cast<char>(std::stoi(word.substr(i + 1, 2), nullptr, 16)) : word[i];
+    if (is_code) i += 2;
+  }
+  return name;
 }
 
 std::vector<std::string> ScanFolder::played(const std::set<std::string>& but) const {

@@ -24,6 +24,7 @@ constexpr double kMostLeftOver =
     0.5;  // of the residual, after a further step: else the matrix is too far off
 constexpr int kMostMends = 8;
 constexpr double kMended = 1e-12;     // relative, of volumes and lengths
+constexpr double kSlightPush = 1e-9;  // of the force scale: rounding
 constexpr int kStepsBeyondLimit = 3;  // a tension may overshoot in an iteration or two
 constexpr int kLeastCap = 400;        // of factorisations: 20 to 60 are usual; on fine meshes each takes long
 
@@ -253,23 +254,34 @@ bool Newton::release_contradicted(Balance& at, const Load& load, const Step& ste
   return shortened >= 0;
 }
 
-// A request that is out of reach never comes near enough to balance for change_holds: its tension grows
-// beyond its limit.
+// What never comes near enough to balance for change_holds. A request that is out of reach: its tension grows
+// beyond its limit. Lines that run nearly the same way, kept at their lengths together: some pull and some
+// push with many times what acts on them; the one that pushes most is let go.
 bool Newton::stop_at_limits(Balance& at, const Load& load) const {
   bool changed = false;
+  int pushes = -1;
+  double most = kSlightPush * problem_.force_scale;
   for (std::size_t b = 0; b < problem_.bands.size(); ++b) {
-    if (at.holds[b] != Hold::length || !(at.tensions[b] > load.limit[b])) continue;
+    if (at.holds[b] != Hold::length) continue;
+    if (-at.tensions[b] > most) {
+      most = -at.tensions[b];
+      pushes = static_cast<int>(b);
+    }
+    if (!(at.tensions[b] > load.limit[b])) continue;
     at.holds[b] = Hold::limit;
     at.tensions[b] = load.limit[b];
     changed = true;
   }
-  return changed;
+  if (pushes < 0) return changed;
+  at.holds[pushes] = Hold::slack;
+  at.tensions[pushes] = 0;
+  return true;
 }
 
 // Lets go of lines that would push, takes hold of lines that would be too long, and stops at the tension
 // limits.
 bool Newton::change_holds(Balance& at, const Load& load) const {
-  const double slight = 1e-9 * problem_.force_scale;
+  const double slight = kSlightPush * problem_.force_scale;
   bool changed = false;
   for (std::size_t b = 0; b < problem_.bands.size(); ++b) {
     const Band& band = problem_.bands[b];

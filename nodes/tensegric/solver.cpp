@@ -65,7 +65,7 @@ std::string reach_note(const std::vector<LineResult>& lines, const Problem& prob
     }
     if (line.final <= line.neutral * (1 + 1e-6)) continue;
     const int digits = millimetres(line.final) == millimetres(line.neutral) ? 4 : 0;
-    add_sentence(note, "Line " + line.name + " came down to " + millimetres(line.final, digits) + "; " +
+    add_sentence(note, "Line " + line.name + " is " + millimetres(line.final, digits) + " long; " +
                            millimetres(line.neutral, digits) + " were asked for.");
     if (line.neutral < line.straight)
       add_sentence(note, "It is " + millimetres(line.straight) +

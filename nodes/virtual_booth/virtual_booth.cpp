@@ -137,9 +137,11 @@ void parse(int argc, char** argv, CLI::App& app, Request& request) {
       app.add_option("--family", request.family,
                      "where the body comes from: the product's own body model, or implicit shapes")
           ->check(CLI::IsMember(virtual_booth::families()));
-  app.add_option("--shape", request.shape,
-                 "write this shape and which part of it to hold, in place of a scan")
-      ->check(CLI::IsMember(virtual_body::example_shapes()));
+  CLI::Option* shape =
+      app.add_option(
+             "--shape", request.shape,
+             "write this shape and which part of it to hold, in place of a scan; only --out goes with it")
+          ->check(CLI::IsMember(virtual_body::example_shapes()));
   const CLI::Option* sensors = app.add_flag("--sensors", request.extras.each_sensor,
                                             "write sensors.bag, too: each sensor's cloud and tf");
   app.add_option("--depth-cameras", request.extras.cameras,
@@ -184,6 +186,8 @@ void parse(int argc, char** argv, CLI::App& app, Request& request) {
     if (option != customer && option != sensors && option != out && option != family && option != formats &&
         option->get_name() != "--help")
       customer->excludes(option);
+  for (CLI::Option* option : app.get_options())
+    if (option != shape && option != out && option->get_name() != "--help") shape->excludes(option);
   app.parse(argc, argv);
   request.is_customer = customer->count() > 0;
   for (const CLI::Option* option : implicit)

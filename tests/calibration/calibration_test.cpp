@@ -230,6 +230,7 @@ TEST_F(CasesFile, WornMeshesAndScansAreReadInAnyUnitAndAxes) {
       true);
   ASSERT_EQ(cases.bodies.size(), 1u);
   ASSERT_EQ(cases.bodies[0].cases.size(), 2u);
+  EXPECT_NE(cases.bodies[0].cases[0].name, cases.bodies[0].cases[1].name);
   for (const CalibrationCase& one : cases.bodies[0].cases) {
     EXPECT_GT(one.still, 0.001);  // m; B1 moves her so far
     EXPECT_LT(one.still, 0.01);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -100,8 +101,12 @@ CalibrationBody read_body(const YAML::Node& node, const std::string& path, const
   body.name = geometry::required<std::string>(node, "name", path, kCode);
   body.body = body_in(node, "mesh", "scan", path, settings, true);
   const auto usual = geometry::optional<std::string>(node, "garment", "", path, kCode);
-  for (const YAML::Node& reference : node["references"])
-    body.cases.push_back(read_case(reference, usual, body, path, settings));
+  std::map<std::string, int> times;  // of one garment and ratio there may be several: their names differ
+  for (const YAML::Node& reference : node["references"]) {
+    CalibrationCase one = read_case(reference, usual, body, path, settings);
+    if (const int time = ++times[one.name]; time > 1) one.name += fmt::format(" ({})", time);
+    body.cases.push_back(std::move(one));
+  }
   if (body.cases.empty())
     throw Refusal(geometry::refusal::kTooFewData, path + ": body " + body.name + " has no references");
   return body;

@@ -67,6 +67,18 @@ double worse(double so_far, double next) {
   return std::isfinite(next) ? std::max(so_far, next) : std::numeric_limits<double>::infinity();
 }
 
+// Of rigid lines alone: an elastic one that is too long asks for nothing.
+void check_reason(const Case& drawn, const Solution& s, Finding& found) {
+  bool has_reason = false;
+  for (std::size_t b = 0; b < s.lines.size(); ++b) {
+    const auto& line = s.lines[b];
+    if (line.law.kind != tensegric::TensionLaw::Kind::rigid) return;
+    const double asked = drawn.garment.lines[b].ratio * length_over(line.nodes, drawn.control.outer);
+    has_reason = has_reason || (line.tension > 0 && length_over(line.nodes, s.outer) > asked * (1 + 1e-6));
+  }
+  if (!has_reason) found.faults.push_back("infeasible, and no line that pulls is longer than asked for");
+}
+
 void check_lengths(const Case& drawn, const Solution& s, bool exact, Finding& found) {
   for (std::size_t b = 0; b < s.lines.size(); ++b) {
     const auto& line = s.lines[b];
@@ -116,6 +128,10 @@ void check(const Case& drawn, const Solution& s, SolverName solver, Finding& fou
   if (exact && std::any_of(s.history.begin(), s.history.end(),
                            [](const auto& row) { return !(row.merit_change <= 1e-12); }))
     found.faults.push_back("merit rises");
+  if (s.lines.size() != drawn.garment.lines.size() || s.regions.size() != drawn.control.regions.size() ||
+      s.outer.size() != drawn.control.outer.size())
+    found.faults.push_back("a line, a region or a node is not in the result");
+  if (exact && s.status == Status::infeasible) check_reason(drawn, s, found);
   check_lengths(drawn, s, exact, found);
   check_volumes(drawn, s, solver, found);
 }

@@ -51,6 +51,23 @@ TEST_F(SpoiltSolve, LengthsAndVolumes) {
   EXPECT_TRUE(sees(volume, [](Solution& s) { s.regions[0].volume_after = kNone; }));
 }
 
+TEST_F(SpoiltSolve, WhatIsNotThereAndASolverThatDoesNothing) {
+  const std::string gone = "a line, a region or a node is not in the result",
+                    idle = "infeasible, and no line that pulls is longer than asked for";
+  EXPECT_TRUE(sees(gone, [](Solution& s) { s.lines.clear(); }));
+  EXPECT_TRUE(sees(gone, [](Solution& s) { s.regions.clear(); }));
+  const auto rest = [this](Solution& s) {
+    s.outer = drawn_.control.outer;
+    s.inner = drawn_.control.inner;
+    s.status = tensegric::Status::infeasible;
+    for (auto& line : s.lines) {
+      line.law = {};
+      line.tension = 0;
+    }
+  };
+  EXPECT_TRUE(sees(idle, rest));
+}
+
 TEST_F(SpoiltSolve, NodesThatAreHeld) {
   const auto held = [](const std::vector<char>& fixed) {
     return static_cast<std::size_t>(std::find(fixed.begin(), fixed.end(), 1) - fixed.begin());

@@ -122,6 +122,21 @@ TEST(CaptureJoinTest, ASensorWithAnotherClockIsNamedNotTheOthers) {
     }
 }
 
+// Its stamp was that of the next customer's capture, whose other sensors were all kept back.
+TEST(CaptureJoinTest, ACloudOfAnotherClockKeepsNoNextCaptureBack) {
+  CaptureJoin join(3, {0.1, 2.0, 2});
+  join.add(0, seen(100), 0);
+  join.add(1, seen(103), 0.01);
+  join.add(2, seen(100), 0.02);
+  bool stray = false;
+  for (const double now : {2.0, 2.02})
+    while (const auto capture = join.next(now)) stray = stray || capture->is_stray;
+  EXPECT_TRUE(stray);
+  EXPECT_EQ(join.add(0, seen(103), 3), Fate::taken);
+  EXPECT_EQ(join.add(2, seen(103), 3), Fate::taken);
+  EXPECT_TRUE(join.next(5.1));
+}
+
 TEST(CaptureJoinTest, ASensorThatSawNothingIsBlind) {
   CaptureJoin join(3, {0.1, 2.0, 3});
   join.add(0, seen(0), 0);

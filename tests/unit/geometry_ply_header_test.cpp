@@ -41,6 +41,20 @@ class PlyHeader : public testing::Test {
       std::filesystem::temp_directory_path() / ("ply_header_test." + std::to_string(getpid()));
 };
 
+// PCL takes the size of its picture for the cloud's.
+TEST_F(PlyHeader, ACameraAsMeshLabWritesItIsNoPartOfTheMesh) {
+  const std::string camera = "element camera 1\nproperty int viewportx\nproperty int viewporty\n",
+                    picture = "640 480\n";
+  for (const bool first : {false, true}) {
+    std::ofstream(path_, std::ios::binary)
+        << kStart + (first ? camera : "") + "element vertex 3\n" + kXyz + kFaces + (first ? "" : camera) +
+               kEnd + (first ? picture : "") + kPoints + kFace + (first ? "" : picture);
+    const TriangleMesh mesh = read_ply_mesh(path_);
+    EXPECT_EQ(mesh.vertices.size(), 3u) << first;
+    EXPECT_EQ(mesh.triangles.size(), 1u) << first;
+  }
+}
+
 TEST_F(PlyHeader, OfUsualFilesIsAcceptedAndPclReadsThem) {
   const std::string colours =
       "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n";

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <Eigen/Geometry>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -106,6 +107,10 @@ TEST_F(MeshFile, ObjWaysToWriteAFace) {
 
 TEST_F(MeshFile, AnObjCommentThatEndsInABackslashEndsThere) {
   for (const char* end : {"\n", "\r\n"}) {
+    for (const char* word : {" # C:\\scans\\", "mtllib C:\\scans\\"})
+      EXPECT_EQ(
+          read_mesh(write("path.obj", word + std::string(end) + kCorners + "f 1 2 3\n")).triangles.size(),
+          1U);
     const std::string comment = std::string(" # C:\\scans\\") + end;
     const TriangleMesh mesh =
         read_mesh(write("comment.obj", comment + kCorners + "v 1 1 0\n" + comment + "f 1 2 3\nf 2 3 4\n"));
@@ -127,6 +132,9 @@ TEST_F(MeshFile, AsciiStlAndBinaryStlThatSaysSolid) {
       " facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1e0 0 0\n vertex 0 1 0\n endloop\n "
       "endfacet\n";
   EXPECT_EQ(read_mesh(write("a.stl", "solid x\n" + facet + "endsolid x\n")).triangles.size(), 1U);
+  std::string capitals = "\xef\xbb\xbf  SOLID my vertex facet\n" + facet + "endsolid\n";
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  EXPECT_EQ(read_mesh(write("a.stl", capitals)).triangles.size(), 1U);
   std::string binary = stl_bytes(corner());
   binary.replace(0, 5, "solid");
   EXPECT_EQ(read_mesh(write("b.stl", binary)).triangles.size(), 4U);
@@ -390,6 +398,9 @@ TEST_F(MeshFile, XyzHasHeadingsAndFurtherColumns) {
   const auto points = read_xyz(write("a.xyz", "x y z r\n1 2 3 255\r\n\n4,5;6\n"));
   EXPECT_EQ(points, (std::vector<Vector3d>{{1, 2, 3}, {4, 5, 6}}));
   EXPECT_THROW(read_xyz(write("b.xyz", "1 2 3\n4 5\n")), geometry::Refusal);
+  EXPECT_EQ(read_xyz(write("c.xyz", "# a scan\n//X Y Z\n2\n1 2 3\n1,2,3 7\n")).size(), 2U);
+  EXPECT_THROW(read_xyz(write("d.xyz", "a\nb\n")), geometry::Refusal);
+  EXPECT_THROW(read_xyz(write("e.xyz", "0,12 0,5 1,7\n")), geometry::Refusal);  // a comma for the point
 }
 
 TEST(SurfaceSamples, AreEvenAndHaveNormalsWhereTheMeshHasAnOutside) {

@@ -41,8 +41,11 @@ TEST_F(ExportFolders, AnEncryptedExportIsReadWithItsKeyAlone) {
   export_fit(scan_, root_ / "plain", kWhole);
   for (const auto& entry : fs::directory_iterator(root_ / "plain"))
     EXPECT_EQ(text_of(entry.path()), text_of(fs::path(out) / entry.path().filename())) << entry.path();
+  std::vector<std::string> not_deleted;
+  EXPECT_TRUE(delete_old_exports(root_, 1, not_deleted).empty()) << "what was unpacked is not old";
   std::vector<geometry::Refusal> left;
-  EXPECT_EQ(delete_exports(root_ / "exports", scan_.body->scan_id, left), std::vector<std::string>{folder});
+  EXPECT_EQ(delete_exports(root_ / "exports", scan_.body->scan_id, left).exports,
+            std::vector<std::string>{folder});
 }
 
 TEST_F(ExportFolders, AnAgeThatHangsOrFailsIsRefused) {
@@ -78,11 +81,13 @@ TEST_F(ExportFolders, WhatADeletionThatWasCutOffHasLeftGoesToo) {
     std::ofstream(other / "precious") << "mine";
     std::vector<geometry::Refusal> left;
     std::vector<std::string> not_deleted;
-    std::vector<std::string> gone = retention ? delete_old_exports(root_, 1, not_deleted)
-                                              : delete_exports(root_, scan_.body->scan_id, left);
-    std::sort(gone.begin(), gone.end());
-    EXPECT_EQ(gone.front(), rest.string());
-    EXPECT_EQ(gone.size(), retention ? 1u : 2u) << "the whole one of that scan, too";
+    if (retention) {
+      EXPECT_EQ(delete_old_exports(root_, 1, not_deleted), std::vector<std::string>{rest});
+    } else {
+      const DeletedExports gone = delete_exports(root_, scan_.body->scan_id, left);
+      EXPECT_EQ(gone.rests, std::vector<std::string>{rest}) << "nobody knows whose it is";
+      EXPECT_EQ(gone.exports.size(), 1u) << "the whole one of that scan";
+    }
     EXPECT_FALSE(fs::exists(rest));
     EXPECT_TRUE(fs::exists(other / "precious"));
     EXPECT_TRUE(left.empty() && not_deleted.empty());
@@ -149,7 +154,7 @@ TEST_F(ExportFolders, ExportsAreDeletedByScanAndNothingElseIs) {
   EXPECT_EQ(not_deleted(root_, ""), "bad_option");
   EXPECT_EQ(not_deleted(root_ / "nowhere", id), "cannot_write");
   std::vector<geometry::Refusal> left;
-  EXPECT_EQ(delete_exports(root_.string() + "/", id, left),
+  EXPECT_EQ(delete_exports(root_.string() + "/", id, left).exports,
             (std::vector<std::string>{root_ / "2026" / "11" / "three", root_ / "one", root_ / "two"}));
   EXPECT_TRUE(left.empty());
   EXPECT_EQ(not_deleted(root_, id), "nothing_yet");
@@ -182,7 +187,7 @@ TEST_F(ExportFolders, AnExportInAnExportIsRefusedAndOneThatIsThereIsFound) {
   export_fit(scan_, root_ / "inner", kWhole);
   fs::rename(root_ / "inner", root_ / "outer" / "inner");
   std::vector<geometry::Refusal> left;
-  EXPECT_EQ(delete_exports(root_, id, left), std::vector<std::string>{root_ / "outer" / "inner"});
+  EXPECT_EQ(delete_exports(root_, id, left).exports, std::vector<std::string>{root_ / "outer" / "inner"});
   EXPECT_TRUE(left.empty());
   export_fit(scan_, root_ / "inner", kWhole);
   fs::rename(root_ / "inner", root_ / "outer" / "inner");
@@ -196,7 +201,7 @@ TEST_F(ExportFolders, OneThatCannotBeDeletedDoesNotKeepTheOthers) {
   for (const char* name : {"a", "b", "c"}) export_fit(scan_, root_ / name, kWhole);
   std::ofstream(root_ / "b" / "note.txt") << "mine";
   std::vector<geometry::Refusal> left;
-  EXPECT_EQ(delete_exports(root_, scan_.body->scan_id, left),
+  EXPECT_EQ(delete_exports(root_, scan_.body->scan_id, left).exports,
             (std::vector<std::string>{root_ / "a", root_ / "c"}));
   ASSERT_EQ(left.size(), 1u);
   EXPECT_NE(std::string(left[0].what()).find("note.txt"), std::string::npos);

@@ -72,6 +72,39 @@ TEST_F(ScanFolderTest, RenamedInIsNewAndWrittenAgainIsNew) {
   EXPECT_EQ(played(folder, 4), "a.ply");
 }
 
+// A thousand customers of before would be played one by one.
+TEST_F(ScanFolderTest, AShareThatWasAwayForAMomentPlaysNothingAgain) {
+  write("old.ply", "old");
+  ScanFolder folder(root_, 1);
+  folder.skip_all();
+  write("a.ply", "a");
+  played(folder, 0);
+  EXPECT_EQ(played(folder, 1), "a.ply");
+  const fs::path away = root_.string() + "_away";
+  fs::rename(root_, away);
+  fs::create_directories(root_);
+  EXPECT_EQ(played(folder, 2), "");
+  fs::remove(root_);
+  fs::rename(away, root_);
+  EXPECT_EQ(played(folder, 3), "");
+  EXPECT_EQ(played(folder, 9), "");
+}
+
+// The master takes no other text for a parameter, and forgot all files after such a one.
+TEST_F(ScanFolderTest, AnyNameIsPlainTextAndComesBack) {
+  for (const std::string name : {"M\xfcller 50%41.ply", "a\tb.ply", "100%.ply", "%zz.ply", "a b.ply"}) {
+    write(name, name);
+    ScanFolder folder(root_, 0);
+    played(folder, 0);
+    const std::string text = folder.text(name);
+    for (const char c : text) EXPECT_TRUE(c >= ' ' && c <= '~') << text;
+    EXPECT_EQ(ScanFolder::name_in(text), name);
+    ScanFolder next(root_, 0);
+    next.skip(folder.played());
+    EXPECT_EQ(played(next, 0), "") << text;
+  }
+}
+
 TEST_F(ScanFolderTest, OtherFilesAreNamedAndWhatIsHiddenOrNoFileIsNot) {
   ScanFolder folder(root_, 1);
   for (const char* name : {".hidden.ply", "readme.txt", "ply", "a.ply.part"}) write(name, "text");

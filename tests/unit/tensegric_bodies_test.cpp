@@ -51,5 +51,37 @@ TEST(TightGarment, BarriersFindTheirPushesInAFewIterations) {
   EXPECT_LT(solution.iterations, 50);
 }
 
+// Lines that run nearly the same way were kept at their lengths together, and pushed and pulled for hundreds
+// of iterations: `capped`, with the body as it was.
+TEST(Garment, OfBandsThatRunTheSameWayTheWidestPulls) {
+  fit::StageTimes times;
+  const fit::Settings settings;
+  const fit::Body body = fit::measure_mesh(test::KnownBody{"model", "4"}.surface().surface, settings, times);
+  const fit::Fitting fitting =
+      fit::prepare(body, {control_mesh::load_template(kLaunch + "templates/bust.yaml")}, settings, times);
+  const auto worn = [&](int bands) {
+    Garment garment = load_garment(kLaunch + "garments/B1.yaml");
+    const GarmentLine band = garment.lines.front();
+    garment.lines.clear();
+    for (int b = 0; b < bands; ++b) {
+      garment.lines.push_back(band);
+      garment.lines.back().name += std::to_string(b);
+      garment.lines.back().width = band.width * (1 - 0.1 * b);
+    }
+    set_ratio(garment, "", 0.93);
+    return solve(fitting.model, garment, settings.solver, nullptr, {}, {},
+                 fit::laid_lines(body, fitting, garment));
+  };
+  const Solution one = worn(1), eight = worn(8);
+  ASSERT_EQ(to_string(one.status), "converged");
+  EXPECT_EQ(to_string(eight.status), "converged") << eight.note;
+  double pull = 0;
+  for (const LineResult& line : eight.lines) {
+    pull += line.tension;
+    EXPECT_LE(line.final, line.neutral * (1 + 1e-6)) << line.name;
+  }
+  EXPECT_NEAR(pull, one.lines[0].tension, 0.1 * pull);  // all of them run nearly alike
+}
+
 }  // namespace
 }  // namespace tensegric_fit::tensegric

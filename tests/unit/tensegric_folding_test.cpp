@@ -189,7 +189,7 @@ TEST(FoldingUnits, TissueBelowAMillimetreIsSolvedOrSaysWhyNot) {
     if (depth > 5e-4) {
       EXPECT_EQ(s.status, Status::infeasible) << s.note;
       expect_balance(s);
-      EXPECT_NE(s.note.find("came down to"), std::string::npos) << s.note;
+      EXPECT_NE(s.note.find(" long; "), std::string::npos) << s.note;
     } else {
       EXPECT_EQ(s.status, Status::capped) << s.note;
       EXPECT_NE(s.note.find("last balance on the way"), std::string::npos) << s.note;
