@@ -52,7 +52,7 @@ TEST(TightGarment, BarriersFindTheirPushesInAFewIterations) {
 }
 
 // Lines that run nearly the same way were kept at their lengths together, and pushed and pulled for hundreds
-// of iterations: `capped`, with the body as it was.
+// of iterations.
 TEST(Garment, OfBandsThatRunTheSameWayTheWidestPulls) {
   fit::StageTimes times;
   const fit::Settings settings;
@@ -72,11 +72,12 @@ TEST(Garment, OfBandsThatRunTheSameWayTheWidestPulls) {
     return solve(fitting.model, garment, settings.solver, nullptr, {}, {},
                  fit::laid_lines(body, fitting, garment));
   };
-  const Solution one = worn(1), eight = worn(8);
+  const Solution one = worn(1), three = worn(3);
   ASSERT_EQ(to_string(one.status), "converged");
-  EXPECT_EQ(to_string(eight.status), "converged") << eight.note;
+  EXPECT_EQ(to_string(three.status), "converged") << three.note;
+  EXPECT_LT(three.iterations, 60);  // 40; 177 where none was let go
   double pull = 0;
-  for (const LineResult& line : eight.lines) {
+  for (const LineResult& line : three.lines) {
     pull += line.tension;
     EXPECT_LE(line.final, line.neutral * (1 + 1e-6)) << line.name;
   }
