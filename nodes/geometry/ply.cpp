@@ -4,6 +4,7 @@
 #include <pcl/console/print.h>
 #include <pcl/io/ply_io.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -17,7 +18,7 @@
 namespace tensegric_fit::geometry {
 
 void read_ply(const std::string& path, pcl::PolygonMesh& mesh) {
-  check_ply_header(path);
+  const std::uint64_t faces = check_ply_header(path);
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // the refusal carries its messages
   int result = -1;
   try {
@@ -27,6 +28,10 @@ void read_ply(const std::string& path, pcl::PolygonMesh& mesh) {
   } catch (const std::exception&) {
   }
   if (result < 0) throw Refusal(refusal::kBrokenFile, path + ": is truncated or is not a PLY file");
+  const auto is_empty = [](const pcl::Vertices& face) { return face.vertices.empty(); };
+  if (faces > 0 && std::all_of(mesh.polygons.begin(), mesh.polygons.end(), is_empty))
+    throw Refusal(refusal::kBrokenFile,
+                  path + ": its faces are in a form that is not read: save them as lists of uchar and int");
   // PCL takes the size of a camera's picture, as MeshLab writes it, for the cloud's.
   pcl::PCLPointCloud2& cloud = mesh.cloud;
   if (cloud.point_step > 0 &&

@@ -57,6 +57,13 @@ class Header {
     throw fault("has no complete PLY header");
   }
 
+  std::uint64_t faces() const {
+    std::uint64_t faces = 0;
+    for (const Element& element : elements_)
+      if (element.name == "face" || element.name == "tristrips") faces += element.count;
+    return faces;
+  }
+
  private:
   Refusal fault(const std::string& what) const { return {refusal::kBrokenFile, path_ + ": " + what}; }
   Refusal fault_in(const Words& words) const {
@@ -159,8 +166,10 @@ class Header {
 
 }  // namespace
 
-void check_ply_header(const std::string& path) {
-  Header(path).check();
+std::uint64_t check_ply_header(const std::string& path) {
+  Header header(path);
+  header.check();
+  return header.faces();
 }
 
 }  // namespace tensegric_fit::geometry

@@ -242,7 +242,7 @@ CASES = [
     ("STL that says ASCII and is binary", "stl", write.stl_that_says_ascii, BOOTH, "same", False),
     ("GLB, m, y up", "glb", write.glb, moved(up="y"), "same", True),
     ("XYZ, 100,000 points", "xyz", write.xyz, spread_points, "measured", False),
-    ("XYZ, a mesh's vertices, which are close on hands and face alone", "xyz", write.xyz, as_it_is, "not_a_body", False),
+    ("XYZ, a mesh's vertices, which are close on hands and face alone", "xyz", write.xyz, as_it_is, "measured", False),
     ("lying on a side (x up), mm", "obj", write.obj, moved(unit=0.001, up="x"), "measured", False),
     ("upside down, STL, mm", "stl", write.stl, moved(unit=0.001, up="-z"), "measured", False),
     ("turned by 130 degrees, 3 m off the origin", "obj", write.obj, moved(0.001, "y", 2.27, (3, -2, 0.4)), "measured", False),

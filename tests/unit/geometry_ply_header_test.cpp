@@ -1,5 +1,6 @@
 /// Headers on which PCL's reader ends the process, reads or writes beyond its points, or takes all memory.
 #include <gtest/gtest.h>
+#include <pcl/PolygonMesh.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -52,6 +53,18 @@ TEST_F(PlyHeader, ACameraAsMeshLabWritesItIsNoPartOfTheMesh) {
     const TriangleMesh mesh = read_ply_mesh(path_);
     EXPECT_EQ(mesh.vertices.size(), 3u) << first;
     EXPECT_EQ(mesh.triangles.size(), 1u) << first;
+  }
+}
+
+// They were left out without a word, and the vertices taken for a scan.
+TEST_F(PlyHeader, FacesThatPclDoesNotReadAreRefused) {
+  for (const char* faces : {"element face 1\nproperty list uchar ushort vertex_indices\n",
+                            "element face 1\nproperty list ushort int vertex_indices\n",
+                            "element tristrips 1\nproperty list int int vertex_indices\n"}) {
+    std::ofstream(path_, std::ios::binary)
+        << kStart + "element vertex 3\n" + kXyz + faces + kEnd + kPoints + kFace;
+    pcl::PolygonMesh mesh;
+    EXPECT_THROW(read_ply(path_, mesh), Refusal) << faces;
   }
 }
 
