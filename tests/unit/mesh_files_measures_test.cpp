@@ -1,6 +1,8 @@
 // Measures for pattern tools: what is a guess says so.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "mesh_files/measures_file.hpp"
 
 namespace tensegric_fit::mesh_files {
@@ -46,6 +48,36 @@ TEST(Vit, UnderTheGarmentIsAsUnsureAsBefore) {
   expect_line(vit, "height_neck_back", "142.0", "unsure: +- 21 mm, a collar");
   EXPECT_EQ(vit.find("lowbust_circ"), std::string::npos) << "unknown under the garment";
   EXPECT_NE(vit.find("<notes>under the garment\nwaist_circ: unsure\n"), std::string::npos) << vit;
+}
+
+// A neck's tape is smoothed and lies beside the skin in places: it was shorter by what was clipped there,
+// under any garment.
+TEST(MeasureEntries, AGarmentThatMovesNothingChangesNoTape) {
+  constexpr int kCorners = 60;
+  geometry::TriangleMesh pipe;
+  geometry::BodyMeasures measures;
+  measures.girths = {{"neck", 0.377, 0.9, ""}};
+  measures.loops = {{"neck", {}}};
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::acos(-1.0) * i / kCorners, x = std::cos(angle), y = std::sin(angle);
+    pipe.vertices.emplace_back(0.06 * x, 0.06 * y, 0);
+    pipe.vertices.emplace_back(0.06 * x, 0.06 * y, 0.1);
+    measures.loops[0].points.emplace_back(0.061 * x, 0.059 * y, 0.05);
+    const int a = 2 * i, b = 2 * ((i + 1) % kCorners);
+    pipe.triangles.emplace_back(a, b, b + 1);
+    pipe.triangles.emplace_back(a, b + 1, a + 1);
+  }
+  for (const double size : {1.0, 0.9}) {
+    std::vector<Eigen::Vector3d> skin = pipe.vertices;
+    for (Eigen::Vector3d& p : skin) p.head<2>() *= size;
+    const std::vector<geometry::ChangedMeasure> heights,
+        girths{{measures.girths[0], measures.girths[0].metres * size}};
+    const WornBody worn{skin, heights, girths};
+    const std::vector<MeasureEntry> entries = measure_entries(pipe, measures, &worn);
+    ASSERT_EQ(entries.size(), 1u);
+    ASSERT_TRUE(entries[0].loop && entries[0].loop_worn);
+    EXPECT_NEAR(entries[0].loop_worn->tape, size * entries[0].loop->tape, size == 1 ? 1e-12 : 0.004);
+  }
 }
 
 TEST(Vit, OfSureFiguresHasNoMoreNotes) {
