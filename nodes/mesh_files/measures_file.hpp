@@ -15,8 +15,8 @@ namespace tensegric_fit::mesh_files {
 /// A girth's way round the body, metres.
 struct Loop {
   std::vector<Eigen::Vector3d> points;  ///< the tape, closed, without its first point again; body frame
-  double tape = 0;                      ///< its length: the hull of the section; worn, changed as that changes
-  double skin = 0;                      ///< along the skin inside the tape, into every hollow; 0: unknown
+  double tape = 0;  ///< its length: the hull of the section; worn, changed as that changes
+  double skin = 0;  ///< along the skin inside the tape, into every hollow; 0: unknown
 };
 
 /// A height or girth before and under the garment, metres.
