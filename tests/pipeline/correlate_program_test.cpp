@@ -124,7 +124,6 @@ TEST_F(CorrelateProgram, RefusesByName) {
   expect_refused("--fit " + twisted + " --worn " + kScans + "/a/scan.ply", "bad_option");
   const std::string good = "--fit " + file("fit");
   expect_refused(good + " --mesh " + kScans + "/b/body.ply", "other_person");
-  expect_refused(good + " --mesh " + kScans + "/a/body.ply --thickness 0.5", "bad_option");
   expect_refused(good + " --worn " + file("not_there.ply"), "broken_file");
   expect_refused("--fit " + file("nowhere") + " --mesh " + kScans + "/a/body.ply", "broken_file");
 
@@ -151,6 +150,7 @@ TEST_F(CorrelateProgram, UsageErrorsAreTwo) {
   EXPECT_EQ(correlate("--fit " + file("fit")), 2);
   EXPECT_EQ(correlate("--fit a --worn b.ply --mesh c.ply"), 2);
   EXPECT_EQ(correlate("--fit a --worn b.ply --thickness thin"), 2);
+  EXPECT_EQ(correlate("--fit a --worn b.ply --thickness 0.5"), 2);
   EXPECT_EQ(correlate("--fit a --worn b.ply --unit foot"), 2);
   EXPECT_EQ(correlate("--help"), 0);
   fs::create_directories(file("out"));
