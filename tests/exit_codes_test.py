@@ -56,6 +56,15 @@ class ExitCodes(unittest.TestCase):
                 self.assertEqual(code_of("history", export, "--customer", "4711", "--out", page), 2)
                 self.assertFalse(page.exists())
 
+    def test_a_page_by_its_name_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for page in ("page.html", "./page.html"):
+                with self.subTest(page):
+                    done = subprocess.run([FOLDER / "history", ".", "--customer", "4711", "--out", page], cwd=folder, capture_output=True, text=True,
+                                          check=False, timeout=60)
+                    self.assertEqual(done.returncode, 1)  # there is no such customer
+                    self.assertNotIn("filesystem error", done.stderr)
+
     def test_results_in_an_export(self):
         for document in ("fit", "sealed"):
             with self.subTest(document), tempfile.TemporaryDirectory() as export:

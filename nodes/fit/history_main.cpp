@@ -59,7 +59,7 @@ int run(int argc, char** argv) {
       ->needs(whose);
   app.add_option("--out", out, "Page.html with tables, outlines and links")->needs(whose);
   if (const auto code = fit::parsed(app, argc, argv, std::cerr, [] {})) return *code;
-  if (!out.empty() && fit::lies_in_export(std::filesystem::path(out).parent_path())) {
+  if (!out.empty() && fit::lies_in_export(std::filesystem::absolute(out).parent_path())) {
     std::cerr << "history: --out: " << out << " would lie in an export, which takes no other files\n";
     return 2;
   }

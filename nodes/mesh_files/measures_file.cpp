@@ -173,14 +173,16 @@ std::vector<MeasureEntry> measure_entries(const geometry::TriangleMesh& body,
       if (loop.name != entry.before.name) continue;
       entry.loop = loop_of(body, loop.points, place);
       if (worn == nullptr) continue;
-      const Points after = geometry::tape_after({body, worn->skin}, loop.points);
-      entry.loop_worn = loop_of({worn->skin, body.triangles}, after, place);
-      // The tape of a neck is smoothed, and one of the body model lies off the skin: what the garment changes
-      // is the difference of two sections.
-      const Points rest = geometry::tape_after({body, body.vertices}, loop.points);
-      if (entry.loop && entry.loop_worn)
-        entry.loop_worn->tape =
-            entry.loop->tape + geometry::length_of(after, true) - geometry::length_of(rest, true);
+      entry.loop_worn =
+          loop_of({worn->skin, body.triangles}, geometry::tape_after({body, worn->skin}, loop.points), place);
+      // A neck's tape is smoothed, and one of the body model lies off the skin: what the garment changes is
+      // the difference of two sections.
+      const std::optional<Loop> rest =
+          loop_of(body, geometry::tape_after({body, body.vertices}, loop.points), place);
+      if (!entry.loop || !entry.loop_worn || !rest) continue;
+      entry.loop_worn->tape += entry.loop->tape - rest->tape;
+      if (entry.loop->skin > 0 && entry.loop_worn->skin > 0 && rest->skin > 0)
+        entry.loop_worn->skin += entry.loop->skin - rest->skin;
     }
   }
   return entries;

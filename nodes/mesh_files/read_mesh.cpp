@@ -82,7 +82,10 @@ bool has_decimal_commas(std::string_view line) {
     line = line.substr(std::min(line.find_first_not_of(kBetween), line.size()));
     const std::string_view word = line.substr(0, line.find_first_of(kBetween));
     const std::size_t comma = word.find(',');
-    if (comma == 0 || comma == std::string_view::npos || comma + 1 == word.size() ||
+    const auto is_digit = [&word](std::size_t at) {
+      return at < word.size() && std::isdigit(static_cast<unsigned char>(word[at])) != 0;
+    };
+    if (comma == 0 || comma == std::string_view::npos || !is_digit(comma - 1) || !is_digit(comma + 1) ||
         word.find(',', comma + 1) != std::string_view::npos)
       return false;
     line = line.substr(word.size());
@@ -154,7 +157,7 @@ std::vector<Eigen::Vector3d> read_xyz(const std::string& path) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
     std::string_view line = text.substr(start, end - start);
     start = end + 1;
-    if (has_decimal_commas(line)) refuse(number, " has commas in its numbers: write points");
+    if (has_decimal_commas(line)) refuse(number, " has commas in its numbers: write 0.12, not 0,12");
     Eigen::Vector3d p;
     int axis = 0;
     bool is_empty = true;
@@ -169,9 +172,9 @@ std::vector<Eigen::Vector3d> read_xyz(const std::string& path) {
     }
     if (axis == 3)
       points.push_back(p);
-    else if (!is_empty && !points.empty())  // lines before the first point are a header
+    else if (!is_empty && (!points.empty() || (axis == 2 && number > 1)))
       refuse(number, " has no x y z");
-    else if (!is_empty && without == 0)
+    else if (!is_empty && without == 0)  // words, or a count: of a heading
       without = number;
     check_count(points.size(), 0, path);
   }

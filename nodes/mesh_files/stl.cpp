@@ -35,6 +35,13 @@ geometry::TriangleMesh binary(const std::string& bytes, std::size_t count, const
   return mesh;
 }
 
+std::string in_lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
+  return lower;
+}
+
 geometry::TriangleMesh ascii(std::string_view rest, const std::string& path) {
   const Refusal broken(refusal::kBrokenFile, path + ": a facet of this ASCII STL has no three corners");
   constexpr std::string_view kBlank = " \t\r\n", kCorner = "vertex";
@@ -56,8 +63,11 @@ geometry::TriangleMesh ascii(std::string_view rest, const std::string& path) {
   mesh.triangles.reserve(most / 3);
   int corners = 0;
   for (std::string_view w = word(); !w.empty(); w = word()) {
-    if (w == "solid" || w == "endsolid")
-      rest = rest.substr(std::min(rest.find('\n'), rest.size()));  // a name
+    if (w == "solid" || w == "endsolid") {
+      const std::string_view name = rest.substr(0, rest.find_first_of("\r\n"));
+      if (name.find("normal") == std::string_view::npos)  // else the facets stand on the same line
+        rest = rest.substr(name.size());
+    }
     if (w == "endfacet" && corners != 3) throw broken;
     if (w == "facet") corners = 0;
     if (w != kCorner) continue;
@@ -84,13 +94,11 @@ geometry::TriangleMesh stl_mesh(const std::string& bytes, const std::string& pat
     std::memcpy(&count, bytes.data() + 80, sizeof count);
     if (bytes.size() == kHeader + kFacet * static_cast<std::size_t>(count)) return binary(bytes, count, path);
   }
-  std::string text(without_mark(bytes));
-  text.erase(0, std::min(text.find_first_not_of(" \t\r\n"), text.size()));
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
-  const bool says_ascii = text.compare(0, 5, "solid") == 0;
-  const bool is_text = text.find('\0') == std::string::npos;
-  if (says_ascii && is_text) return ascii(text, path);
+  std::string_view text = without_mark(bytes);
+  text = text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  const bool says_ascii = in_lower_case(text.substr(0, 5)) == "solid";
+  const bool is_text = text.find('\0') == std::string_view::npos;
+  if (says_ascii && is_text) return ascii(in_lower_case(text), path);
   throw Refusal(
       refusal::kBrokenFile,
       path + (says_ascii ? ": says that it is ASCII STL and is binary, of another length than it says"

@@ -66,6 +66,15 @@ bool is_rest_of_an_export(const fs::path& folder) {
   return files::is_unfinished(folder.filename()) && !something_else_in(folder);
 }
 
+/// Whose a rest is, where that can still be read.
+std::optional<Mark> mark_of_rest(const fs::path& folder) {
+  try {
+    return mark_in(folder);
+  } catch (const Refusal&) {
+    return std::nullopt;
+  }
+}
+
 /// Calls `take(folder, mark)` for each export in the folder, at any depth, those in an export first; links
 /// are not followed. Rests of exports are deleted, whosever they are, and go to `take_rest(folder, mark)`,
 /// whose mark may be gone. `left`: what cannot be looked at.
@@ -78,11 +87,12 @@ void for_each_export(const fs::path& directory, const TakeRest& take_rest, std::
   for (const fs::path& entry : entries) {
     try {
       if (fs::symlink_status(entry).type() != fs::file_type::directory) continue;
-      const std::optional<Mark> mark = mark_in(entry);
       if (is_rest_of_an_export(entry)) {
+        const std::optional<Mark> mark = mark_of_rest(entry);
         files::delete_whole_folder(entry);
         take_rest(entry, mark);
       } else {
+        const std::optional<Mark> mark = mark_in(entry);
         for_each_export(entry, take_rest, left, take);
         if (mark) take(entry, *mark);
       }

@@ -26,24 +26,25 @@ int said(const Forget::Response& response) {
 /// Without nodes: the exports in the folders.
 Forget::Response forget_exports(const Forget::Request& request) {
   Forget::Response response;
-  bool was_there = false;
+  bool none = true;
   for (const std::string& folder : request.folders) {
     try {
       std::vector<tensegric_fit::geometry::Refusal> left;
       const auto deleted = tensegric_fit::node::delete_exports(folder, request.scan_id, left);
       for (const std::string& line : lines_of(deleted)) response.removed.push_back(line);
-      if (!deleted.exports.empty()) was_there = true;
+      none = none && deleted.exports.empty() && left.empty();
       for (const auto& refusal : left) response.not_reached.emplace_back(refusal.what());
     } catch (const tensegric_fit::geometry::Refusal& refusal) {
       if (refusal.code() == tensegric_fit::geometry::refusal::kNothingYet) continue;
       response.not_reached.emplace_back(refusal.what());
+      none = false;  // there may be one
     }
   }
   if (request.scan_file)
     response.not_reached.emplace_back("the file that it was played from: the scan player knows it");
   response.complete = response.not_reached.empty();
   response.message = fmt::format("no booth is running: looked for exports only{}",
-                                 was_there ? "" : ", and of scan " + request.scan_id + " there was none");
+                                 none ? ", and of scan " + request.scan_id + " there was none" : "");
   return response;
 }
 

@@ -76,7 +76,9 @@ TEST(MeasureEntries, AGarmentThatMovesNothingChangesNoTape) {
     const std::vector<MeasureEntry> entries = measure_entries(pipe, measures, &worn);
     ASSERT_EQ(entries.size(), 1u);
     ASSERT_TRUE(entries[0].loop && entries[0].loop_worn);
-    EXPECT_NEAR(entries[0].loop_worn->tape, size * entries[0].loop->tape, size == 1 ? 1e-12 : 0.004);
+    const double tolerance = size == 1 ? 1e-12 : 0.004;
+    EXPECT_NEAR(entries[0].loop_worn->tape, size * entries[0].loop->tape, tolerance);
+    EXPECT_NEAR(entries[0].loop_worn->skin, size * entries[0].loop->skin, tolerance);
   }
 }
 

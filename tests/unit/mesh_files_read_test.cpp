@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstring>
@@ -132,6 +133,11 @@ TEST_F(MeshFile, AsciiStlAndBinaryStlThatSaysSolid) {
       " facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1e0 0 0\n vertex 0 1 0\n endloop\n "
       "endfacet\n";
   EXPECT_EQ(read_mesh(write("a.stl", "solid x\n" + facet + "endsolid x\n")).triangles.size(), 1U);
+  std::string one_line = "solid x\n" + facet + "endsolid x\n", returns = one_line;
+  std::replace(one_line.begin(), one_line.end(), '\n', ' ');
+  std::replace(returns.begin(), returns.end(), '\n', '\r');
+  for (const std::string& text : {one_line, returns})
+    EXPECT_EQ(read_mesh(write("a.stl", text)).triangles.size(), 1U) << text;
   std::string capitals = "\xef\xbb\xbf  SOLID my vertex facet\n" + facet + "endsolid\n";
   for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   EXPECT_EQ(read_mesh(write("a.stl", capitals)).triangles.size(), 1U);
@@ -400,6 +406,8 @@ TEST_F(MeshFile, XyzHasHeadingsAndFurtherColumns) {
   EXPECT_THROW(read_xyz(write("b.xyz", "1 2 3\n4 5\n")), geometry::Refusal);
   EXPECT_EQ(read_xyz(write("c.xyz", "# a scan\n//X Y Z\n2\n1 2 3\n1,2,3 7\n")).size(), 2U);
   EXPECT_THROW(read_xyz(write("d.xyz", "a\nb\n")), geometry::Refusal);
+  EXPECT_EQ(read_xyz(write("f.xyz", "x,mm y,mm z,mm\n1 2 3\n")).size(), 1U);
+  EXPECT_THROW(read_xyz(write("g.xyz", "1 2\n3 4\n1 2 3\n")), geometry::Refusal);
   EXPECT_THROW(read_xyz(write("e.xyz", "0,12 0,5 1,7\n")), geometry::Refusal);  // a comma for the point
 }
 
