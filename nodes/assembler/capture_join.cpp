@@ -56,7 +56,8 @@ bool CaptureJoin::fits(const Capture& capture, std::uint64_t stamp) const {
 }
 
 // A capture of too few sensors is none: it keeps its own late clouds back, for as long as they may come, and
-// no others. One sensor whose clock is ahead would stop the booth until that time has come.
+// no others. One sensor whose clock is ahead would stop the booth until that time has come. Two sensors, or
+// equal halves, do not say whose clock is right: the later ones keep back what comes in their slop.
 bool CaptureJoin::has_left(int sensor, std::uint64_t stamp, double now, Fate& fate) {
   const auto newest =
       std::find_if(left_.rbegin(), left_.rend(), [](const Left& left) { return left.enough; });

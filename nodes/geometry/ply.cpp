@@ -31,7 +31,7 @@ void read_ply(const std::string& path, pcl::PolygonMesh& mesh) {
   const auto is_empty = [](const pcl::Vertices& face) { return face.vertices.empty(); };
   if (faces > 0 && std::all_of(mesh.polygons.begin(), mesh.polygons.end(), is_empty))
     throw Refusal(refusal::kBrokenFile,
-                  path + ": its faces are in a form that is not read: save them as lists of uchar and int");
+                  path + ": its faces are empty or in a form that is not read: lists of uchar and int are");
   // PCL takes the size of a camera's picture, as MeshLab writes it, for the cloud's.
   pcl::PCLPointCloud2& cloud = mesh.cloud;
   if (cloud.point_step > 0 &&

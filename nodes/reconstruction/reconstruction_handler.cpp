@@ -93,6 +93,10 @@ void check_near_origin(const std::vector<Eigen::Vector3d>& points, const std::st
   }
 }
 
+std::string last_part(const std::string& frame) {
+  return frame.substr(frame.rfind('/') + 1);
+}
+
 }  // namespace
 
 std::vector<std::string> frames_of_others(const std::string& transforms, const std::string& body_frame) {
@@ -100,7 +104,7 @@ std::vector<std::string> frames_of_others(const std::string& transforms, const s
   try {
     for (const auto& frame : YAML::Load(transforms)) {
       const auto name = frame.first.as<std::string>();  // who broadcasts it a tf2 listener does not know
-      if (name == body_frame) continue;
+      if (last_part(name) == last_part(body_frame)) continue;  // of another booth's chain, too
       frames.insert(name);
       frames.insert(frame.second["parent"].as<std::string>());
     }

@@ -21,9 +21,9 @@ reconstruction::Options reconstruction_options(Parameters& parameters);
 /// The shipped body model, loaded now. \throw Refusal broken_file
 reconstruction::Anatomy shipped_anatomy();
 
-/// The frames that tf knows from others than this chain, whose landmarks publish where `body_frame` stands in
-/// each scan's own frame: `transforms` as tf2 lists them (tf2::BufferCore::allFramesAsYAML). None where that
-/// is no YAML, as with odd names.
+/// The frames that tf knows from others than this chain and those of other booths, whose landmarks publish
+/// where `body_frame` stands, in a namespace of their own, in each scan's own frame: `transforms` as tf2
+/// lists them (tf2::BufferCore::allFramesAsYAML). None where that is no YAML, as with odd names.
 std::vector<std::string> frames_of_others(const std::string& transforms, const std::string& body_frame);
 
 /// What a scan's header lacks, named (`no_stamp`, `no_frame`, `unknown_frame`), with what to do about it; ""

@@ -111,7 +111,8 @@ bool ExportDesk::on_delete(DeleteExport::Request& request, DeleteExport::Respons
     if (response.folders.empty())
       throw geometry::Refusal(
           geometry::refusal::kNothingYet,
-          fmt::format("no export of scan {} in '{}'; rests of others that were cut off are gone",
+          fmt::format("no export of scan {} in '{}'; what was left of exports that were cut off was deleted, "
+                      "perhaps of other scans",
                       request.scan_id, request.directory));
     response.message = fmt::format("deleted {} exports of scan {}", response.folders.size(), request.scan_id);
   });

@@ -239,9 +239,12 @@ bool ForgetDesk::on_forget(Forget::Request& request, Forget::Response& response)
   response.complete = response.not_reached.empty();
   Names booths = other_booths(*before, node_.resolveName("forget/order"));
   if (now) booths.merge(other_booths(*now, node_.resolveName("forget/order")));
-  response.message = fmt::format(
-      "scan {}: {}{}{}", request.scan_id, was_there ? "forgotten" : "nothing of it was found",
-      booths.empty() ? "" : " in " + node_.getNamespace(), response.complete ? "" : ", but not everywhere");
+  const char* done = response.complete && was_there ? "forgotten"
+                     : response.complete            ? "nothing of it was found"
+                     : was_there                    ? "forgotten, but not everywhere"
+                                                    : "nothing of it was deleted, and it may be left";
+  response.message = fmt::format("scan {}: {}{}", request.scan_id, done,
+                                 booths.empty() ? "" : ", in " + node_.getNamespace() + " alone");
   for (const std::string& booth : booths)
     response.not_reached.push_back(booth + ": another booth, which was not asked");
   for (const std::string& topic : body_topics(*before, asked, node_)) {

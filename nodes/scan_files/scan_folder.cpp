@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <sstream>
 
 #include "geometry/status.hpp"
 
@@ -88,9 +89,11 @@ std::vector<std::string> ScanFolder::played(const std::set<std::string>& but) co
 }
 
 void ScanFolder::skip(const std::vector<std::string>& played) {
-  const std::set<std::string> texts(played.begin(), played.end());
-  for (const auto& [name, version] : look())
-    if (texts.count(text_of(name, version)) != 0) files_[name] = {version, 0, true};
+  for (const std::string& text : played) {
+    std::istringstream words(text);
+    Version version{};
+    if (words >> version.changed >> version.size) files_[name_in(text)] = {version, 0, true};
+  }
 }
 
 }  // namespace tensegric_fit::scan_files

@@ -11,7 +11,8 @@ namespace tensegric_fit::scan_files {
 
 /// Finds new files (not those whose name begins with a dot; whether they are scans is_scan_name says) once
 /// they are complete: when neither size nor time of change have moved for a while. A file that is written
-/// again is a new one; one that was away with all others, as on a share, is not. For one thread.
+/// again is a new one; one that was away with all others, as on a share, is not: names are kept for as long
+/// as the folder is empty. For one thread.
 class ScanFolder {
  public:
   /// `settle`: seconds for which a complete file has been still.
@@ -27,8 +28,9 @@ class ScanFolder {
   /// Lets go of the name of a file that was deleted.
   void drop(const std::string& name) { files_.erase(name); }
 
-  /// Texts, printable ASCII whatever the names are, that stand for the files returned so far and still there,
-  /// but for those named; and, for one that goes on where another ended, to leave those out.
+  /// Texts, printable ASCII whatever the names are, that stand for the files returned so far, but for those
+  /// that were deleted since and those named; and, for one that goes on where another ended, to leave those
+  /// out. Other texts are passed over.
   std::vector<std::string> played(const std::set<std::string>& but = {}) const;
   void skip(const std::vector<std::string>& played);
 

@@ -81,7 +81,7 @@ bool Newton::settle(Balance& at, const Load& load, const Tolerance& tolerance, i
   };
   for (int i = 0; i <= most; ++i) {
     while ((within(defect, tolerance) && change_holds(at, load)) ||
-           (i >= kStepsBeyondLimit && stop_at_limits(at, load))) {
+           (i >= kStepsBeyondLimit && change_holds_off_balance(at, load))) {
       if (!goes_on()) return false;
     }
     if (within(defect, tolerance)) return settled(true);
@@ -255,9 +255,9 @@ bool Newton::release_contradicted(Balance& at, const Load& load, const Step& ste
 }
 
 // What never comes near enough to balance for change_holds. A request that is out of reach: its tension grows
-// beyond its limit. Lines that run nearly the same way, kept at their lengths together: some pull and some
-// push with many times what acts on them; the one that pushes most is let go.
-bool Newton::stop_at_limits(Balance& at, const Load& load) const {
+// beyond its limit. Lines that run nearly the same way, kept at their lengths together: some pull, others
+// push as much, and the step that would let go of them is far away; the one that pushes most is let go.
+bool Newton::change_holds_off_balance(Balance& at, const Load& load) const {
   bool changed = false;
   int pushes = -1;
   double most = kSlightPush * problem_.force_scale;

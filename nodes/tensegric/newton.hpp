@@ -38,7 +38,7 @@ class Newton {
   Stop spent() const;
   bool advance(Balance& at, const Load& load, KktResidual& defect, const Step& step,
                const Tolerance& tolerance);
-  bool stop_at_limits(Balance& at, const Load& load) const;
+  bool change_holds_off_balance(Balance& at, const Load& load) const;
   bool release_contradicted(Balance& at, const Load& load, const Step& step) const;
   bool change_holds(Balance& at, const Load& load) const;
   bool is_rounding(const Step& step) const;

@@ -59,10 +59,11 @@ SkinNear::SkinNear(const geometry::TriangleMesh& body, const std::vector<char>& 
 SurfacePoint SkinNear::below(const Vector3d& q) const {
   const SurfacePoint at = nearest(q);
   if ((at.position - q).norm() > kFarFromSkin)
-    throw Refusal(kBadGarment,
-                  fmt::format("a line runs more than 30 mm away from the skin at ({:.3f}, {:.3f}, {:.3f}) m: "
-                              "between its points it goes straight, and needs more of them",
-                              q.x(), q.y(), q.z()));
+    throw Refusal(
+        kBadGarment,
+        fmt::format("a line runs more than 30 mm away from the skin at ({:.3f}, {:.3f}, {:.3f}) m: "
+                    "its points lie on the skin, and between them it goes straight and may need more",
+                    q.x(), q.y(), q.z()));
   return at;
 }
 

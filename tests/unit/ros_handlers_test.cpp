@@ -61,6 +61,8 @@ TEST(ReconstructionHandler, WhatTheChainItselfPublishesOnTfIsNotKnown) {
   EXPECT_TRUE(known().empty());
   add("shop/boot", "shop/body");
   EXPECT_TRUE(known().empty());
+  add("shop_2/booth", "shop_2/body");
+  EXPECT_TRUE(known().empty());
   add("booth", "sensor_0");
   add("map", "booth");
   EXPECT_EQ(known(), (std::vector<std::string>{"booth", "map", "sensor_0"}));

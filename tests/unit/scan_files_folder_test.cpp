@@ -88,6 +88,23 @@ TEST_F(ScanFolderTest, AShareThatWasAwayForAMomentPlaysNothingAgain) {
   fs::rename(away, root_);
   EXPECT_EQ(played(folder, 3), "");
   EXPECT_EQ(played(folder, 9), "");
+
+  fs::rename(root_, away);  // and is away when the player is started again
+  fs::create_directories(root_);
+  ScanFolder next(root_, 1);
+  next.skip(folder.played());
+  EXPECT_EQ(played(next, 10), "");
+  fs::remove(root_);
+  fs::rename(away, root_);
+  EXPECT_EQ(played(next, 11), "");
+  EXPECT_EQ(played(next, 19), "");
+}
+
+TEST_F(ScanFolderTest, TextsThatStandForNoFileArePassedOver) {
+  write("a.ply", "a");
+  ScanFolder folder(root_, 0);
+  folder.skip({"", "a.ply", "1 a.ply", "x y a.ply"});
+  EXPECT_EQ(played(folder, 0), "a.ply");
 }
 
 // The master takes no other text for a parameter, and forgot all files after such a one.

@@ -82,6 +82,8 @@ TEST(Garment, OfBandsThatRunTheSameWayTheWidestPulls) {
     EXPECT_LE(line.final, line.neutral * (1 + 1e-6)) << line.name;
   }
   EXPECT_NEAR(pull, one.lines[0].tension, 0.1 * pull);  // all of them run nearly alike
+  for (std::size_t line = 1; line < three.lines.size(); ++line)
+    EXPECT_GT(three.lines[0].tension, three.lines[line].tension);
 }
 
 }  // namespace
