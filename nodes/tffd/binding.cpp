@@ -97,24 +97,23 @@ Binding::Binding(const geometry::TriangleMesh& body, const geometry::ControlMesh
   const double beta = beta_of(options);
   check_input(body, control);
   const bool paper = setting_ == Setting::paper;
-  const std::vector<Frame> frames = frames_of(control, paper ? Axis::unit_normal : Axis::inner_to_outer);
-  const TriangleGrid grid(frames, beta);
-  Kernel kernel{beta, grid};
+  frames_ = frames_of(control, paper ? Axis::unit_normal : Axis::inner_to_outer);
+  Kernel& kernel = kernel_.emplace(Kernel{beta, TriangleGrid(frames_, beta)});
   if (paper) {
-    terms_ = paper_terms(vertices_, frames, kernel);
+    terms_ = paper_terms(vertices_, frames_, kernel);
     anchors_ = anchors_of(terms_);
     check_carries(anchors_, control.outer_fixed);
-    weights_.values = paper_values(vertices_, control, frames, terms_);
+    weights_.values = paper_values(vertices_, control, frames_, terms_);
     return;
   }
-  anchors_ = reach_of(body, control, frames, grid, beta);
+  anchors_ = reach_of(body, control, frames_, kernel.grid, beta);
   check_carries(anchors_, control.outer_fixed);
   untangle_ = Untangle(body, anchors_);
   const std::vector<Tie> ties = tie_needles(body, anchors_);
-  weights_ = standard_weights(body, control, frames, kernel, anchors_, ties);
+  weights_ = standard_weights(body, control, frames_, kernel, anchors_, ties);
   if (options.truncation > 0) {
     kernel.truncation = options.truncation;
-    Weights truncated = standard_weights(body, control, frames, kernel, anchors_, ties);
+    Weights truncated = standard_weights(body, control, frames_, kernel, anchors_, ties);
     truncation_error_ = largest_row_sum(weights_.nodes - truncated.nodes);
     weights_ = std::move(truncated);
   }
@@ -139,10 +138,18 @@ Binding Binding::posed(const geometry::BoneFrames& bones) const {
   return other;
 }
 
-bool Binding::reaches(int vertex) const {
+double Binding::share_of(int vertex) const {
   const auto at = std::lower_bound(anchors_.begin(), anchors_.end(), vertex,
                                    [](const Anchor& anchor, int v) { return anchor.vertex < v; });
-  return at != anchors_.end() && at->vertex == vertex;
+  return at != anchors_.end() && at->vertex == vertex ? at->share : 0;
+}
+
+geometry::CarriedPoint Binding::carried(const geometry::SurfacePoint& at,
+                                        const Eigen::Vector3i& corners) const {
+  double share = 0;
+  for (int k = 0; k < 3; ++k) share += at.barycentric[k] * share_of(corners[k]);
+  if (share == 0) return {at.position, {}};
+  return {at.position, weights_at(at.position, share, outer_.size(), triangles_, frames_, *kernel_)};
 }
 
 std::vector<Eigen::Vector3d> Binding::deform(const std::vector<Eigen::Vector3d>& outer,

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "geometry/control_mesh.hpp"
+#include "geometry/fibre.hpp"
 #include "geometry/posture.hpp"
 #include "geometry/range.hpp"
+#include "geometry/surface_tree.hpp"
 #include "geometry/tffd_reach.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "tffd/reach.hpp"
@@ -74,8 +77,13 @@ class Binding {
   /// The vertices that follow the control mesh, ascending.
   const std::vector<Anchor>& anchors() const { return anchors_; }
 
+  /// A point of the body as it was bound, in a triangle with these corners: the mapping itself, not what
+  /// straight lines between the vertices make of it, so that a garment pulls alike on coarse and fine meshes
+  /// of a body. With corners' shares of the motion between. \pre the standard setting
+  geometry::CarriedPoint carried(const geometry::SurfacePoint& at, const Eigen::Vector3i& corners) const;
+
   /// Whether the control mesh can move that vertex.
-  bool reaches(int vertex) const;
+  bool reaches(int vertex) const { return share_of(vertex) > 0; }
 
   /// Where everything is at rest.
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
@@ -85,6 +93,7 @@ class Binding {
   const std::vector<Eigen::Vector3i>& control_triangles() const { return triangles_; }
 
  private:
+  double share_of(int vertex) const;  // 0 of one that is no anchor
   void move_by_weights(const std::vector<Eigen::Vector3d>& outer, const std::vector<Eigen::Vector3d>& inner,
                        std::vector<Eigen::Vector3d>& moved) const;
   void move_by_normals(const std::vector<Eigen::Vector3d>& outer, std::vector<Eigen::Vector3d>& moved) const;
@@ -94,6 +103,8 @@ class Binding {
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<Eigen::Vector3d> outer_, inner_;
   std::vector<Eigen::Vector3i> triangles_;
+  std::vector<Frame> frames_;
+  std::optional<Kernel> kernel_;
   std::vector<Anchor> anchors_;
   Untangle untangle_;  // not in the paper's setting
   Weights weights_;

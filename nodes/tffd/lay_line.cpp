@@ -46,14 +46,6 @@ std::vector<Vector3d> across(const std::vector<SurfacePoint>& middle, const Skin
   return smooth;
 }
 
-CarriedPoint carried(const SurfacePoint& at, const SkinNear& skin, const SparseRows& m) {
-  std::map<int, double> weights;
-  for (int k = 0; k < 3; ++k)
-    for (SparseRows::InnerIterator entry(m, skin.corners(at)[k]); entry; ++entry)
-      weights[static_cast<int>(entry.col())] += at.barycentric[k] * entry.value();
-  return {at.position, {weights.begin(), weights.end()}};
-}
-
 // How the fibres of a cup spread: the row on which they end, from right to left, and the ways to its nodes.
 struct Fan {
   std::vector<Vector3d> row;
@@ -195,8 +187,7 @@ std::vector<CarriedPoint> thinned(const std::vector<CarriedPoint>& points, doubl
 
 std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::TriangleMesh& body,
                                       const Binding& binding) {
-  const SparseRows& m = binding.weights().nodes;
-  if (m.cols() == 0)
+  if (binding.weights().nodes.cols() == 0)
     throw Refusal(refusal::kBadOption,
                   "t-FFD: the paper's setting has no constant weights to carry a line by");
   const bool is_cup = !line.fan.empty();
@@ -229,7 +220,7 @@ std::vector<geometry::Fibre> lay_line(const LineOnBody& line, const geometry::Tr
     std::vector<CarriedPoint> points;
     std::vector<Vector3d> normals;
     for (const SurfacePoint& at : way) {
-      points.push_back(carried(at, skin, m));
+      points.push_back(binding.carried(at, skin.corners(at)));
       normals.push_back(skin.normal(at));
     }
     if (line.held[0]) points.front().weights.clear();

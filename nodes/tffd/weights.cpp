@@ -120,6 +120,15 @@ class Row {
   }
 
   std::size_t entries() const { return columns_.size(); }
+  std::size_t columns() const { return sums_.size(); }
+
+  // Node and weight, times `factor`, ascending.
+  std::vector<std::pair<int, double>> taken(double factor) {
+    std::sort(columns_.begin(), columns_.end());
+    std::vector<std::pair<int, double>> row;
+    for (const int column : columns_) row.emplace_back(column, factor * sums_[column]);
+    return row;
+  }
 
   // Appends the row, times `factor`, and starts a new one.
   void append_to(SparseRows& matrix, Eigen::Index row, double factor) {
@@ -178,6 +187,36 @@ void limit_stretch(std::vector<Near>& near, const Absolute& absolute) {
   favour_near(before, high, near);
 }
 
+// The row of M of a point, whose triangles are `near`, in `nodes`: outer ones, then inner ones. Bounds their
+// shares.
+void gather_nodes(const Eigen::Vector3d& q, const Eigen::Vector3d* foot,
+                  const std::vector<Eigen::Vector3i>& triangles, const std::vector<Frame>& frames,
+                  std::vector<Near>& near, Row& nodes) {
+  const int outer = static_cast<int>(nodes.columns() / 2);
+  for (Near& triangle : near) {
+    const Carried carried = carried_by(frames[triangle.triangle], q, foot);
+    triangle.stretch = 3 * std::abs(carried.inner);
+    for (const double weight : carried.outer) triangle.stretch += std::abs(weight);
+  }
+  const auto gather = [&](const std::vector<Near>& shares) {
+    nodes.clear();
+    for (const Near& triangle : shares) {
+      if (triangle.k == 0) continue;
+      const Carried carried = carried_by(frames[triangle.triangle], q, foot);
+      for (int j = 0; j < 3; ++j) {
+        const int node = triangles[triangle.triangle][j];
+        nodes.add(node, triangle.k * carried.outer[j]);
+        nodes.add(outer + node, triangle.k * carried.inner);
+      }
+    }
+  };
+  limit_stretch(near, [&](const std::vector<Near>& shares) {
+    gather(shares);
+    return nodes.absolute();
+  });
+  gather(near);
+}
+
 Eigen::Vector3d foot_of(const Tie& tie, const std::vector<Eigen::Vector3d>& vertices) {
   return vertices[tie.from] + tie.part * (vertices[tie.to] - vertices[tie.from]);
 }
@@ -197,6 +236,17 @@ void follow_feet(const std::vector<Tie>& ties, SparseRows& nodes) {
 }
 
 }  // namespace
+
+std::vector<std::pair<int, double>> weights_at(const Eigen::Vector3d& q, double share, std::size_t outer,
+                                               const std::vector<Eigen::Vector3i>& triangles,
+                                               const std::vector<Frame>& frames, const Kernel& kernel) {
+  std::vector<Near> near;
+  find_near(q, frames, kernel, near);
+  weigh(frames, kernel.truncation, near);
+  Row nodes(2 * static_cast<Eigen::Index>(outer));
+  gather_nodes(q, nullptr, triangles, frames, near, nodes);
+  return nodes.taken(share);
+}
 
 Weights standard_weights(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
                          const std::vector<Frame>& frames, const Kernel& kernel,
@@ -219,29 +269,7 @@ Weights standard_weights(const geometry::TriangleMesh& body, const geometry::Con
     find_near(q, frames, kernel, near);
     weigh(frames, kernel.truncation, near);
     const Eigen::Vector3d foot = tie ? foot_of(*tie, body.vertices) : q;
-    for (Near& triangle : near) {
-      const Carried carried = carried_by(frames[triangle.triangle], q, tie ? &foot : nullptr);
-      triangle.stretch = 3 * std::abs(carried.inner);
-      for (const double weight : carried.outer) triangle.stretch += std::abs(weight);
-    }
-    const auto gather = [&](const std::vector<Near>& shares) {
-      for (const Near& triangle : shares) {
-        if (triangle.k == 0) continue;
-        const Carried carried = carried_by(frames[triangle.triangle], q, tie ? &foot : nullptr);
-        for (int j = 0; j < 3; ++j) {
-          const int node = control.triangles[triangle.triangle][j];
-          nodes.add(node, triangle.k * carried.outer[j]);
-          nodes.add(outer + node, triangle.k * carried.inner);
-        }
-      }
-    };
-    limit_stretch(near, [&](const std::vector<Near>& shares) {
-      nodes.clear();
-      gather(shares);
-      return nodes.absolute();
-    });
-    nodes.clear();
-    gather(near);
+    gather_nodes(q, tie ? &foot : nullptr, control.triangles, frames, near, nodes);
     for (const Near& triangle : near)
       for (int j = 0; j < 3 && triangle.k > 0; ++j)
         values.add(control.triangles[triangle.triangle][j], triangle.k * triangle.barycentric[j]);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "geometry/control_mesh.hpp"
@@ -31,7 +32,7 @@ struct Weights {
 /// below which part of a vertex's largest kernel weight the others are dropped (the kept ones sum to 1).
 struct Kernel {
   double beta;
-  const TriangleGrid& grid;
+  TriangleGrid grid;
   double truncation = 0;
   /// Of M, 1.6 GB: no body comes near, but all nodes carry a vertex that is far off every triangle.
   std::size_t most_entries = std::size_t{1} << 27;
@@ -42,6 +43,12 @@ struct Kernel {
 Weights standard_weights(const geometry::TriangleMesh& body, const geometry::ControlMesh& control,
                          const std::vector<Frame>& frames, const Kernel& kernel,
                          const std::vector<Anchor>& anchors, const std::vector<Tie>& ties);
+
+/// The row of M of any point, node and weight, ascending. `outer`: how many outer nodes there are.
+/// \pre the frames run from inner to outer centroid
+std::vector<std::pair<int, double>> weights_at(const Eigen::Vector3d& q, double share, std::size_t outer,
+                                               const std::vector<Eigen::Vector3i>& triangles,
+                                               const std::vector<Frame>& frames, const Kernel& kernel);
 
 /// One triangle's part in one vertex, with the unit normal for W.
 struct NormalTerm {
