@@ -119,7 +119,7 @@ void add_lines(const Template& pattern, geometry::ControlMesh& control) {
   for (const TemplateLine& line : pattern.lines) {
     std::vector<int> stops;
     for (const std::string& stop : line.through) stops.push_back(control.node(stop));
-    control.lines.push_back({line.name, geometry::route_over_edges(control, stops)});
+    control.lines.push_back({line.name, geometry::route_over_edges(control, stops, line.name)});
   }
 }
 

@@ -1,6 +1,9 @@
 #include "correlation/differences.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace tensegric_fit::correlation {
 namespace {
@@ -48,10 +51,17 @@ std::optional<Value> effect_in(const Measured& body, const std::string& point, b
   return Value{height ? (l.z() + r.z()) / 2 : (l - r).norm(), unsure.confidence, unsure.reason};
 }
 
-// `find` looks a value up in one body; empty where it was not measured before.
+std::optional<double> after_in(const std::vector<geometry::ChangedMeasure>& list, const std::string& name) {
+  for (const geometry::ChangedMeasure& m : list)
+    if (m.before.name == name) return m.after;
+  return std::nullopt;
+}
+
+// `find` looks a value up in one body; empty where it was not measured before. `carried`: what the simulation
+// itself makes of it.
 template <typename Find>
 void add(std::vector<Difference>& list, const std::string& name, const std::vector<Measured>& bodies,
-         const Find& find) {
+         const std::optional<double>& carried, const Find& find) {
   std::vector<std::optional<Value>> values;
   for (const Measured& body : bodies) values.push_back(body.measures == nullptr ? std::nullopt : find(body));
   if (!values[0]) return;
@@ -63,27 +73,45 @@ void add(std::vector<Difference>& list, const std::string& name, const std::vect
     difference.confidence = value->confidence;
     difference.reason = value->confidence < geometry::kUnsure ? value->reason : "";
   }
+  if (values[1] && carried && std::abs(values[1]->metres - *carried) > kElsewhere) {
+    difference.reason = fmt::format(
+        "measured anew on the simulated body it is {:.0f} mm off what the garment made of it, so "
+        "that it cannot be compared",
+        1e3 * std::abs(values[1]->metres - *carried));
+    difference.simulated = carried;
+    difference.worn.reset();
+    difference.confidence = 0;
+  }
   list.push_back(std::move(difference));
 }
 
 }  // namespace
 
-Differences differences_of(const BodyMeasures& before, const BodyMeasures* simulated,
-                           const BodyMeasures& worn, const Eigen::Isometry3d& simulated_from_worn) {
+Differences differences_of(const BodyMeasures& before, const geometry::MovedSkin& skin,
+                           const BodyMeasures* simulated, const BodyMeasures& worn,
+                           const Eigen::Isometry3d& simulated_from_worn) {
   const std::vector<Measured> bodies = {{&before, before.body_from_scan},
                                         {simulated, before.body_from_scan},
                                         {&worn, before.body_from_scan * simulated_from_worn}};
+  BodyMeasures moved = before;  // landmarks where the garment took them
+  const std::vector<Vector3d> places = geometry::landmarks_after(before, skin);
+  for (std::size_t i = 0; i < places.size(); ++i) moved.landmarks[i].position = places[i];
+  const std::vector<geometry::ChangedMeasure> girths = geometry::girths_after(before, skin),
+                                              heights = geometry::heights_after(before, skin);
   Differences differences;
   for (const std::string point : {"bust_point", "buttock"}) {
-    for (const bool height : {true, false})
+    for (const bool height : {true, false}) {
+      const std::optional<Value> carried = effect_in({&moved, before.body_from_scan}, point, height);
       add(differences.effects, point + (height ? "_height" : "_spread"), bodies,
+          carried ? std::optional(carried->metres) : std::nullopt,
           [&](const Measured& body) { return effect_in(body, point, height); });
+    }
   }
   for (const Measure& girth : before.girths)
-    add(differences.girths, girth.name, bodies,
+    add(differences.girths, girth.name, bodies, after_in(girths, girth.name),
         [&](const Measured& body) { return value_in(body.measures->girths, girth.name); });
   for (const Measure& height : before.heights)
-    add(differences.heights, height.name, bodies,
+    add(differences.heights, height.name, bodies, after_in(heights, height.name),
         [&](const Measured& body) { return height_in(body, height.name); });
   return differences;
 }

@@ -4,6 +4,8 @@
 #include <mutex>
 #include <optional>
 
+#include "geometry/status.hpp"
+
 #include "tensegric/course.hpp"
 #include "tffd/body_volume.hpp"
 #include "tffd/skin_check.hpp"
@@ -33,8 +35,9 @@ class BoundBody : public tensegric::BodyUnderGarment {
       const tffd::LineOnBody way = on_body(control_, line);
       const auto known =
           std::find_if(lines_.begin(), lines_.end(), [&way](const Line& one) { return same(one.way, way); });
-      lines.push_back(
-          known != lines_.end() ? *known : Line{way, tffd::lay_line(way, bound().mesh, bound().binding())});
+      lines.push_back(known != lines_.end()
+                          ? *known
+                          : Line{way, fit::lay(line.name, way, bound().mesh, bound().binding())});
       laid.push_back({line.name, lines.back().fibres});
     }
     lines_ = std::move(lines);
@@ -97,6 +100,16 @@ class BoundBody : public tensegric::BodyUnderGarment {
 tffd::LineOnBody on_body(const geometry::ControlMesh& control, const tensegric::GarmentLine& line) {
   const tensegric::Course course = tensegric::course_of(control, line);
   return {course.points, line.width, line.smooth, line.taut, course.held, course.fan};
+}
+
+std::vector<geometry::Fibre> lay(const std::string& name, const tffd::LineOnBody& way,
+                                 const geometry::TriangleMesh& body, const tffd::Binding& binding) {
+  try {
+    return tffd::lay_line(way, body, binding);
+  } catch (const geometry::Refusal& refusal) {
+    if (refusal.code() != geometry::refusal::kBadGarment) throw;
+    throw geometry::Refusal(refusal.code(), "line '" + name + "' " + refusal.what());
+  }
 }
 
 std::vector<tensegric::PosedVolume> body_volumes(const tffd::Binding& binding,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "tensegric/body_under_garment.hpp"
@@ -12,6 +13,10 @@ namespace tensegric_fit::fit {
 
 /// A garment's line as it lies on the body. \throw Refusal unknown_line: a node that the control mesh lacks
 tffd::LineOnBody on_body(const geometry::ControlMesh& control, const tensegric::GarmentLine& line);
+
+/// The line laid on the body that was bound. \throw Refusal as tffd::lay_line, with the line's name
+std::vector<geometry::Fibre> lay(const std::string& name, const tffd::LineOnBody& way,
+                                 const geometry::TriangleMesh& body, const tffd::Binding& binding);
 
 /// One per region: the volume under its triangles of the body, metres and m^3.
 /// `binding`: not posed; `carried`: as tffd::carried_triangles; `bones`: of the posture, still or not

@@ -114,7 +114,7 @@ std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitt
   for (const tensegric::GarmentLine& line : garment.lines) {
     if (!line.on_body()) continue;
     laid.push_back(
-        {line.name, tffd::lay_line(on_body(fitting.control, line), body.mesh.mesh, fitting.binding)});
+        {line.name, lay(line.name, on_body(fitting.control, line), body.mesh.mesh, fitting.binding)});
   }
   return laid;
 }

@@ -57,9 +57,9 @@ class Run {
         correlate({fitted_.rest, fitted_.deformed, fitted_.control, before.measures},
                   {worn.mesh.mesh, worn.mesh.filled, worn.measures}, line_.options);
     const std::optional<Body> simulated = simulated_body();
-    const correlation::Differences differences =
-        correlation::differences_of(before.measures, simulated ? &simulated->measures : nullptr,
-                                    worn.measures, result.alignment.patch_from_scan);
+    const correlation::Differences differences = correlation::differences_of(
+        before.measures, {fitted_.rest, fitted_.deformed}, simulated ? &simulated->measures : nullptr,
+        worn.measures, result.alignment.patch_from_scan);
     say("pictures, report");
     const bool same_scan = is_same_scan(fitted_, worn.mesh.mesh);
     if (same_scan)

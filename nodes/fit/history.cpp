@@ -58,10 +58,17 @@ void add_lines(const json& lines, Visit& visit) {
     visit.lines[line.at("name").get<std::string>()] = line.at("ratio").get<double>();
 }
 
+/// Blanks round an id come from a form or a label printer, and cannot be seen.
+std::string trimmed(const std::string& id) {
+  constexpr const char* kBlank = " \t\r\n";
+  const std::size_t first = id.find_first_not_of(kBlank);
+  return first == std::string::npos ? "" : id.substr(first, id.find_last_not_of(kBlank) + 1 - first);
+}
+
 void read_export(const json& document, Visit& visit) {
   const json& scan = document.at("scan");
   visit.scan = scan.at("scan_id").get<std::string>();
-  visit.customer = scan.value("customer", "");
+  visit.customer = trimmed(scan.value("customer", ""));
   visit.source = scan.value("source", "");
   visit.body_from_scan = pose_in(scan.at("body_from_scan"));
   const double stamp = std::strtod(visit.scan.c_str(), nullptr);
@@ -76,7 +83,7 @@ void read_export(const json& document, Visit& visit) {
 bool read_report(const json& report, Visit& visit) {
   if (report.at("status") != "ok") return false;
   const json& scan = report.at("scan");
-  visit.customer = scan.value("customer", "");
+  visit.customer = trimmed(scan.value("customer", ""));
   visit.source = fs::path(scan.at("file").get<std::string>()).filename();
   visit.body_from_scan = pose_in(scan.at("body_from_scan"));
   visit.garment = report.value("garment", "");
@@ -118,7 +125,8 @@ std::optional<Visit> read_visit(const fs::path& folder) {
   return std::nullopt;
 }
 
-std::vector<Visit> find_visits(const std::vector<std::string>& folders, const std::string& customer) {
+std::vector<Visit> find_visits(const std::vector<std::string>& folders, const std::string& customer_id) {
+  const std::string customer = trimmed(customer_id);
   std::vector<Visit> visits;
   std::set<fs::path> seen;  // folders may lie in one another
   const auto look = [&](const fs::path& folder) {
@@ -126,7 +134,7 @@ std::vector<Visit> find_visits(const std::vector<std::string>& folders, const st
     const fs::path place = fs::canonical(folder, gone);
     if (gone || !seen.insert(place).second) return;
     const std::optional<Visit> visit = read_visit(folder);
-    if (visit && (customer.empty() || visit->customer == customer)) visits.push_back(*visit);
+    if (visit && (customer_id.empty() || visit->customer == customer)) visits.push_back(*visit);
   };
   for (const std::string& folder : folders) {
     if (!fs::is_directory(folder))
@@ -161,8 +169,9 @@ std::string customers_text(const std::vector<Visit>& visits) {
   for (const Visit& visit : visits) customers[visit.customer].push_back(&visit);
   std::string text;
   for (const auto& [customer, own] : customers)
-    text += fmt::format("{:<20} {:>3} visits, {} to {}\n", customer.empty() ? "(nobody said who)" : customer,
-                        own.size(), own.front()->day, own.back()->day);
+    text +=
+        fmt::format("{:<20} {:>3} {} {} to {}\n", customer.empty() ? "(nobody said who)" : customer,
+                    own.size(), own.size() == 1 ? "visit, " : "visits,", own.front()->day, own.back()->day);
   return text;
 }
 

@@ -86,7 +86,7 @@ Json json_of(const geometry::FitWarning& warning, const geometry::BodyMeasures& 
   entry["area_cm2"] = 1e4 * warning.area;
   if (warning.code == notice::kOverStretched || warning.code == notice::kPressedTogether) {
     entry["stretch"] = warning.value;
-  } else if (warning.code == warning::kSkinCrosses) {
+  } else if (warning.code == warning::kSkinCrosses || warning.code == notice::kSkinOverLine) {
     entry["depth_mm"] = 1e3 * warning.value;
   } else if (warning.code == notice::kNotScanned) {
     entry["share"] = warning.value;

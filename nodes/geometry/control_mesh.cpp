@@ -100,7 +100,8 @@ Eigen::Vector3d region_apex(const ControlMesh& control, const ControlRegion& reg
   return sum / count;
 }
 
-std::vector<int> route_over_edges(const ControlMesh& control, const std::vector<int>& stops) {
+std::vector<int> route_over_edges(const ControlMesh& control, const std::vector<int>& stops,
+                                  const std::string& line) {
   const auto neighbours = neighbours_of(control.outer.size(), control.triangles);
   std::vector<int> route;
   for (std::size_t i = 0; i < stops.size(); ++i) {
@@ -128,7 +129,7 @@ std::vector<int> route_over_edges(const ControlMesh& control, const std::vector<
     }
     if (distance[stops[i - 1]] == kFar)
       throw Refusal(refusal::kUnknownLine,
-                    "a line joins two parts of the control mesh that are not connected");
+                    "line '" + line + "' joins two parts of the control mesh that are not connected");
     for (int node = stops[i - 1]; node != stops[i];) route.push_back(node = towards[node]);
   }
   return route;

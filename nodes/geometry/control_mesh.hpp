@@ -53,7 +53,9 @@ std::vector<Eigen::Vector3i> region_triangles(const ControlMesh& control, const 
 Eigen::Vector3d region_apex(const ControlMesh& control, const ControlRegion& region);
 
 /// Nodes along the shortest path over the mesh's edges that visits `stops` in order; ties go to the lower
-/// index. \throw Refusal unknown_line: two stops are in parts of the mesh that are not connected.
-std::vector<int> route_over_edges(const ControlMesh& control, const std::vector<int>& stops);
+/// index. `line`: its name, for the refusal. \throw Refusal unknown_line: two stops are in parts of the mesh
+/// that are not connected.
+std::vector<int> route_over_edges(const ControlMesh& control, const std::vector<int>& stops,
+                                  const std::string& line);
 
 }  // namespace tensegric_fit::geometry

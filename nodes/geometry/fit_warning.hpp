@@ -15,7 +15,7 @@ inline constexpr char kShelf[] = "shelf", kTurnedOver[] = "turned_over", kSkinCr
 namespace notice {
 inline constexpr char kSkinTurns[] = "skin_turns", kOverStretched[] = "over_stretched",
                       kPressedTogether[] = "pressed_together", kUnderConstricted[] = "under_constricted",
-                      kNotScanned[] = "not_scanned";
+                      kSkinOverLine[] = "skin_over_line", kNotScanned[] = "not_scanned";
 }
 /// How a line is under-constricted.
 namespace lack {

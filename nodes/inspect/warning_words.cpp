@@ -87,6 +87,12 @@ std::string warning(const FitWarning& warning, const geometry::BodyMeasures& mea
   if (warning.code == geometry::notice::kPressedTogether)
     return fmt::format("The skin is pressed to {} of its width{} ({}): it would crease.{}",
                        share(warning.value), where, area, loosen(warning.line));
+  if (warning.code == geometry::notice::kSkinOverLine)
+    return fmt::format(
+        "The skin comes {:.0f} mm through '{}'{}: the line hangs on what it touches at rest, and does not "
+        "hold "
+        "this.",
+        1e3 * warning.value, warning.line, where);
   if (warning.code == geometry::notice::kNotScanned)
     return fmt::format(
         "The scan did not see the skin under '{}' ({} of its length): what is shown there is made up.",

@@ -188,15 +188,16 @@ class Reader {
   void fold(Side side) {
     const std::string name = sided("underbust", side);
     const Vector3d tip = point(sided("bust_point", side));
-    const Fold on_model = find_fold(shape_, tip, side, {shaped(name)}, kFoldOfModel);
+    Fold on_model = find_fold(shape_, tip, side, {shaped(name)}, kFoldOfModel);
+    has_fold_[side] = !on_model.places.empty();
+    if (!has_fold_[side]) on_model = {{shaped(name)}, shaped(name)};  // where the model's is, and as unsure
     const double reach = std::max(kFoldOfMesh, kFoldSpreads * spread_of_model(name, 0));
     const Fold on_mesh = find_fold(mesh_, tip, side, on_model.places, reach);
     lowest_[0][side] = on_mesh.places.empty() ? std::nullopt : std::optional<Vector3d>(on_mesh.lowest);
-    lowest_[1][side] = on_model.places.empty() ? std::nullopt : std::optional<Vector3d>(on_model.lowest);
-    if (on_model.places.empty()) return lacks(name, "no fold under the breast was found");
+    lowest_[1][side] = on_model.lowest;
     const Vector3d first = on_model.places.front();
     add_point(name, on_mesh.places.empty() ? std::nullopt : std::optional<Vector3d>(on_mesh.places.front()),
-              first, support_at(first));
+              first, has_fold_[side] ? support_at(first) : kWorst);
   }
 
   /// The mean height of points.
@@ -230,7 +231,7 @@ class Reader {
       if (lowest_[s][0] && lowest_[s][1]) lowest[s] = std::min(lowest_[s][0]->z(), lowest_[s][1]->z());
     for (const Side side : kSides) {
       if (base_of("underbust", Kind::point, sided("underbust", side)) == nullptr) return;
-      support = std::max(support, support_at(*lowest_[1][side]));
+      support = std::max(support, has_fold_[side] ? support_at(*lowest_[1][side]) : kWorst);
     }
     add(Kind::height, "underbust", as_figure(lowest[0]), as_figure(lowest[1]), support,
         is_seen(lowest_[0][kLeft]) && is_seen(lowest_[0][kRight]));
@@ -287,6 +288,8 @@ class Reader {
       tapes[s] = (s == 0 ? mesh_ : shape_).tape_of_torso(level - kUnderbustBelowFold);
     }
     girth_of("underbust", tapes[0], tapes[1]);
+    if (!has_fold_[kLeft] || !has_fold_[kRight])
+      doubt(Kind::girth, "underbust", kWorst, "no fold under the breast was found");
   }
 
   template <typename TapeOf>
@@ -453,7 +456,8 @@ class Reader {
   std::vector<Figure> figures_;
   std::vector<geometry::Missing> missing_;
   std::array<std::array<std::optional<Vector3d>, 2>, 2>
-      lowest_;  ///< of the folds: on mesh and model, left and right
+      lowest_;                                ///< of the folds: on mesh and model, left and right
+  std::array<bool, 2> has_fold_{true, true};  ///< on the model, left and right
 };
 
 }  // namespace

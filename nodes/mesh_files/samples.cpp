@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
-#include <utility>
 
 #include "geometry/order_of_place.hpp"
 #include "geometry/status.hpp"
+#include "mesh_files/pieces.hpp"
 
 namespace tensegric_fit::mesh_files {
 namespace {
@@ -21,60 +20,9 @@ struct Sides {
   bool known = false;        // on most of the surface
 };
 
-/// Triangles that are joined by edges of two, each with whether it runs against the first of its piece.
-class Pieces {
- public:
-  explicit Pieces(std::size_t count) : parent_(count), against_(count, 0) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-
-  int root(int t) { return seen(t).first; }
-  bool is_against(int t) { return seen(t).second; }
-
-  /// False where they are joined already, the other way round.
-  bool join(int a, int b, bool against) {
-    const auto [of_a, a_against] = seen(a);
-    const auto [of_b, b_against] = seen(b);
-    const bool differ = against != (a_against != b_against);
-    if (of_a == of_b) return !differ;
-    parent_[std::max(of_a, of_b)] = std::min(of_a, of_b);
-    against_[std::max(of_a, of_b)] = differ;
-    return true;
-  }
-
- private:
-  std::pair<int, bool> seen(int t) {
-    bool against = false;
-    int root = t;
-    for (; parent_[root] != root; root = parent_[root]) against = against != (against_[root] != 0);
-    for (bool left = against; parent_[t] != root && t != root;) {  // shorter for the next time
-      const int next = parent_[t];
-      const bool further = left != (against_[t] != 0);
-      parent_[t] = root;
-      against_[t] = left;
-      left = further;
-      t = next;
-    }
-    return {root, against};
-  }
-
-  std::vector<int> parent_;
-  std::vector<char> against_;
-};
-
 Sides sides_of(const TriangleMesh& mesh, const std::vector<Vector3d>& areas) {
-  constexpr double kSolid = 1e-3;       // volume over area to the power 1.5; of a ball 0.09, of a sheet 0
-  constexpr double kMostFaults = 0.01;  // share of edges: a surface with one side only
-  Pieces pieces(areas.size());
-  const std::vector<geometry::TriangleSide> sides = geometry::sorted_sides(mesh);
-  std::size_t edges = 0, faults = 0;
-  for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-    while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high) ++end;
-    if (end - i != 2) continue;
-    ++edges;
-    if (!pieces.join(sides[i].triangle(), sides[i + 1].triangle(), sides[i].forward == sides[i + 1].forward))
-      ++faults;
-  }
+  constexpr double kSolid = 1e-3;  // volume over area to the power 1.5; of a ball 0.09, of a sheet 0
+  Pieces pieces(mesh);
   std::vector<double> area(areas.size(), 0), volume(areas.size(), 0);  // of each piece, at its first triangle
   std::vector<Vector3d> middle(areas.size(), Vector3d::Zero());
   for (std::size_t f = 0; f < areas.size(); ++f) {
@@ -98,8 +46,7 @@ Sides sides_of(const TriangleMesh& mesh, const std::vector<Vector3d>& areas) {
     whole += areas[f].norm();
     if (std::abs(volume[piece]) >= kSolid * std::pow(area[piece], 1.5)) solid += areas[f].norm();
   }
-  result.known =
-      static_cast<double>(faults) <= kMostFaults * static_cast<double>(edges) && 2 * solid >= whole;
+  result.known = pieces.have_two_sides() && 2 * solid >= whole;
   return result;
 }
 

@@ -81,13 +81,17 @@ std::vector<std::vector<int>> things_in(const Points& points) {
   return things;
 }
 
-std::vector<int> body_points(const Points& points) {
+std::vector<int> body_points(const Points& points, const std::function<bool(const Points&)>& may_be_her) {
   if (points.empty()) return {};
   const std::vector<int> dense = without_stray(points);
   if (dense.empty()) return {};
-  std::vector<int> body = things_in(points_at(points, dense)).front();
-  for (int& i : body) i = dense[i];
-  return body;
+  std::vector<std::vector<int>> things = things_in(points_at(points, dense));
+  for (std::vector<int>& thing : things)
+    for (int& i : thing) i = dense[i];
+  const auto her = std::find_if(things.begin(), things.end(), [&](const std::vector<int>& thing) {
+    return may_be_her(points_at(points, thing));
+  });
+  return her == things.end() ? things.front() : *her;
 }
 
 }  // namespace tensegric_fit::reconstruction

@@ -20,8 +20,13 @@ constexpr int kTrials = 400;
 constexpr double kDeviations = 4, kLeastReach = 0.004, kMostReach = 0.008;
 const double kLeastUp = std::cos(20 * M_PI / 180);
 
-/// The lowest point of every column that holds points, in column order.
-Points lowest_of_columns(const Points& points) {
+/// The lowest points of columns, in the columns' order.
+struct Lowest {
+  Points all;   ///< of every column that holds points
+  Points flat;  ///< of those most of whose points are hardly higher, as a floor's are and a wall's are not
+};
+
+Lowest lowest_of_columns(const Points& points) {
   struct Entry {
     std::int64_t x, y;
     double z;
@@ -37,10 +42,14 @@ Points lowest_of_columns(const Points& points) {
                   static_cast<std::int64_t>(std::floor(p.y() / kColumn)), p.z(), static_cast<int>(i)};
   }
   std::sort(entries.begin(), entries.end());
-  Points lowest;
-  for (std::size_t i = 0; i < entries.size(); ++i)
-    if (i == 0 || entries[i].x != entries[i - 1].x || entries[i].y != entries[i - 1].y)
-      lowest.push_back(points[entries[i].point]);
+  Lowest lowest;
+  for (std::size_t i = 0, end = 0; i < entries.size(); i = end) {
+    std::size_t low = 0;
+    for (; end < entries.size() && entries[end].x == entries[i].x && entries[end].y == entries[i].y; ++end)
+      if (entries[end].z < entries[i].z + kColumn) ++low;
+    lowest.all.push_back(points[entries[i].point]);
+    if (2 * low >= end - i) lowest.flat.push_back(lowest.all.back());
+  }
   return lowest;
 }
 
@@ -104,11 +113,11 @@ double reach_of_floor(double noise) {
 }
 
 std::optional<Floor> find_floor(const Points& points) {
-  const Points lowest = lowest_of_columns(points);
-  std::optional<Floor> floor = sample_plane(lowest);
+  const Lowest lowest = lowest_of_columns(points);
+  std::optional<Floor> floor = sample_plane(lowest.flat);
   if (!floor) return std::nullopt;
-  const int columns = count_within(lowest, floor->normal, floor->offset);
-  const auto below = std::count_if(lowest.begin(), lowest.end(), [&](const Eigen::Vector3d& p) {
+  const int columns = count_within(lowest.flat, floor->normal, floor->offset);
+  const auto below = std::count_if(lowest.all.begin(), lowest.all.end(), [&](const Eigen::Vector3d& p) {
     return floor->normal.dot(p) < floor->offset - 2 * kThickness;
   });
   if (columns * kColumn * kColumn < kSmallestArea || below > 0.2 * columns) return std::nullopt;

@@ -129,18 +129,21 @@ PointCloud standing_body(PointCloud scan, const Options& options, Eigen::Isometr
   if (floor) {
     scan = above(scan, reach_of_floor(floor->noise));
   }
-  const std::vector<int> hers = body_points(scan.points);
+  const auto may_be_her = [&](const std::vector<Eigen::Vector3d>& thing) {
+    return !fault_of_shape(thing, options);
+  };
+  const std::vector<int> hers = body_points(scan.points, may_be_her);
   PointCloud body = pick(scan, hers);
   left_out = pick(scan, all_but(hers, scan.points.size()));
   left_out.sensor.clear();  // nobody asks who saw what is left out
   const std::vector<int> on_surface = surface_points(body.points);
   if (on_surface.size() < body.points.size()) {
     body = pick(body, on_surface);
-    const std::vector<int> still_hers = body_points(body.points);
+    const std::vector<int> still_hers = body_points(body.points, may_be_her);
     geometry::append(left_out, pick(body, all_but(still_hers, body.points.size())));
     body = pick(body, still_hers);
   }
-  check_shape(body.points, options);
+  if (const auto fault = fault_of_shape(body.points, options)) throw geometry::Refusal(*fault);
   const double lowest = lowest_of(body.points);
   if (floor) floor_at = 0;
   if (!floor || lowest > kOffTheFloor) {

@@ -112,19 +112,19 @@ geometry::PointCloud usable_points(const geometry::PointCloud& scan, const Optio
   return usable;
 }
 
-void check_shape(const std::vector<Eigen::Vector3d>& body, const Options& options) {
+std::optional<Refusal> fault_of_shape(const std::vector<Eigen::Vector3d>& body, const Options& options) {
   if (body.size() < static_cast<std::size_t>(options.min_points) / 10)
-    throw Refusal(refusal::kNotABody, "nothing stands out of the floor and the stray points of the scan");
+    return Refusal(refusal::kNotABody, "nothing stands out of the floor and the stray points of the scan");
   if (body.size() < static_cast<std::size_t>(options.min_points))
-    throw Refusal(refusal::kTooFewPoints,
-                  fmt::format("the largest thing in the scan has {} points, {} are needed", body.size(),
-                              options.min_points));
+    return Refusal(refusal::kTooFewPoints,
+                   fmt::format("the largest thing in the scan has {} points, {} are needed", body.size(),
+                               options.min_points));
   const auto [low, middle, high] = spread(body);
   const double height = high.z() - low.z();
   if (height < body_model::kLowestPerson || height > body_model::kHighestPerson)
-    throw Refusal(refusal::kNotABody,
-                  fmt::format("what was scanned is {:.2f} m high; a body is {} to {} m", height,
-                              body_model::kLowestPerson, body_model::kHighestPerson));
+    return Refusal(refusal::kNotABody,
+                   fmt::format("what was scanned is {:.2f} m high; a body is {} to {} m", height,
+                               body_model::kLowestPerson, body_model::kHighestPerson));
 
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
   for (const Eigen::Vector3d& p : body) {
@@ -134,10 +134,11 @@ void check_shape(const std::vector<Eigen::Vector3d>& body, const Options& option
   const Eigen::Vector2d deviation =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance).eigenvalues().cwiseMax(0).cwiseSqrt();
   if (deviation[0] < 0.02)
-    throw Refusal(refusal::kNotABody,
-                  fmt::format("what was scanned is flat: {:.0f} mm deep", 4e3 * deviation[0]));
+    return Refusal(refusal::kNotABody,
+                   fmt::format("what was scanned is flat: {:.0f} mm deep", 4e3 * deviation[0]));
   if (deviation[0] > 0.2 * height || deviation[1] > 0.45 * height)
-    throw Refusal(refusal::kNotABody, "what was scanned is too wide for its height to be an upright body");
+    return Refusal(refusal::kNotABody, "what was scanned is too wide for its height to be an upright body");
+  return std::nullopt;
 }
 
 }  // namespace tensegric_fit::reconstruction

@@ -14,6 +14,7 @@
 #include "geometry/point_fields.hpp"
 #include "geometry/points.hpp"
 #include "geometry/status.hpp"
+#include "mesh_files/pieces.hpp"
 #include "mesh_files/read_mesh.hpp"
 #include "scan_files/pcd_file.hpp"
 #include "scan_files/scan_bag.hpp"
@@ -174,6 +175,7 @@ TriangleMesh read_body_mesh(const std::string& path, const mesh_files::Asked& as
         throw geometry::Refusal(geometry::refusal::kNonFinite,
                                 path + ": has a coordinate that is not finite in metres");
     }
+  if (!any_shape) mesh = mesh_files::turned_alike(std::move(mesh));
   // Inside out as a whole: a body's volume is no negative one. The apex lies in the floor, which may be there
   // in a single layer, and open at the soles.
   Eigen::Vector3d apex = geometry::mean_of(mesh.vertices);

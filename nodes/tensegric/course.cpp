@@ -65,7 +65,7 @@ std::vector<int> stem_of(const geometry::ControlMesh& control, const GarmentLine
   if (!line.through.empty()) {
     check_side(line);
     nodes = stops_of(control, line, line.through);
-    if (!line.taut || line.on_body()) nodes = geometry::route_over_edges(control, nodes);
+    if (!line.taut || line.on_body()) nodes = geometry::route_over_edges(control, nodes, line.name);
   } else {
     const auto own =
         std::find_if(control.lines.begin(), control.lines.end(),
@@ -81,7 +81,7 @@ std::vector<int> stem_of(const geometry::ControlMesh& control, const GarmentLine
 
 // The row of nodes on which a cup's fibres end.
 std::vector<int> row_of(const geometry::ControlMesh& control, const GarmentLine& line, int from) {
-  std::vector<int> row = geometry::route_over_edges(control, stops_of(control, line, line.fan));
+  std::vector<int> row = geometry::route_over_edges(control, stops_of(control, line, line.fan), line.name);
   if (std::find(row.begin(), row.end(), from) != row.end())
     throw Refusal(refusal::kBadGarment, "line '" + line.name + "' ends in a row over '" +
                                             line.through.back() + "', from which its fibres spread");
@@ -100,7 +100,8 @@ std::vector<int> nodes_of(const geometry::ControlMesh& control, const GarmentLin
   std::vector<int> nodes = stem_of(control, line);
   if (line.fan.empty()) return nodes;
   const std::vector<int> row = row_of(control, line, nodes.back());
-  const std::vector<int> on = geometry::route_over_edges(control, {nodes.back(), row[row.size() / 2]});
+  const std::vector<int> on =
+      geometry::route_over_edges(control, {nodes.back(), row[row.size() / 2]}, line.name);
   nodes.insert(nodes.end(), on.begin() + 1, on.end());
   return nodes;
 }
@@ -114,7 +115,8 @@ Course course_of(const geometry::ControlMesh& control, const GarmentLine& line) 
   const std::vector<int> row = row_of(control, line, nodes.back());
   course.held[1] = std::all_of(row.begin(), row.end(), fixed);
   for (const int node : row)
-    course.fan.push_back(places_of(control, geometry::route_over_edges(control, {nodes.back(), node})));
+    course.fan.push_back(
+        places_of(control, geometry::route_over_edges(control, {nodes.back(), node}, line.name)));
   return course;
 }
 

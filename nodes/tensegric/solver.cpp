@@ -64,7 +64,8 @@ std::string reach_note(const std::vector<LineResult>& lines, const Problem& prob
       continue;
     }
     if (line.final <= line.neutral * (1 + 1e-6)) continue;
-    const int digits = millimetres(line.final) == millimetres(line.neutral) ? 4 : 0;
+    int digits = 0;  // as many as it takes
+    while (digits < 4 && millimetres(line.final, digits) == millimetres(line.neutral, digits)) ++digits;
     add_sentence(note, "Line " + line.name + " is " + millimetres(line.final, digits) + " long; " +
                            millimetres(line.neutral, digits) + " were asked for.");
     if (line.neutral < line.straight)

@@ -4,6 +4,7 @@
 
 #include "tffd/crossing_skin.hpp"
 #include "tffd/not_scanned.hpp"
+#include "tffd/skin_over_line.hpp"
 
 namespace tensegric_fit::tffd {
 
@@ -18,6 +19,7 @@ std::vector<geometry::FitWarning> check_garment(const ScannedSkin& scanned, cons
   append(check_crossings(placed, lines));
   const WornSkin as_scanned{scanned.vertices, skin.worn, skin.triangles};
   append(under_constricted(as_scanned, lines, options));
+  append(skin_over_lines(as_scanned, lines));
   append(not_scanned(as_scanned, scanned.filled, lines));
   return all;
 }

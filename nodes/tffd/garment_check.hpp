@@ -15,8 +15,9 @@ struct ScannedSkin {
   std::vector<char> filled = {};  ///< empty, or one flag per vertex: 1 where the scan saw nothing
 };
 
-/// check_skin, check_crossings, under_constricted, then not_scanned. Where `scanned` is the lines' courses at
-/// rest and the warnings' places before are; `skin.rest` may be posed. \throw Refusal as these
+/// check_skin, check_crossings, under_constricted, skin_over_lines, then not_scanned. Where `scanned` is the
+/// lines' courses at rest and the warnings' places before are; `skin.rest` may be posed. \throw Refusal as
+/// these
 std::vector<geometry::FitWarning> check_garment(const ScannedSkin& scanned, const WornSkin& skin,
                                                 const std::vector<WornLine>& lines,
                                                 const HoldOptions& options);

@@ -22,7 +22,8 @@ const geometry::PointCloud& oriented_points() {
   static const geometry::PointCloud cloud = [] {
     const geometry::PointCloud& all = scan(180000);
     geometry::PointCloud body;
-    for (const int i : reconstruction::body_points(all.points)) body.points.push_back(all.points[i]);
+    for (const int i : reconstruction::body_points(all.points, [](const auto&) { return true; }))
+      body.points.push_back(all.points[i]);
     body.normals = reconstruction::outward_normals(body.points, {});
     return body;
   }();

@@ -98,7 +98,7 @@ TEST_F(HistoryTest, AChangeIsBeyondDoubtWhereItIsMoreThanTwoScansLeaveOpen) {
 
 TEST_F(HistoryTest, ReportsOfFitAreVisitsToo) {
   write("a", "report.json", R"({"status": "ok", "garment": "B2",
-    "scan": {"file": "/in/scan.ply", "customer": "4711", "body_from_scan": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
+    "scan": {"file": "/in/scan.ply", "customer": "4711 ", "body_from_scan": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]},
     "girths": {"bust": 0.9}, "heights": {"bust": 1.2}, "confidence": {"girths": {"bust": {"half_width": 0.004}}},
     "lines": [{"name": "cup", "ratio": 0.9}]})");
   const std::optional<Visit> visit = read_visit(root_ / "a");

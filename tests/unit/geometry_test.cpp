@@ -213,12 +213,12 @@ TEST(ControlMesh, VolumeOfAnOpenPatchFollowsItsNodes) {
   raised[4].z() += 0.5;
   EXPECT_NEAR(volume(raised) - volume(control.outer), 4.0 * 0.5 / 3,
               1e-12);  // base area 4
-  EXPECT_EQ(route_over_edges(control, {0, 2}), (std::vector<int>{0, 4, 2}));
+  EXPECT_EQ(route_over_edges(control, {0, 2}, "chest"), (std::vector<int>{0, 4, 2}));
   EXPECT_EQ(refusal_of([&] {
               control.triangles.pop_back();
               control.triangles.pop_back();
               control.triangles.pop_back();
-              route_over_edges(control, {0, 3});
+              route_over_edges(control, {0, 3}, "chest");
             }),
             "unknown_line");
 }

@@ -142,6 +142,10 @@ TEST(Words, WarningsSayWhereAndWhatToDo) {
   slack.line = "strap_L";
   EXPECT_EQ(warning(slack, measures), "'strap_L' is slack: it does not pull. Shorten it.");
 
+  slack.code = geometry::notice::kSkinOverLine;
+  slack.value = 0.0072;
+  EXPECT_EQ(warning(slack, measures).find("The skin comes 7 mm through 'strap_L'"), 0u);
+
   slack.code = geometry::notice::kNotScanned;
   slack.value = 0.83;
   EXPECT_EQ(

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <random>
 
 #include "geometry/decimate.hpp"
 #include "reconstruction/body_points.hpp"
@@ -51,6 +52,44 @@ TEST(ReconstructionSteps, AFloorIsFoundUnderATilt) {
 
 TEST(ReconstructionSteps, ABodyAloneHasNoFloor) {
   EXPECT_FALSE(find_floor(figure::scan_body(15000, 0.001, 1).points));
+}
+
+// Their lower edges are level, and were taken for the ground: 12 mm too low, and she was turned.
+TEST(ReconstructionSteps, WallsAreNoFloor) {
+  std::mt19937 random(3);
+  geometry::PointCloud scan = figure::scan_body(15000, 0.001, 1);
+  std::vector<Eigen::Vector3d> walls;
+  for (int i = 0; i < 30000; ++i) {
+    const double along = 1.4 * figure::uniform(random) - 0.7, up = 1.9 * figure::uniform(random) - 0.02;
+    const Eigen::Vector3d p(i % 3 == 0 ? -0.7 : along, i % 3 == 0 ? along : i % 3 == 1 ? -0.7 : 0.7, up);
+    walls.push_back(p + 0.001 * figure::gaussian(random) * Eigen::Vector3d(1, 1, 0));
+  }
+  std::vector<Eigen::Vector3d> points = scan.points;
+  points.insert(points.end(), walls.begin(), walls.end());
+  EXPECT_FALSE(find_floor(points)) << "seed 3";
+  points = figure::scan_booth(15000, 0.001).points;
+  points.insert(points.end(), walls.begin(), walls.end());
+  const auto floor = find_floor(points);
+  ASSERT_TRUE(floor) << "seed 3";
+  EXPECT_NEAR(floor->offset, 0, 1e-3);
+}
+
+// A wall behind her has more points than she has.
+TEST(ReconstructionSteps, SheIsTheLargestThingThatMayBeHer) {
+  std::mt19937 random(4);
+  std::vector<Eigen::Vector3d> points = figure::scan_body(15000, 0.001, 1).points;
+  const std::size_t hers = points.size();
+  for (int i = 0; i < 40000; ++i)
+    points.emplace_back(2 * figure::uniform(random) - 1, 0.7, 1.9 * figure::uniform(random));
+  const auto is_no_wall = [](const std::vector<Eigen::Vector3d>& thing) {
+    return geometry::bounding_box(thing)[1].y() < 0.6;
+  };
+  const std::vector<int> body = body_points(points, is_no_wall);
+  EXPECT_GT(body.size(), 9 * hers / 10);
+  for (const int i : body) EXPECT_LT(static_cast<std::size_t>(i), hers);
+  for (const int i : body_points(points, [](const auto&) { return false; }))
+    EXPECT_GE(static_cast<std::size_t>(i), hers)
+        << "nothing may be her: the largest thing is refused by name";
 }
 
 // The process was ended by a division by zero: a cloud that is nowhere dense has no points left here.

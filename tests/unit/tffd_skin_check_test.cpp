@@ -11,6 +11,7 @@
 #include "geometry/triangle_mesh.hpp"
 #include "tffd/garment_check.hpp"
 #include "tffd/not_scanned.hpp"
+#include "tffd/skin_over_line.hpp"
 #include "tffd/under_constriction.hpp"
 
 namespace tensegric_fit::tffd {
@@ -241,6 +242,24 @@ TEST(GarmentCheck, NamesSkinThatFoldsAndLinesThatDoNotHold) {
       check_garment({mesh.vertices}, {mesh.vertices, worn, mesh.triangles}, {slack}, HoldOptions());
   EXPECT_EQ(with_code(all, geometry::warning::kShelf).size(), 1u);
   EXPECT_EQ(with_code(all, geometry::notice::kUnderConstricted).size(), 1u);
+}
+
+TEST(SkinOverLine, ALineDeeperInTheSkinThanAtRest) {
+  const geometry::TriangleMesh mesh = sheet();
+  const auto found = [&](const WornLine& line) {
+    return skin_over_lines({mesh.vertices, mesh.vertices, mesh.triangles}, {line});
+  };
+  WornLine line = line_at(0.1, -0.008)[0];
+  line.at_rest = line_at(0.1)[0].at_rest;
+  ASSERT_EQ(found(line).size(), 1u);
+  EXPECT_EQ(found(line)[0].code, geometry::notice::kSkinOverLine);
+  EXPECT_FALSE(found(line)[0].is_warning());
+  EXPECT_NEAR(found(line)[0].value, 0.008, 1e-12);
+  EXPECT_FALSE(found(line)[0].vertices.empty());
+  line.at_rest = line_at(0.1, -0.004)[0].worn;  // chords between nodes of a string lie in the skin
+  EXPECT_TRUE(found(line).empty());
+  line = line_at(0.1, 0.02)[0];
+  EXPECT_TRUE(found(line).empty()) << "above the skin";
 }
 
 TEST(NotScanned, ALineMostlyOverSkinThatNobodySaw) {
