@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The pages against the code: parameters, topics, services, actions, launch arguments, options, keys of files; links,
 and how long README.md and the cells of tables are."""
+import json
 import math
 import pathlib
 import re
@@ -297,6 +298,17 @@ class Pages(unittest.TestCase):
         for path in markdown_files():
             if path.parent in (PAGES, ROOT) and path.name != "README.md":
                 self.assertIn(f"({path.relative_to(ROOT)})", text)
+
+
+class Schema(unittest.TestCase):
+    def test_codes_of_warnings_and_notices(self):
+        header = (ROOT / "nodes" / "geometry" / "fit_warning.hpp").read_text()
+        words = re.findall(r"namespace (?:warning|notice) \{(.*?)\n\}", header, re.DOTALL)
+        codes = {code for text in words for code in re.findall(r'k\w+\[\] = "(\w+)"', text)}
+        self.assertGreater(len(codes), 5)
+        schema = json.loads((ROOT / "launch" / "schemas" / "fit.schema.json").read_text())
+        listed = schema["definitions"]["warnings"]["items"]["properties"]["code"]["enum"]
+        self.assertEqual(codes, set(listed))
 
 
 class FaultsAreFound(unittest.TestCase):

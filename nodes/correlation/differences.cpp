@@ -107,12 +107,23 @@ Differences differences_of(const BodyMeasures& before, const geometry::MovedSkin
           [&](const Measured& body) { return effect_in(body, point, height); });
     }
   }
-  for (const Measure& girth : before.girths)
-    add(differences.girths, girth.name, bodies, after_in(girths, girth.name),
-        [&](const Measured& body) { return value_in(body.measures->girths, girth.name); });
   for (const Measure& height : before.heights)
     add(differences.heights, height.name, bodies, after_in(heights, height.name),
         [&](const Measured& body) { return height_in(body, height.name); });
+  for (const Measure& girth : before.girths) {
+    add(differences.girths, girth.name, bodies, after_in(girths, girth.name),
+        [&](const Measured& body) { return value_in(body.measures->girths, girth.name); });
+    const auto level = std::find_if(differences.heights.begin(), differences.heights.end(),
+                                    [&](const Difference& height) { return height.name == girth.name; });
+    const bool is_elsewhere = level != differences.heights.end() && level->confidence == 0 && !level->worn;
+    if (!is_elsewhere) continue;
+    Difference& on_level = differences.girths.back();
+    if (on_level.confidence == 0) continue;
+    on_level.reason = level->reason;  // it would be the girth of another level
+    on_level.simulated = after_in(girths, girth.name);
+    on_level.worn.reset();
+    on_level.confidence = 0;
+  }
   return differences;
 }
 

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "geometry/status.hpp"
-
 #include "tensegric/course.hpp"
 #include "tffd/body_volume.hpp"
 #include "tffd/skin_check.hpp"
@@ -35,9 +34,8 @@ class BoundBody : public tensegric::BodyUnderGarment {
       const tffd::LineOnBody way = on_body(control_, line);
       const auto known =
           std::find_if(lines_.begin(), lines_.end(), [&way](const Line& one) { return same(one.way, way); });
-      lines.push_back(known != lines_.end()
-                          ? *known
-                          : Line{way, fit::lay(line.name, way, bound().mesh, bound().binding())});
+      lines.push_back(
+          known != lines_.end() ? *known : Line{way, fit::lay(line, way, bound().mesh, bound().binding())});
       laid.push_back({line.name, lines.back().fibres});
     }
     lines_ = std::move(lines);
@@ -102,13 +100,15 @@ tffd::LineOnBody on_body(const geometry::ControlMesh& control, const tensegric::
   return {course.points, line.width, line.smooth, line.taut, course.held, course.fan};
 }
 
-std::vector<geometry::Fibre> lay(const std::string& name, const tffd::LineOnBody& way,
+std::vector<geometry::Fibre> lay(const tensegric::GarmentLine& line, const tffd::LineOnBody& way,
                                  const geometry::TriangleMesh& body, const tffd::Binding& binding) {
   try {
     return tffd::lay_line(way, body, binding);
   } catch (const geometry::Refusal& refusal) {
     if (refusal.code() != geometry::refusal::kBadGarment) throw;
-    throw geometry::Refusal(refusal.code(), "line '" + name + "' " + refusal.what());
+    const char* advice = ": its points are to lie on the skin, in metres, in the scan's frame";
+    throw geometry::Refusal(
+        refusal.code(), "line '" + line.name + "' " + refusal.what() + (line.points.empty() ? "" : advice));
   }
 }
 

@@ -14,8 +14,9 @@ namespace tensegric_fit::fit {
 /// A garment's line as it lies on the body. \throw Refusal unknown_line: a node that the control mesh lacks
 tffd::LineOnBody on_body(const geometry::ControlMesh& control, const tensegric::GarmentLine& line);
 
-/// The line laid on the body that was bound. \throw Refusal as tffd::lay_line, with the line's name
-std::vector<geometry::Fibre> lay(const std::string& name, const tffd::LineOnBody& way,
+/// The line laid on the body that was bound. `way`: as on_body. \throw Refusal as tffd::lay_line, with the
+/// line's name
+std::vector<geometry::Fibre> lay(const tensegric::GarmentLine& line, const tffd::LineOnBody& way,
                                  const geometry::TriangleMesh& body, const tffd::Binding& binding);
 
 /// One per region: the volume under its triangles of the body, metres and m^3.

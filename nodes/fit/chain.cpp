@@ -113,8 +113,7 @@ std::vector<geometry::LaidLine> laid_lines(const Body& body, const Fitting& fitt
   std::vector<geometry::LaidLine> laid;
   for (const tensegric::GarmentLine& line : garment.lines) {
     if (!line.on_body()) continue;
-    laid.push_back(
-        {line.name, lay(line.name, on_body(fitting.control, line), body.mesh.mesh, fitting.binding)});
+    laid.push_back({line.name, lay(line, on_body(fitting.control, line), body.mesh.mesh, fitting.binding)});
   }
   return laid;
 }

@@ -127,6 +127,7 @@ std::optional<Visit> read_visit(const fs::path& folder) {
 
 std::vector<Visit> find_visits(const std::vector<std::string>& folders, const std::string& customer_id) {
   const std::string customer = trimmed(customer_id);
+  if (customer.empty() && !customer_id.empty()) return {};  // blanks are nobody
   std::vector<Visit> visits;
   std::set<fs::path> seen;  // folders may lie in one another
   const auto look = [&](const fs::path& folder) {
@@ -134,7 +135,7 @@ std::vector<Visit> find_visits(const std::vector<std::string>& folders, const st
     const fs::path place = fs::canonical(folder, gone);
     if (gone || !seen.insert(place).second) return;
     const std::optional<Visit> visit = read_visit(folder);
-    if (visit && (customer_id.empty() || visit->customer == customer)) visits.push_back(*visit);
+    if (visit && (customer.empty() || visit->customer == customer)) visits.push_back(*visit);
   };
   for (const std::string& folder : folders) {
     if (!fs::is_directory(folder))

@@ -89,9 +89,9 @@ std::string warning(const FitWarning& warning, const geometry::BodyMeasures& mea
                        share(warning.value), where, area, loosen(warning.line));
   if (warning.code == geometry::notice::kSkinOverLine)
     return fmt::format(
-        "The skin comes {:.0f} mm through '{}'{}: the line hangs on what it touches at rest, and does not "
-        "hold "
-        "this.",
+        "The skin comes {:.0f} mm through '{}'{}: in the simulation a line presses only on skin that it "
+        "touches at "
+        "rest; the real one would hold this skin back, too.",
         1e3 * warning.value, warning.line, where);
   if (warning.code == geometry::notice::kNotScanned)
     return fmt::format(

@@ -230,7 +230,6 @@ class Reader {
     for (int s = 0; s < 2; ++s)
       if (lowest_[s][0] && lowest_[s][1]) lowest[s] = std::min(lowest_[s][0]->z(), lowest_[s][1]->z());
     for (const Side side : kSides) {
-      if (base_of("underbust", Kind::point, sided("underbust", side)) == nullptr) return;
       support = std::max(support, has_fold_[side] ? support_at(*lowest_[1][side]) : kWorst);
     }
     add(Kind::height, "underbust", as_figure(lowest[0]), as_figure(lowest[1]), support,
@@ -264,8 +263,7 @@ class Reader {
   }
 
   void waist() {
-    for (const char* end : {"hip", "underbust"})
-      if (base_of("waist", Kind::height, end) == nullptr) return;
+    if (base_of("waist", Kind::height, "hip") == nullptr) return;
     const double low = height("hip") + kWaistAboveHip, high = height("underbust") - kWaistBelowUnderbust;
     const auto on_mesh = find_waist(mesh_, low, high), on_model = find_waist(skin_, low, high);
     if (on_mesh && on_model) {
@@ -279,7 +277,6 @@ class Reader {
   /// Under each surface's own fold, where that is lower: a breast that joins the trunk below the level is
   /// none of the tape.
   void girth_under_breasts() {
-    if (find(Kind::height, "underbust") == nullptr) return;  // missing by that name
     Tape tapes[2];
     for (int s = 0; s < 2; ++s) {
       double level = height("underbust");

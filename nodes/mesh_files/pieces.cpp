@@ -10,15 +10,15 @@ Pieces::Pieces(const geometry::TriangleMesh& mesh)
   constexpr double kMostFaults = 0.01;  // share of edges: a surface with one side only
   std::iota(parent_.begin(), parent_.end(), 0);
   const std::vector<geometry::TriangleSide> sides = geometry::sorted_sides(mesh);
-  std::size_t edges = 0, faults = 0;
+  std::size_t edges = 0;
   for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
     while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high) ++end;
     if (end - i != 2) continue;
     ++edges;
     if (!join(sides[i].triangle(), sides[i + 1].triangle(), sides[i].forward == sides[i + 1].forward))
-      ++faults;
+      one_sided_.push_back(sides[i].triangle());
   }
-  have_two_sides_ = static_cast<double>(faults) <= kMostFaults * static_cast<double>(edges);
+  have_two_sides_ = static_cast<double>(one_sided_.size()) <= kMostFaults * static_cast<double>(edges);
 }
 
 bool Pieces::join(int a, int b, bool against) {
@@ -48,7 +48,8 @@ std::pair<int, bool> Pieces::seen(int t) {
 
 geometry::TriangleMesh turned_alike(geometry::TriangleMesh mesh) {
   Pieces pieces(mesh);
-  if (!pieces.have_two_sides()) return mesh;
+  std::vector<char> stays(mesh.triangles.size(), 0);  // by piece
+  for (const int triangle : pieces.one_sided()) stays[pieces.root(triangle)] = 1;
   std::vector<double> with_first(mesh.triangles.size(),
                                  0);  // of each piece: area that runs so, less the other
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
@@ -60,6 +61,7 @@ geometry::TriangleMesh turned_alike(geometry::TriangleMesh mesh) {
   }
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const int triangle = static_cast<int>(f);
+    if (stays[pieces.root(triangle)]) continue;
     if (pieces.is_against(triangle) == (with_first[pieces.root(triangle)] >= 0))
       std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
   }

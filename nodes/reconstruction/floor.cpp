@@ -12,7 +12,9 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr double kColumn = 0.03;       // m, side of a column
+constexpr double kColumn = 0.03;  // m, side of a column
+constexpr double kLooked =
+    4 * kColumn;                       // m, over a column's lowest point: a wall has a quarter within kColumn
 constexpr double kThickness = 0.008;   // m, half: noise and misregistration of a floor
 constexpr double kSmallestArea = 0.1;  // m^2; less could be the underside of something that was scanned
 constexpr int kTrials = 400;
@@ -22,8 +24,10 @@ const double kLeastUp = std::cos(20 * M_PI / 180);
 
 /// The lowest points of columns, in the columns' order.
 struct Lowest {
-  Points all;   ///< of every column that holds points
-  Points flat;  ///< of those most of whose points are hardly higher, as a floor's are and a wall's are not
+  Points all;  ///< of every column that holds points
+  /// Of those whose points hardly go on upwards, as a wall's do; a body or a ceiling stands clear of its
+  /// floor.
+  Points flat;
 };
 
 Lowest lowest_of_columns(const Points& points) {
@@ -44,11 +48,13 @@ Lowest lowest_of_columns(const Points& points) {
   std::sort(entries.begin(), entries.end());
   Lowest lowest;
   for (std::size_t i = 0, end = 0; i < entries.size(); i = end) {
-    std::size_t low = 0;
-    for (; end < entries.size() && entries[end].x == entries[i].x && entries[end].y == entries[i].y; ++end)
+    std::size_t low = 0, near = 0;
+    for (; end < entries.size() && entries[end].x == entries[i].x && entries[end].y == entries[i].y; ++end) {
       if (entries[end].z < entries[i].z + kColumn) ++low;
+      if (entries[end].z < entries[i].z + kLooked) ++near;
+    }
     lowest.all.push_back(points[entries[i].point]);
-    if (2 * low >= end - i) lowest.flat.push_back(lowest.all.back());
+    if (2 * low >= near) lowest.flat.push_back(lowest.all.back());
   }
   return lowest;
 }

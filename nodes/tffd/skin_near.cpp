@@ -42,8 +42,7 @@ std::vector<Eigen::Vector3i> touching(const geometry::TriangleMesh& body, const 
   std::vector<Eigen::Vector3i> triangles;
   for (const Eigen::Vector3i& t : body.triangles)
     if (close[t[0]] + close[t[1]] + close[t[2]] >= corners) triangles.push_back(t);
-  if (triangles.empty())
-    throw Refusal(kBadGarment, "lies nowhere near the body: points are in metres, in the scan's frame");
+  if (triangles.empty()) throw Refusal(kBadGarment, "lies nowhere near the body");
   return triangles;
 }
 
@@ -60,11 +59,10 @@ SkinNear::SkinNear(const geometry::TriangleMesh& body, const std::vector<char>& 
 SurfacePoint SkinNear::below(const Vector3d& q) const {
   const SurfacePoint at = nearest(q);
   if ((at.position - q).norm() > kFarFromSkin)
-    throw Refusal(
-        kBadGarment,
-        fmt::format("runs more than 30 mm away from the skin at ({:.3f}, {:.3f}, {:.3f}) m: "
-                    "its points lie on the skin, and between them it goes straight and may need more",
-                    q.x(), q.y(), q.z()));
+    throw Refusal(kBadGarment,
+                  fmt::format("runs more than 30 mm away from the skin at ({:.3f}, {:.3f}, {:.3f}) m: "
+                              "between its points it goes straight",
+                              q.x(), q.y(), q.z()));
   return at;
 }
 
@@ -113,8 +111,7 @@ std::vector<Vector3d> evenly(const std::vector<Vector3d>& line, double spacing) 
   const double length = geometry::length_of(line, false);
   if (!(length > kLineSpacing)) throw Refusal(kBadGarment, "has no length on the body");
   if (length > kLongestLine)
-    throw Refusal(kBadGarment, fmt::format("is {:g} m long, more than {:g}: are its points in metres?",
-                                           length, kLongestLine));
+    throw Refusal(kBadGarment, fmt::format("is {:g} m long, more than {:g}", length, kLongestLine));
   const int count = std::max(2, static_cast<int>(std::ceil(length / spacing)) + 1);
   std::vector<Vector3d> points = geometry::between_ends(line, count - 2);
   points.insert(points.begin(), line.front());

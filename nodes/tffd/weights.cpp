@@ -15,6 +15,9 @@ namespace {
 constexpr double kGlobal = 0.05;
 // It sets in where no triangle is nearer than this part of its reach.
 constexpr double kGlobalFrom = 0.5;
+// Tolerance: of a fibre's point, triangles out of reach with a smaller part of the largest weight say
+// nothing.
+constexpr double kFar = 1e-3;
 
 // Of a vertex over the middle of well shaped triangles the absolute weights sum to 1 + 2 height / thickness,
 // of one at the rim to some more; more than this only by extrapolation from slivers.
@@ -81,6 +84,17 @@ void weigh(const std::vector<Frame>& frames, double truncation, std::vector<Near
   if (truncation > 0) drop_small(near, truncation);
   double sum = 0;
   for (const Near& triangle : near) sum += triangle.k;
+  for (Near& triangle : near) triangle.k /= sum;
+}
+
+// Of the global kernel all but what is near: else the point hangs on all nodes, and so do the solver's steps.
+void drop_far(std::vector<Near>& near) {
+  double most = 0, sum = 0;
+  for (const Near& triangle : near) most = std::max(most, triangle.k);
+  for (Near& triangle : near) {
+    if (triangle.z >= 1 && triangle.k < kFar * most) triangle.k = 0;
+    sum += triangle.k;
+  }
   for (Near& triangle : near) triangle.k /= sum;
 }
 
@@ -243,6 +257,7 @@ std::vector<std::pair<int, double>> weights_at(const Eigen::Vector3d& q, double 
   std::vector<Near> near;
   find_near(q, frames, kernel, near);
   weigh(frames, kernel.truncation, near);
+  drop_far(near);
   Row nodes(2 * static_cast<Eigen::Index>(outer));
   gather_nodes(q, nullptr, triangles, frames, near, nodes);
   return nodes.taken(share);

@@ -44,7 +44,8 @@ Weights standard_weights(const geometry::TriangleMesh& body, const geometry::Con
                          const std::vector<Frame>& frames, const Kernel& kernel,
                          const std::vector<Anchor>& anchors, const std::vector<Tie>& ties);
 
-/// The row of M of any point, node and weight, ascending. `outer`: how many outer nodes there are.
+/// The row of M of any point, node and weight, ascending, without what is out of reach and below a thousandth
+/// of the largest kernel weight. `outer`: how many outer nodes there are.
 /// \pre the frames run from inner to outer centroid
 std::vector<std::pair<int, double>> weights_at(const Eigen::Vector3d& q, double share, std::size_t outer,
                                                const std::vector<Eigen::Vector3i>& triangles,

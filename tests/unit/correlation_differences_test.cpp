@@ -58,5 +58,22 @@ TEST_F(Trunk, OneThatIsFoundElsewhereHasThePromiseAlone) {
   EXPECT_NE(d.reason.find("mm off"), std::string::npos) << d.reason;
 }
 
+// By chance a girth of another level may be as large.
+TEST_F(Trunk, AGirthIsNotComparedWhereItsLevelIsFoundElsewhere) {
+  before.heights = {{"hip", 0.1, 0.9, ""}};
+  before.landmarks = {{"buttock_L", {-0.1, 0.02, 0.1}, 0.9, ""}, {"buttock_R", {-0.1, -0.02, 0.1}, 0.9, ""}};
+  geometry::BodyMeasures simulated, scan;
+  simulated.girths = {{"hip", 0.57, 0.8, ""}};
+  simulated.heights = {{"hip", 0.13, 0.8, ""}};
+  scan.girths = {{"hip", 0.57, 0.7, ""}};
+  scan.heights = {{"hip", 0.13, 0.7, ""}};
+  const Differences all =
+      differences_of(before, {body, worn}, &simulated, scan, Eigen::Isometry3d::Identity());
+  EXPECT_FALSE(all.heights.at(0).worn);
+  EXPECT_EQ(all.heights.at(0).confidence, 0);
+  EXPECT_FALSE(all.girths.at(0).worn);
+  EXPECT_EQ(all.girths.at(0).confidence, 0);
+}
+
 }  // namespace
 }  // namespace tensegric_fit::correlation

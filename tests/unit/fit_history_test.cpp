@@ -69,6 +69,8 @@ TEST_F(HistoryTest, VisitsAreFoundByCustomerTheOldestFirst) {
   EXPECT_EQ(visits[0].girths.at("bust").before, 0.92);
   EXPECT_EQ(*visits[0].girths.at("bust").after, 0.88);
   EXPECT_EQ(find_visits({root_}, "").size(), 3u);
+  EXPECT_EQ(find_visits({root_}, " 4711\t").size(), find_visits({root_}, "4711").size());
+  EXPECT_EQ(find_visits({root_}, " ").size(), 0u) << "blanks are not everybody";
   EXPECT_EQ(find_visits({root_}, "47").size(), 0u) << "part of an id is another id";
   EXPECT_NE(customers_text(find_visits({root_}, "")).find("4711"), std::string::npos);
   EXPECT_THROW(find_visits({root_ / "nowhere"}, ""), geometry::Refusal);

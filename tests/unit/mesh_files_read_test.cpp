@@ -435,6 +435,20 @@ TEST(Pieces, TrianglesThatRunAgainstTheirPieceAreTurned) {
     strip.triangles.emplace_back(c, b, d);
   }
   EXPECT_EQ(turned_alike(strip).triangles, strip.triangles);
+  // One twisted strip in a piece of many triangles: where it is cut would be by chance.
+  TriangleMesh both = turned;
+  const int first = static_cast<int>(both.vertices.size());
+  both.vertices.insert(both.vertices.end(), strip.vertices.begin(), strip.vertices.end());
+  for (const Eigen::Vector3i& t : strip.triangles)
+    both.triangles.emplace_back(t[0] + first, t[1] + first, t[2] + first);
+  const TriangleMesh mended = turned_alike(both);
+  for (std::size_t t = 0; t < mended.triangles.size(); ++t) {
+    if (t >= turned.triangles.size()) {
+      EXPECT_EQ(mended.triangles[t], both.triangles[t]);
+    } else {
+      EXPECT_EQ(mended.triangles[t], turned_alike(turned).triangles[t]);
+    }
+  }
 }
 
 TEST_F(MeshFile, XyzHasHeadingsAndFurtherColumns) {

@@ -74,6 +74,19 @@ TEST(ReconstructionSteps, WallsAreNoFloor) {
   EXPECT_NEAR(floor->offset, 0, 1e-3);
 }
 
+// Most columns of a plate have her feet and legs over them.
+TEST(ReconstructionSteps, APlateUnderHerIsAFloor) {
+  std::mt19937 random(5);
+  std::vector<Eigen::Vector3d> points = figure::scan_body(15000, 0.001, 1).points;
+  for (int i = 0; i < 2500; ++i) {
+    const double x = 0.44 * figure::uniform(random) - 0.22, y = 0.44 * figure::uniform(random) - 0.22;
+    points.emplace_back(x, y, 0.001 * figure::gaussian(random));
+  }
+  const auto floor = find_floor(points);
+  ASSERT_TRUE(floor) << "seed 5";
+  EXPECT_NEAR(floor->offset, 0, 1e-3);
+}
+
 // A wall behind her has more points than she has.
 TEST(ReconstructionSteps, SheIsTheLargestThingThatMayBeHer) {
   std::mt19937 random(4);
