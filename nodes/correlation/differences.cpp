@@ -57,6 +57,14 @@ std::optional<double> after_in(const std::vector<geometry::ChangedMeasure>& list
   return std::nullopt;
 }
 
+// The promise alone, which is `carried`.
+void leave_out(Difference& difference, const std::optional<double>& carried, const std::string& reason) {
+  difference.simulated = carried;
+  difference.worn.reset();
+  difference.confidence = 0;
+  difference.reason = reason;
+}
+
 // `find` looks a value up in one body; empty where it was not measured before. `carried`: what the simulation
 // itself makes of it.
 template <typename Find>
@@ -73,15 +81,12 @@ void add(std::vector<Difference>& list, const std::string& name, const std::vect
     difference.confidence = value->confidence;
     difference.reason = value->confidence < geometry::kUnsure ? value->reason : "";
   }
-  if (values[1] && carried && std::abs(values[1]->metres - *carried) > kElsewhere) {
-    difference.reason = fmt::format(
-        "measured anew on the simulated body it is {:.0f} mm off what the garment made of it, so "
-        "that it cannot be compared",
-        1e3 * std::abs(values[1]->metres - *carried));
-    difference.simulated = carried;
-    difference.worn.reset();
-    difference.confidence = 0;
-  }
+  if (values[1] && carried && std::abs(values[1]->metres - *carried) > kElsewhere)
+    leave_out(
+        difference, carried,
+        fmt::format("measured anew on the simulated body it is {:.0f} mm off what the garment made of it, "
+                    "so that it cannot be compared",
+                    1e3 * std::abs(values[1]->metres - *carried)));
   list.push_back(std::move(difference));
 }
 
@@ -117,12 +122,8 @@ Differences differences_of(const BodyMeasures& before, const geometry::MovedSkin
                                     [&](const Difference& height) { return height.name == girth.name; });
     const bool is_elsewhere = level != differences.heights.end() && level->confidence == 0 && !level->worn;
     if (!is_elsewhere) continue;
-    Difference& on_level = differences.girths.back();
-    if (on_level.confidence == 0) continue;
-    on_level.reason = level->reason;  // it would be the girth of another level
-    on_level.simulated = after_in(girths, girth.name);
-    on_level.worn.reset();
-    on_level.confidence = 0;
+    Difference& on_level = differences.girths.back();  // else it would be the girth of another level
+    if (on_level.confidence > 0) leave_out(on_level, after_in(girths, girth.name), level->reason);
   }
   return differences;
 }

@@ -50,8 +50,8 @@ geometry::TriangleMesh turned_alike(geometry::TriangleMesh mesh) {
   Pieces pieces(mesh);
   std::vector<char> stays(mesh.triangles.size(), 0);  // by piece
   for (const int triangle : pieces.one_sided()) stays[pieces.root(triangle)] = 1;
-  std::vector<double> with_first(mesh.triangles.size(),
-                                 0);  // of each piece: area that runs so, less the other
+  // Of each piece: area that runs as its first triangle does, less the other.
+  std::vector<double> with_first(mesh.triangles.size(), 0);
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const Eigen::Vector3i& t = mesh.triangles[f];
     const double area =

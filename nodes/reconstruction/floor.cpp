@@ -13,8 +13,8 @@ namespace {
 using Points = std::vector<Eigen::Vector3d>;
 
 constexpr double kColumn = 0.03;  // m, side of a column
-constexpr double kLooked =
-    4 * kColumn;                       // m, over a column's lowest point: a wall has a quarter within kColumn
+// m, over a column's lowest point: of a wall a quarter of it lies within kColumn, far less than most.
+constexpr double kLooked = 4 * kColumn;
 constexpr double kThickness = 0.008;   // m, half: noise and misregistration of a floor
 constexpr double kSmallestArea = 0.1;  // m^2; less could be the underside of something that was scanned
 constexpr int kTrials = 400;

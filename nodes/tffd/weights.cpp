@@ -15,8 +15,7 @@ namespace {
 constexpr double kGlobal = 0.05;
 // It sets in where no triangle is nearer than this part of its reach.
 constexpr double kGlobalFrom = 0.5;
-// Tolerance: of a fibre's point, triangles out of reach with a smaller part of the largest weight say
-// nothing.
+// Tolerance: what a fibre's point loses of triangles out of its reach, a part of its largest weight.
 constexpr double kFar = 1e-3;
 
 // Of a vertex over the middle of well shaped triangles the absolute weights sum to 1 + 2 height / thickness,
